@@ -20,6 +20,12 @@ target_include_directories(lararium_options INTERFACE ${CMAKE_SOURCE_DIR})
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/generated)
 target_include_directories(lararium_options SYSTEM INTERFACE ${CMAKE_BINARY_DIR}/generated)
 
+# In a unity build every source is included by another file, for which GCC takes each member of a
+# type in an unnamed namespace for a mistake.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(lararium_options INTERFACE -Wno-subobject-linkage)
+endif()
+
 set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 
 if(LARARIUM_SANITIZE)

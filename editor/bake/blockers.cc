@@ -5,23 +5,21 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "shared/core/parallel.h"
+#include "shared/core/units.h"
 
 namespace lararium::bake {
 namespace {
 
 using Blocker = human::LightTransfer::Blocker;
-
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr size_t kGridPoints = 40'000;  // in the box about a model, at most
+constexpr size_t kGridPoints = 40'000;  // Most points in the box about a model.
 constexpr int kRays = 48;
-constexpr int kMaxEscapes = 4;  // of them, from a point that counts as inside
-// A joint with fewer points than this lends them to what is nearest.
+constexpr int kMaxEscapes = 4;  // Most rays that may escape from a point that counts as inside.
+// A joint with fewer points than this gives them to the nearest cluster.
 constexpr size_t kFewPoints = 6;
-constexpr int kRefinements = 8;  // passes of k-means
+constexpr int kRefinements = 8;  // Passes of k-means.
 
 struct Inside {
   glm::vec3 position = glm::vec3(0.0f);
@@ -33,11 +31,11 @@ struct Box {
   glm::vec3 high = glm::vec3(std::numeric_limits<float>::lowest());
 };
 
-// Even over the sphere (a Fibonacci lattice).
+// Spreads `count` directions evenly over the sphere (a Fibonacci lattice).
 glm::vec3 LatticeDirection(int i, int count) {
   const float y = 1.0f - (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(count);
   const float radius = std::sqrt(std::max(0.0f, 1.0f - y * y));
-  const float angle = static_cast<float>(i) * kPi * (3.0f - std::sqrt(5.0f));
+  const float angle = static_cast<float>(i) * kPiF * (3.0f - std::sqrt(5.0f));
   return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
@@ -52,7 +50,8 @@ Box BoxOf(std::span<const SurfaceMesh> meshes) {
   return box;
 }
 
-// The joint of what rays from a point hit nearest; none where too many get out.
+// The joint of the nearest surfaces that rays from a point hit; nullopt if too many rays
+// escape.
 std::optional<uint16_t> JointAround(const RayScene& rays,
                                     std::span<const SurfaceMesh> meshes,
                                     const VertexJoints& joints,
@@ -74,7 +73,7 @@ std::optional<uint16_t> JointAround(const RayScene& rays,
   return joints[nearest.mesh][vertex];
 }
 
-// The points of a grid that are inside, and the volume that each stands for.
+// The grid points that are inside, and the volume of a grid cell.
 std::pair<std::vector<Inside>, float> FindInside(const RayScene& rays,
                                                  std::span<const SurfaceMesh> meshes,
                                                  const VertexJoints& joints) {
@@ -114,7 +113,7 @@ struct Cluster {
     }
     return sum / static_cast<float>(std::max<size_t>(points.size(), 1));
   }
-  // How far from a ball it is: the summed squared distance from its mean.
+  // Sum of the squared distances from the mean.
   float Spread() const {
     const glm::vec3 mean = Mean();
     float sum = 0.0f;
@@ -125,7 +124,7 @@ struct Cluster {
   }
 };
 
-// One cluster for each joint that has points enough; the others join the nearest.
+// One cluster for each joint with enough points; the other points join the nearest cluster.
 std::vector<Cluster> ClusterByJoint(const std::vector<Inside>& inside) {
   std::vector<Cluster> clusters;
   std::vector<Inside> strays;
@@ -163,7 +162,8 @@ std::vector<Cluster> ClusterByJoint(const std::vector<Inside>& inside) {
   return clusters;
 }
 
-// Along its longest extent, then moved by k-means with two means.
+// Splits a cluster along its longest extent, then improves the halves by k-means with two
+// means.
 std::pair<Cluster, Cluster> Split(const Cluster& cluster) {
   const glm::vec3 mean = cluster.Mean();
   glm::vec3 far = mean;
@@ -229,7 +229,7 @@ Result<std::vector<Blocker>> FitBlockers(std::span<const SurfaceMesh> rest,
   for (const Cluster& cluster : clusters) {
     const float cluster_volume = volume * static_cast<float>(cluster.points.size());
     blockers.push_back(
-        {cluster.joint, cluster.Mean(), std::cbrt(3.0f * cluster_volume / (4.0f * kPi))});
+        {cluster.joint, cluster.Mean(), std::cbrt(3.0f * cluster_volume / (4.0f * kPiF))});
   }
   return blockers;
 }

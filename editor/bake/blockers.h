@@ -1,6 +1,6 @@
 #pragma once
 
-// Spheres that block about the light that a person or thing blocks.
+// Fits the spheres that stand for a person or an object when it blocks light.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -13,15 +13,16 @@
 
 namespace lararium::bake {
 
-// What a vertex follows: index of a joint or part.
+// Index of the joint or part that each vertex follows.
 using VertexJoints = std::vector<std::vector<uint16_t>>;  // [mesh][vertex]
 VertexJoints StrongestJoints(const human::Human& human);
 
-// At most count spheres over all that is inside the surfaces at rest, or shut in by
-// them (under a tunic): points of a grid from which nearly no ray gets out, in clusters
-// that follow one joint each (k-means), each cluster a sphere of its volume. After the
-// sphere sets of Ren et al., "Real-time Soft Shadows in Dynamic Scenes using Spherical
-// Harmonic Exponentiation", SIGGRAPH 2006. Empty where nothing is shut in.
+// Fits at most `count` spheres to everything that lies inside the surfaces at rest, or that
+// they enclose (the space under a tunic). Samples a grid, keeps the points from which almost no
+// ray escapes, and groups them with k-means into clusters that each follow one joint; the
+// sphere of a cluster has its volume. After the sphere sets of Ren et al., "Real-time Soft
+// Shadows in Dynamic Scenes using Spherical Harmonic Exponentiation", SIGGRAPH 2006. The result
+// is empty if nothing is enclosed.
 Result<std::vector<human::LightTransfer::Blocker>> FitBlockers(std::span<const SurfaceMesh> rest,
                                                                const VertexJoints& joints,
                                                                size_t count);

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "shared/core/byte_order_mark.h"
+
 namespace lararium::bake {
 namespace {
 
@@ -21,7 +23,7 @@ std::string_view Trim(std::string_view text) {
              : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-// Takes digits off the front; nothing where there are none, or too many.
+// Removes leading digits; nullopt if there are none or too many.
 std::optional<int> TakeNumber(std::string_view& text) {
   size_t digits = 0;
   int number = 0;
@@ -61,7 +63,7 @@ std::optional<double> TakeTime(std::string_view& text) {
   return seconds + *fraction / 1000.0;
 }
 
-// "begin --> end", and whatever WebVTT has behind it.
+// Reads "begin --> end"; ignores the settings of WebVTT after it.
 bool ReadTiming(std::string_view row, FileCue& cue) {
   row = Trim(row);
   const std::optional<double> begin = TakeTime(row);
@@ -79,7 +81,7 @@ bool ReadTiming(std::string_view row, FileCue& cue) {
   return true;
 }
 
-// Without tags, with entities replaced.
+// Removes tags and decodes entities.
 std::string PlainText(std::string_view row) {
   constexpr std::pair<std::string_view, std::string_view> kEntities[] = {
       {"&amp;", "&"},         {"&lt;", "<"}, {"&gt;", ">"},
@@ -114,9 +116,9 @@ std::string EscapedText(const std::string& text) {
   return escaped;
 }
 
-// Both formats are blocks of rows, apart by empty rows.
+// Both formats consist of blocks of rows that are separated by empty rows.
 struct Block {
-  int row = 0;  // of the file, from 1
+  int row = 0;  // Row of the file, from 1.
   std::vector<std::string_view> rows;
 };
 
@@ -149,7 +151,7 @@ Result<FileCue> ReadCue(const Block& block, const std::string& place) {
     ++next;
   }
   if (next >= block.rows.size() || !ReadTiming(block.rows[next], cue)) {
-    return Status::Error(where, "there is no time like 00:00:01,000 --> 00:00:02,500");
+    return Status::Error(where, "a time such as 00:00:01,000 --> 00:00:02,500 is missing");
   }
   if (!(cue.end > cue.begin)) {
     return Status::Error(where, "the caption ends before it begins");
@@ -168,10 +170,6 @@ Status CheckSize(std::string_view text, const std::string& place) {
   return text.size() > kMaxBytes ? Status::Error(place, "is longer than 16 MiB") : Status();
 }
 
-std::string_view WithoutMark(std::string_view text) {
-  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-}
-
 std::string FormatTime(double seconds, char point) {
   const auto all = static_cast<int64_t>(std::llround(std::max(seconds, 0.0) * 1000.0));
   char text[40];
@@ -186,7 +184,7 @@ std::string FormatTime(double seconds, char point) {
 Result<std::vector<FileCue>> ParseSrt(std::string_view text, const std::string& place) {
   LARARIUM_RETURN_IF_ERROR(CheckSize(text, place));
   std::vector<FileCue> cues;
-  for (const Block& block : Blocks(WithoutMark(text))) {
+  for (const Block& block : Blocks(WithoutByteOrderMark(text))) {
     if (cues.size() >= kMaxCues) {
       return Status::Error(place, "has more than a hundred thousand captions");
     }
@@ -197,7 +195,7 @@ Result<std::vector<FileCue>> ParseSrt(std::string_view text, const std::string& 
 
 Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& place) {
   LARARIUM_RETURN_IF_ERROR(CheckSize(text, place));
-  const std::vector<Block> blocks = Blocks(WithoutMark(text));
+  const std::vector<Block> blocks = Blocks(WithoutByteOrderMark(text));
   if (blocks.empty() || !blocks[0].rows[0].starts_with("WEBVTT")) {
     return Status::Error(place, "does not begin with WEBVTT");
   }
@@ -216,7 +214,7 @@ Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& 
 }
 
 Result<std::vector<FileCue>> ParseCaptionFile(std::string_view text, const std::string& place) {
-  return WithoutMark(text).starts_with("WEBVTT") ? ParseVtt(text, place) : ParseSrt(text, place);
+  return WithoutByteOrderMark(text).starts_with("WEBVTT") ? ParseVtt(text, place) : ParseSrt(text, place);
 }
 
 std::string FormatSrt(const std::vector<FileCue>& cues) {

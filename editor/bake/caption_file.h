@@ -1,6 +1,6 @@
 #pragma once
 
-// Captions as other programs have them: SubRip (.srt) and WebVTT (.vtt).
+// Reads and writes the caption files of other programs: SubRip (.srt) and WebVTT (.vtt).
 
 #include <string>
 #include <string_view>
@@ -11,22 +11,22 @@
 namespace lararium::bake {
 
 struct FileCue {
-  std::string id;      // of WebVTT; of SubRip the number
+  std::string id;      // The identifier in WebVTT, the number in SubRip.
   double begin = 0.0;  // seconds
   double end = 0.0;
-  std::string text;  // UTF-8, rows apart by '\n', without marks of style
+  std::string text;  // UTF-8, rows separated by '\n', no style tags.
 
   friend bool operator==(const FileCue&, const FileCue&) = default;
 };
 
-// Cues in the order of the file. Tags (<i>, <c.x>, {\an8}) are left out, entities replaced.
-// place: what errors call the text; they name the line.
+// Gives the cues in file order. Removes tags (<i>, <c.x>, {\an8}) and decodes entities. Errors
+// name the text as `place`, and the line.
 Result<std::vector<FileCue>> ParseSrt(std::string_view text, const std::string& place);
 Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& place);
-// By its first line.
+// Chooses the format by the first line.
 Result<std::vector<FileCue>> ParseCaptionFile(std::string_view text, const std::string& place);
 
-std::string FormatSrt(const std::vector<FileCue>& cues);  // numbers them anew
+std::string FormatSrt(const std::vector<FileCue>& cues);  // Numbers the cues from 1.
 std::string FormatVtt(const std::vector<FileCue>& cues);
 
 }  // namespace lararium::bake

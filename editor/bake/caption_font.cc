@@ -19,9 +19,9 @@ namespace lararium::bake {
 namespace {
 
 constexpr int kEmPx = 48;  // captions are drawn at 20 to 100 pixels
-constexpr int kRimPx = 6;  // distances reach as far
+constexpr int kRimPx = 6;  // Range of the distances, in pixels.
 constexpr int kAtlasWidth = 1024;
-constexpr int kApart = 1;  // pixels between letters
+constexpr int kApart = 1;  // Pixels between letters.
 
 class Face {
  public:
@@ -35,7 +35,7 @@ class Face {
       FT_Property_Set(face.library_, module, "spread", &spread);
     }
     if (FT_New_Face(face.library_, file.c_str(), 0, &face.face_) != 0) {
-      return Status::Error(file.string(), "is no font that can be opened", "install fonts-inter");
+      return Status::Error(file.string(), "cannot be opened as a font", "install fonts-inter");
     }
     FT_Set_Pixel_Sizes(face.face_, 0, kEmPx);
     return face;
@@ -63,7 +63,7 @@ class Face {
   FT_Face face_ = nullptr;
 };
 
-// Puts pictures beside one another in rows, the tallest first.
+// Packs pictures in rows, the tallest first.
 class Shelves {
  public:
   cv::Point Place(const cv::Size& size) {
@@ -87,11 +87,11 @@ class Shelves {
 
 struct Letter {
   render::CaptionGlyph glyph;
-  cv::Mat distances;  // empty: a space
+  cv::Mat distances;  // Empty for a space.
 };
 
 Result<Letter> RenderLetter(FT_Face face, uint32_t character, FT_UInt index) {
-  // Without hints: letters are drawn at any size.
+  // No hinting, because letters are drawn at any size.
   if (FT_Load_Glyph(face, index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) {
     return Status::Error("caption font", "a letter cannot be read");
   }
@@ -116,7 +116,7 @@ Result<Letter> RenderLetter(FT_Face face, uint32_t character, FT_UInt index) {
   return letter;
 }
 
-// UTF-16, big-endian, as fonts have it; what lies beyond 16 bits is left out.
+// Decodes UTF-16 (big-endian), as fonts store it; drops characters beyond 16 bits.
 std::string FromUtf16(const FT_SfntName& name) {
   std::string text;
   for (FT_UInt i = 0; i + 1 < name.string_len; i += 2) {
@@ -138,7 +138,7 @@ std::string FromUtf16(const FT_SfntName& name) {
   return text;
 }
 
-// An entry of the font's table of names; "" where it has none.
+// An entry of the name table of the font; "" if it is absent.
 std::string NameInFont(FT_Face face, FT_UShort id) {
   for (FT_UInt i = 0; i < FT_Get_Sfnt_Name_Count(face); ++i) {
     FT_SfntName name = {};

@@ -1,6 +1,6 @@
 #pragma once
 
-// The letters of captions: signed distances to Inter's outlines, for shared/render.
+// Bakes the letters of captions for shared/render: signed distances to the outlines of Inter.
 
 #include <cstddef>
 #include <filesystem>
@@ -10,33 +10,33 @@
 #include <vector>
 
 #include "shared/core/status.h"
-#include "shared/render/caption_font.h"
+#include "shared/render/text/caption_font.h"
 
 namespace lararium::bake {
 
-// Inter SemiBold where Debian's fonts-inter puts it.
+// The file of Inter SemiBold that Debian's fonts-inter installs.
 std::filesystem::path CaptionFontFile();
 
-// What a font says of itself. Fails where it cannot be read.
+// The name and rights that a font file states. ReadFontCredits fails if the file is unreadable.
 struct FontCredits {
   std::string name;       // "Inter SemiBold"
-  std::string copyright;  // may be empty, as may the licence
+  std::string copyright;  // May be empty, like the licence.
   std::string licence;
 };
 Result<FontCredits> ReadFontCredits(const std::filesystem::path& file);
 
-// What every show can write (ASCII, arrows, quotes, dashes, ellipsis), and the characters of
-// texts.
+// AddCharacters adds the characters of a text. CommonCharacters are those that every show can
+// write: ASCII, arrows, quotes, dashes, the ellipsis.
 void AddCharacters(std::string_view text, std::set<uint32_t>& characters);
 std::set<uint32_t> CommonCharacters();
 
-// Characters that a font has not; draws nothing.
+// Characters that the font lacks. Renders nothing.
 Result<std::vector<uint32_t>> MissingCharacters(const std::filesystem::path& file,
                                                 const std::set<uint32_t>& characters);
 
 struct CaptionFontBake {
   render::CaptionFont font;
-  std::vector<uint32_t> missing;  // characters that the font has not
+  std::vector<uint32_t> missing;  // Characters that the font lacks.
 };
 Result<CaptionFontBake> BakeCaptionFont(const std::filesystem::path& file,
                                         const std::set<uint32_t>& characters);

@@ -21,7 +21,7 @@ std::vector<std::string> Words(const std::string& text) {
   return words;
 }
 
-// How badly a row ends after a word, against being uneven by so many letters squared.
+// Cost of a row break after a word, on the scale of squared letters of unevenness.
 double BreakPenalty(const std::string& word) {
   const char last = word.back();
   if (last == '.' || last == '!' || last == '?') {
@@ -30,10 +30,10 @@ double BreakPenalty(const std::string& word) {
   if (last == ',' || last == ';' || last == ':') {
     return 40.0;
   }
-  return CountLetters(word) <= 3 ? 260.0 : 160.0;  // not after an article
+  return CountLetters(word) <= 3 ? 260.0 : 160.0;  // The larger cost avoids breaks after articles.
 }
 
-// Pauses of the voice: the middle of each silence that is long enough to be heard.
+// The middle of each silence of the voice that is long enough to be heard.
 std::vector<double> Pauses(const human::VisemeTrack& visemes) {
   constexpr double kHeard = 0.12;  // seconds
   std::vector<double> pauses;
@@ -74,8 +74,8 @@ size_t CountLetters(std::string_view text) {
   return count;
 }
 
-// The breaks of least cost: best[i] is that of the words from i on (Knuth & Plass, Breaking
-// Paragraphs into Lines, 1981, with rows for lines).
+// Finds the breaks of least cost; best[i] is the cost of the words from i on (Knuth & Plass,
+// Breaking Paragraphs into Lines, 1981, applied to rows).
 std::vector<std::string> BreakRows(const std::string& text, const CaptionRules& rules) {
   const std::vector<std::string> words = Words(text);
   if (words.empty()) {
@@ -144,7 +144,7 @@ std::vector<stage::CaptionCue> LayOutCaptions(const std::string& text,
       cues[i].end = std::max(std::max(static_cast<double>(visemes.duration), begin + 0.2),
                              std::min(begin + needed, latest));
     }
-    // To the millisecond, as files have it.
+    // Rounds to milliseconds, the resolution of the files.
     cues[i].end = std::round(cues[i].end * 1000.0) / 1000.0;
     begin = cues[i].end;
   }

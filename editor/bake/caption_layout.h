@@ -1,6 +1,7 @@
 #pragma once
 
-// A line's text as captions: cut where it reads well, shown as long as it takes to read.
+// Splits the text of a line into captions at good points and times them so that they can be
+// read.
 
 #include <span>
 #include <string>
@@ -12,28 +13,28 @@
 namespace lararium::bake {
 
 struct CaptionRules {
-  size_t letters = 42;             // of a row at most, as subtitlers have it
-  double seconds = 1.0;            // a caption stays at least
-  double letters_per_second = 17;  // read at most
-  double reading_on = 4.0;         // seconds that captions may outlast the voice
+  size_t letters = 42;             // Letters in a row at most, as is usual in subtitling.
+  double seconds = 1.0;            // The shortest time that a caption stays, in seconds.
+  double letters_per_second = 17;  // The highest reading speed.
+  double reading_on = 4.0;         // Seconds that captions may stay after the voice ends.
 };
 
-// Characters of UTF-8, accents that combine not counted.
+// Counts the characters of UTF-8 text without combining accents.
 size_t CountLetters(std::string_view text);
 
-// Rows of at most rules.letters where words allow it, as even as they can be and rather
-// broken after punctuation.
+// Breaks a text into rows of at most `rules.letters` if the words allow it, as equal in length
+// as possible, preferably after punctuation.
 std::vector<std::string> BreakRows(const std::string& text, const CaptionRules& rules);
 
-// Captions of at most two rows for a text that is said while `visemes` last. They share the
-// time by their length and change in a pause of the voice where one is near; the last one
-// stays until it can be read. Where there is too much to read they are as long as they are
-// said: check says so (ReadingSpeed).
+// Divides a text into captions of at most two rows for a voice that lasts as long as `visemes`.
+// Each caption gets a share of the time in proportion to its length, and changes in a pause of
+// the voice if one is near; the last one stays until it can be read. If there is too much to
+// read, captions last as long as the voice, and the project check reports it (ReadingSpeed).
 std::vector<stage::CaptionCue> LayOutCaptions(const std::string& text,
                                               const human::VisemeTrack& visemes,
                                               const CaptionRules& rules = {});
 
-// Letters a second of the caption that leaves least time.
+// Letters per second of the caption that leaves the least time to read.
 double ReadingSpeed(std::span<const stage::CaptionCue> cues);
 
 }  // namespace lararium::bake

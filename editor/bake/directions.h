@@ -1,6 +1,6 @@
 #pragma once
 
-// Directions about a surface, drawn with a density of cosine / pi.
+// Random directions about a surface with density cosine / pi.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace lararium::bake {
 
-// About +Z, from two numbers in [0, 1) (Malley's method).
+// A direction about +Z from two numbers in [0, 1) (Malley's method).
 inline glm::vec3 CosineDirection(const glm::vec2& random) {
   const float radius = std::sqrt(random.x);
   const float angle = 2.0f * std::numbers::pi_v<float> * random.y;
@@ -20,8 +20,8 @@ inline glm::vec3 CosineDirection(const glm::vec2& random) {
           std::sqrt(std::max(0.0f, 1.0f - random.x))};
 }
 
-// The same direction about a unit normal (Duff et al., "Building an Orthonormal Basis,
-// Revisited", JCGT 6(1), 2017).
+// Turns a direction about +Z to one about the unit normal `n` (Duff et al., "Building an
+// Orthonormal Basis, Revisited", JCGT 6(1), 2017).
 inline glm::vec3 AroundNormal(const glm::vec3& n, const glm::vec3& about_z) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);
@@ -31,7 +31,7 @@ inline glm::vec3 AroundNormal(const glm::vec3& n, const glm::vec3& about_z) {
   return about_z.x * x + about_z.y * y + about_z.z * n;
 }
 
-// The bits of i in the opposite order.
+// Reverses the order of the bits of i.
 inline uint32_t ReverseBits(uint32_t i) {
   i = (i << 16) | (i >> 16);
   i = ((i & 0x55555555u) << 1) | ((i & 0xaaaaaaaau) >> 1);
@@ -40,9 +40,9 @@ inline uint32_t ReverseBits(uint32_t i) {
   return ((i & 0x00ff00ffu) << 8) | ((i & 0xff00ff00u) >> 8);
 }
 
-// Point i of Sobol's (0, 2)-sequence in [0, 1)^2, scrambled by two masks: any power of
-// two of its points is well stratified (Kollig & Keller, "Efficient Multidimensional
-// Sampling", Eurographics 2002).
+// Point i of Sobol's (0, 2)-sequence in [0, 1)^2, scrambled by two masks. The first 2^n points
+// are well stratified for every n (Kollig & Keller, "Efficient Multidimensional Sampling",
+// Eurographics 2002).
 inline glm::vec2 SobolPoint(uint32_t i, uint32_t mask_x, uint32_t mask_y) {
   uint32_t y = 0;
   for (uint32_t direction = 1u << 31, rest = i; rest != 0;
@@ -53,9 +53,9 @@ inline glm::vec2 SobolPoint(uint32_t i, uint32_t mask_x, uint32_t mask_y) {
           static_cast<float>((y ^ mask_y) >> 8) * 0x1p-24f};
 }
 
-// Scrambles bits so that each depends only on those below it: a random nested permutation
-// of intervals when the bits are read in reverse (Laine & Karras, "Stratified Sampling for
-// Stochastic Transparency", EGSR 2011).
+// Scrambles bits so that each depends only on the bits below it. On reversed bits this is a
+// random nested permutation of intervals (Laine & Karras, "Stratified Sampling for Stochastic
+// Transparency", EGSR 2011).
 inline uint32_t ScrambleUpwards(uint32_t bits, uint32_t seed) {
   bits += seed;
   bits ^= bits * 0x6c50b47cu;
@@ -65,7 +65,7 @@ inline uint32_t ScrambleUpwards(uint32_t bits, uint32_t seed) {
   return bits;
 }
 
-// Owen's scrambling of a fraction in 32 bits.
+// Owen scrambling of a 32-bit fraction.
 inline uint32_t OwenScramble(uint32_t fraction, uint32_t seed) {
   return ReverseBits(ScrambleUpwards(ReverseBits(fraction), seed));
 }
@@ -76,10 +76,10 @@ struct SobolSeeds {
   uint32_t y = 0;
 };
 
-// Point i of the sequence in another order and with Owen's scrambling (Burley, "Practical
-// Hash-based Owen Scrambling", JCGT 9(4), 2020). As well stratified as SobolPoint; points of
-// different seeds are independent, which those of different masks are not: the sequence is
-// linear, so that masks only shift it.
+// Point i of the sequence in a shuffled order with Owen scrambling (Burley, "Practical
+// Hash-based Owen Scrambling", JCGT 9(4), 2020). It is as well stratified as SobolPoint. Points
+// of different seeds are independent; points of different masks are not, because the sequence
+// is linear and a mask only shifts it.
 inline glm::vec2 ShuffledSobolPoint(uint32_t i, const SobolSeeds& seeds) {
   const uint32_t shuffled = OwenScramble(i, seeds.order);
   uint32_t y = 0;

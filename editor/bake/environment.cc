@@ -2,34 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <utility>
+
+#include "shared/core/units.h"
 
 namespace lararium::bake {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 float Luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
-// Into column and row, both continuous, texel centres at halves.
+// Gives continuous column and row; texel centres are at halves.
 glm::vec2 ImageFromDirection(const glm::vec3& d, int width, int height) {
   const float azimuth = std::atan2(d.x, -d.z);
   const float elevation = std::asin(std::clamp(d.y, -1.0f, 1.0f));
-  return {(azimuth / (2.0f * kPi) + 0.5f) * static_cast<float>(width),
-          (0.5f - elevation / kPi) * static_cast<float>(height)};
+  return {(azimuth / (2.0f * kPiF) + 0.5f) * static_cast<float>(width),
+          (0.5f - elevation / kPiF) * static_cast<float>(height)};
 }
 
 glm::vec3 DirectionFromImage(float column, float row, int width, int height) {
-  const float azimuth = 2.0f * kPi * (column / static_cast<float>(width) - 0.5f);
-  const float elevation = kPi * (0.5f - row / static_cast<float>(height));
+  const float azimuth = 2.0f * kPiF * (column / static_cast<float>(width) - 0.5f);
+  const float elevation = kPiF * (0.5f - row / static_cast<float>(height));
   const float level = std::cos(elevation);
   return {level * std::sin(azimuth), std::sin(elevation), -level * std::cos(azimuth)};
 }
 
-// The mean luminance over a texel of what is interpolated between it and its
-// neighbours: beside a small sun the light is far from dark.
+// The mean luminance over a texel when it is interpolated with its neighbours. Next to a small
+// sun this is far from dark.
 float InterpolatedLuminance(const ProbeImage& image, int column, int row) {
   constexpr float kShare[3] = {0.125f, 0.75f, 0.125f};
   float sum = 0.0f;
@@ -45,7 +44,7 @@ float InterpolatedLuminance(const ProbeImage& image, int column, int row) {
   return sum;
 }
 
-// Cumulates in place and divides by the sum, which is returned.
+// Replaces values by their cumulative sums divided by the total, and returns the total.
 float Cumulate(std::span<float> values) {
   double sum = 0.0;
   for (float& value : values) {
@@ -59,7 +58,7 @@ float Cumulate(std::span<float> values) {
   return static_cast<float>(sum);
 }
 
-// The index of the interval that holds x, and where in it (0..1).
+// The index of the interval that contains x, and the position in it (0..1).
 std::pair<int, float> FindInterval(std::span<const float> ends, float x) {
   const auto found = std::upper_bound(ends.begin(), ends.end(), x);
   const auto index = static_cast<int>(
@@ -81,7 +80,7 @@ Environment::Environment(ProbeImage image, const ProbePlacement& placement)
   const auto width = static_cast<size_t>(image_.width);
   for (size_t row = 0; row < row_ends_.size(); ++row) {
     const float elevation =
-        kPi * (0.5f - (static_cast<float>(row) + 0.5f) / static_cast<float>(image_.height));
+        kPiF * (0.5f - (static_cast<float>(row) + 0.5f) / static_cast<float>(image_.height));
     for (size_t column = 0; column < width; ++column) {
       column_ends_[row * width + column] =
           InterpolatedLuminance(image_, static_cast<int>(column), static_cast<int>(row)) *
@@ -124,11 +123,11 @@ float Environment::TexelDensity(const Texel& texel) const {
   const float row_share = row_ends_[row] - (row == 0 ? 0.0f : row_ends_[row - 1]);
   const float* ends = &column_ends_[row * width];
   const float share = ends[column] - (column == 0 ? 0.0f : ends[column - 1]);
-  // Rows are drawn from evenly in elevation: the solid angle shrinks to the poles.
-  const float top = kPi * (0.5f - static_cast<float>(row) / static_cast<float>(image_.height));
-  const float bottom = top - kPi / static_cast<float>(image_.height);
+  // Draw samples a row uniformly in elevation; the solid angle shrinks towards the poles.
+  const float top = kPiF * (0.5f - static_cast<float>(row) / static_cast<float>(image_.height));
+  const float bottom = top - kPiF / static_cast<float>(image_.height);
   const float solid_angle =
-      2.0f * kPi / static_cast<float>(image_.width) * (std::sin(top) - std::sin(bottom));
+      2.0f * kPiF / static_cast<float>(image_.width) * (std::sin(top) - std::sin(bottom));
   return row_share * share / std::max(solid_angle, 1e-12f);
 }
 
@@ -137,13 +136,13 @@ Environment::Sample Environment::Draw(const glm::vec2& random) const {
   const auto width = static_cast<size_t>(image_.width);
   const auto [column, across] = FindInterval(
       std::span(column_ends_).subspan(static_cast<size_t>(row) * width, width), random.x);
-  // Even in solid angle within the texel.
+  // Uniform in solid angle within the texel.
   const float top =
-      std::sin(kPi * (0.5f - static_cast<float>(row) / static_cast<float>(image_.height)));
+      std::sin(kPiF * (0.5f - static_cast<float>(row) / static_cast<float>(image_.height)));
   const float bottom =
-      std::sin(kPi * (0.5f - static_cast<float>(row + 1) / static_cast<float>(image_.height)));
+      std::sin(kPiF * (0.5f - static_cast<float>(row + 1) / static_cast<float>(image_.height)));
   const float height = std::asin(std::clamp(top + down * (bottom - top), -1.0f, 1.0f));
-  const float exact_row = (0.5f - height / kPi) * static_cast<float>(image_.height);
+  const float exact_row = (0.5f - height / kPiF) * static_cast<float>(image_.height);
   const glm::vec3 in_probe = DirectionFromImage(static_cast<float>(column) + across, exact_row,
                                                 image_.width, image_.height);
   return {stage_from_probe_ * in_probe, TexelDensity({column, row})};

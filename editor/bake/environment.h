@@ -1,6 +1,7 @@
 #pragma once
 
-// A probe's image as light from every direction of the stage, to be sampled.
+// The image of a light probe as light from every direction of the stage, with importance
+// sampling.
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
@@ -15,17 +16,17 @@ class Environment {
  public:
   Environment(ProbeImage image, const ProbePlacement& placement);
 
-  // From a unit direction, stage axes: interpolated between texels.
+  // Radiance from a unit direction in stage axes, interpolated between texels.
   glm::vec3 Radiance(const glm::vec3& direction) const;
 
   struct Sample {
     glm::vec3 direction = glm::vec3(0.0f, 1.0f, 0.0f);
-    float density = 0.0f;  // for each steradian; 0: no sample
+    float density = 0.0f;  // Per steradian; 0 means no sample.
   };
-  // A direction with a density in proportion to the luminance of texels. random: two
-  // numbers in [0, 1).
+  // Draws a direction with a density in proportion to the luminance of the texels. `random`
+  // holds two numbers in [0, 1).
   Sample Draw(const glm::vec2& random) const;
-  // The density with which Draw gives a direction.
+  // The density with which Draw gives a direction, per steradian.
   float Density(const glm::vec3& direction) const;
 
  private:
@@ -40,8 +41,9 @@ class Environment {
   glm::quat stage_from_probe_;
   glm::quat probe_from_stage_;
   float scale_;
-  std::vector<float> row_ends_;     // cumulated power of rows, the last 1
-  std::vector<float> column_ends_;  // of each row: cumulated power of its texels, the last 1
+  std::vector<float> row_ends_;  // Cumulative power of the rows; the last entry is 1.
+  // For each row, the cumulative power of its texels; the last is 1.
+  std::vector<float> column_ends_;
 };
 
 }  // namespace lararium::bake

@@ -1,6 +1,6 @@
 #pragma once
 
-// Linear images as OpenEXR files.
+// Writes linear images as OpenEXR files.
 
 #include <filesystem>
 #include <glm/vec4.hpp>
@@ -10,8 +10,8 @@
 
 namespace lararium::bake {
 
-// RGBA, 32-bit floats, row by row from the top left; colour is premultiplied. Written
-// beside the file and moved to its place when complete.
+// Writes RGBA in 32-bit floats, row by row from the top left, colour premultiplied by alpha.
+// The file is written under a temporary name and renamed when it is complete.
 Status WriteExr(const std::filesystem::path& file,
                 int width,
                 int height,

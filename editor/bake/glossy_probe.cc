@@ -3,32 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "shared/core/parallel.h"
+#include "shared/core/units.h"
 
 namespace lararium::bake {
 namespace {
 
 using light::GlossyMap;
-constexpr double kPi = std::numbers::pi;
 
-// Directions and power of an image's texels, row by row.
-struct Source {
+// Directions and radiance of the texels of an image, row by row.
+struct GlossySource {
   int width = 0;
   int height = 0;
   std::vector<glm::vec3> directions;  // stage axes
   std::vector<glm::vec3> radiance;
-  std::vector<float> solid_angles;  // of each row
+  std::vector<float> solid_angles;  // Indexed by row.
 
   double polar(int row) const { return kPi * (row + 0.5) / height; }
 };
 
-// Box-filtered to a width that divides the image's, or its own where that is less. Texels of
-// a block are weighed alike: within it their solid angles hardly differ.
-Source Shrunk(const ProbeImage& image, const ProbePlacement& placement, int width) {
+// Box-filters the image to a width that divides its own, or keeps it if it is narrower. Texels
+// of a block have equal weight, because their solid angles hardly differ.
+GlossySource Shrunk(const ProbeImage& image, const ProbePlacement& placement, int width) {
   const int block = std::max(1, image.width / width);
-  Source source;
+  GlossySource source;
   source.width = image.width / block;
   source.height = image.height / block;
   for (int row = 0; row < source.height; ++row) {
@@ -54,10 +53,11 @@ Source Shrunk(const ProbeImage& image, const ProbePlacement& placement, int widt
   return source;
 }
 
-// A lobe by the cosine's distance from 1, whose root grows evenly with the angle.
+// A lobe tabulated over the square root of 1 - cosine, which is nearly proportional to the
+// angle.
 class Lobe {
  public:
-  // Nowhere narrower than texels of this angle, so that none falls between them.
+  // Never narrower than texels of this angle, so that no texel is missed.
   Lobe(double roughness, double texel) {
     const double widened = std::sqrt(std::pow(roughness, 4.0) + 0.25 * texel * texel);
     const double blurred = std::sqrt(std::min(widened, 1.0));
@@ -75,7 +75,7 @@ class Lobe {
     const auto below = std::min(static_cast<size_t>(at), kEntries - 2);
     return std::lerp(weights_[below], weights_[below + 1], at - static_cast<float>(below));
   }
-  // The angle beyond which next to nothing is left.
+  // The angle beyond which almost nothing of the lobe is left.
   double reach() const { return reach_; }
 
  private:
@@ -86,7 +86,7 @@ class Lobe {
   double reach_ = 0.0;
 };
 
-glm::vec3 Filtered(const Source& source,
+glm::vec3 Filtered(const GlossySource& source,
                    const Lobe& lobe,
                    const glm::vec3& direction,
                    const glm::vec3& probe_direction) {
@@ -118,14 +118,14 @@ glm::vec3 Filtered(const Source& source,
 }  // namespace
 
 light::GlossyMap PrefilterProbe(const ProbeImage& sky, const ProbePlacement& placement) {
-  constexpr int kWidth = 128;  // of the source for the wider lobes
-  const Source fine = Shrunk(sky, placement, 2 * kWidth);
-  const Source coarse = Shrunk(sky, placement, kWidth);
+  constexpr int kWidth = 128;  // Width of the source for the wider lobes.
+  const GlossySource fine = Shrunk(sky, placement, 2 * kWidth);
+  const GlossySource coarse = Shrunk(sky, placement, kWidth);
   const glm::quat probe_from_stage = glm::conjugate(placement.stage_from_probe);
   GlossyMap map;
   map.texels.resize(GlossyMap::kTexels);
   for (int layer = 0; layer < GlossyMap::kLayers; ++layer) {
-    const Source& source = layer < 2 ? fine : coarse;
+    const GlossySource& source = layer < 2 ? fine : coarse;
     const Lobe lobe(light::RoughnessOfLayer(layer), kPi / source.height);
     ParallelFor(GlossyMap::kSize, [&](size_t row) {
       for (int column = 0; column < GlossyMap::kSize; ++column) {

@@ -12,7 +12,8 @@ namespace lararium::bake {
 namespace {
 
 constexpr const char* kPlace = "brackets";
-constexpr int kLeastShown = 16;  // bytes between which a photograph shows a pixel well
+// A photograph shows a pixel well if its byte is within these limits.
+constexpr int kLeastShown = 16;
 constexpr int kMostShown = 240;
 
 std::vector<cv::Mat> Images(std::span<const Bracket> brackets) {
@@ -31,7 +32,7 @@ cv::Mat Times(std::span<const Bracket> brackets) {
   return times;
 }
 
-// Pixels that two photographs both show well.
+// Counts the pixels that two photographs both show well.
 size_t CountTelling(std::span<const Bracket> brackets) {
   size_t telling = 0;
   for (int y = 0; y < brackets[0].bgr.rows; ++y) {
@@ -74,16 +75,16 @@ double Residual(std::span<const Bracket> brackets, const light::CameraResponse& 
   return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
 }
 
-// How far a byte may be trusted: not at all where it is clipped, or may be but for noise and
-// the ringing of JPEG.
+// Reliability of a byte: 0 where it is clipped, or could be clipped apart from noise and JPEG
+// ringing.
 float Trust(uchar byte) {
   constexpr int kBlack = 4;
   constexpr int kWhite = 247;
   return static_cast<float>(std::max(0, std::min(byte - kBlack, kWhite - byte)));
 }
 
-// Of one channel of a pixel: exposures summed over times summed, so that photographs with
-// more light, and less noise, count more.
+// Accumulates one channel of a pixel: the sum of exposures over the sum of times, so that
+// photographs with more light, and less noise, have more weight.
 struct Sum {
   float light = 0.0f;
   float time = 0.0f;
@@ -140,7 +141,7 @@ Result<std::vector<Bracket>> ReadBrackets(std::span<const std::filesystem::path>
     return Status::Error(kPlace,
                          std::to_string(exposures.size()) + " exposures for " +
                              std::to_string(files.size()) + " photographs",
-                         "give one for each, or none where the files have EXIF data");
+                         "give one for each, or none if the files have EXIF data");
   }
   std::vector<Bracket> brackets;
   for (size_t i = 0; i < files.size(); ++i) {
@@ -156,11 +157,11 @@ Result<std::vector<Bracket>> ReadBrackets(std::span<const std::filesystem::path>
 
 Result<CalibratedResponse> CalibrateResponse(std::span<const Bracket> brackets) {
   LARARIUM_RETURN_IF_ERROR(Validate(brackets));
-  // On a grid over the photographs; the solver is dense in the number of samples.
+  // Samples on a grid over the photographs; the solver is dense in the number of samples.
   constexpr int kSamples = 300;
   constexpr float kSmoothness = 20.0f;
   if (CountTelling(brackets) < kSamples) {
-    return Status::Error(kPlace, "too few places that two exposures both show well",
+    return Status::Error(kPlace, "too few pixels are well exposed in two photographs",
                          "take them one to three stops apart");
   }
   CalibratedResponse calibrated;
@@ -169,7 +170,7 @@ Result<CalibratedResponse> CalibrateResponse(std::span<const Bracket> brackets) 
     cv::createCalibrateDebevec(kSamples, kSmoothness, false)
         ->process(Images(brackets), curve, Times(brackets));
     if (curve.total() != 256 || curve.type() != CV_32FC3 || !cv::checkRange(curve)) {
-      return Status::Error(kPlace, "give no response of the camera",
+      return Status::Error(kPlace, "do not determine the response of the camera",
                            "check that the exposures are those of the photographs");
     }
     for (int c = 0; c < 3; ++c) {
@@ -180,7 +181,7 @@ Result<CalibratedResponse> CalibrateResponse(std::span<const Bracket> brackets) 
       calibrated.response.linear[c] = light::Monotone(raw);
     }
   } catch (const std::exception& error) {
-    return Status::Error(kPlace, std::string("give no response of the camera: ") + error.what());
+    return Status::Error(kPlace, std::string("do not determine the response of the camera: ") + error.what());
   }
   LARARIUM_RETURN_IF_ERROR(calibrated.response.Validate(kPlace));
   calibrated.residual = Residual(brackets, calibrated.response);
@@ -204,7 +205,7 @@ Result<MergedImage> MergeBrackets(std::span<const Bracket> brackets,
         const light::CameraResponse::Curve& curve = response.linear[c];
         Sum sum = SumOfChannel(brackets, curve, {x, y}, 2 - c);
         if (sum.time <= 0.0f) {
-          // No photograph shows it: what the shortest or the longest allows.
+          // No photograph shows the pixel; use the limit of the shortest or longest exposure.
           const bool bright = longest->bgr.at<cv::Vec3b>(y, x)[2 - c] >= 128;
           const Bracket& bound = bright ? *shortest : *longest;
           sum = {curve[bound.bgr.at<cv::Vec3b>(y, x)[2 - c]], static_cast<float>(bound.exposure)};

@@ -1,7 +1,7 @@
 #pragma once
 
-// One image of high dynamic range from photographs of one view with several exposures
-// (Debevec & Malik, SIGGRAPH 1997), and the camera's response with it.
+// Merges photographs of one view at several exposures into one HDR image and calibrates the
+// response of the camera from them (Debevec & Malik, SIGGRAPH 1997).
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
@@ -16,39 +16,40 @@
 namespace lararium::bake {
 
 struct Bracket {
-  std::string name;       // what errors call it
+  std::string name;       // Names the photograph in errors.
   cv::Mat bgr;            // CV_8UC3
-  double exposure = 0.0;  // seconds, or anything in proportion to the light let in
+  double exposure = 0.0;  // Seconds, or any value in proportion to the light admitted.
 };
 
-// Two to 32 photographs of one size and view with exposures that differ.
+// Requires two to 32 photographs of the same size and view with different exposures.
 Status Validate(std::span<const Bracket> brackets);
 
-// Reads photographs. exposures: as many, or empty: from the EXIF data. Camera and
-// light must not have moved between them.
+// Reads photographs of one view; neither the camera nor the light may have changed between
+// them. `exposures` has one entry for each file, or is empty, and the EXIF data are used.
 Result<std::vector<Bracket>> ReadBrackets(std::span<const std::filesystem::path> files,
                                           std::span<const double> exposures);
 
 struct CalibratedResponse {
   light::CameraResponse response;
-  // Of radiances that two photographs both show well (bytes 16 to 240), the root mean square
-  // difference of natural logarithms: how far the exposures agree.
+  // RMS difference of the natural logarithms of radiance over pixels that two photographs both
+  // show well (bytes 16 to 240). It says how well the exposures agree.
   double residual = 0.0;
 };
 
-// From a grid of pixels, made to rise. Bytes below 16 and above 250 are told from few.
+// Calibrates from a grid of pixels and forces the curve to rise. Few samples support bytes
+// below 16 and above 250.
 Result<CalibratedResponse> CalibrateResponse(std::span<const Bracket> brackets);
 
 struct MergedImage {
-  cv::Mat linear;         // CV_32FC3, R, G, B: response's unit for one unit of exposure
-  size_t clipped = 0;     // pixels that are white even in the shortest exposure
-  size_t unexposed = 0;   // black even in the longest
-  double residual = 0.0;  // as above
+  cv::Mat linear;         // CV_32FC3, R, G, B; the unit of the response per unit of exposure.
+  size_t clipped = 0;     // Pixels that are white even in the shortest exposure.
+  size_t unexposed = 0;   // Pixels that are black even in the longest exposure.
+  double residual = 0.0;  // See CalibratedResponse::residual.
 };
 
-// Each channel by itself: the mean over the photographs that show it, weighted by trust in
-// its byte and by exposure (Robertson, Borman & Stevenson, ICIP 1999). What is clipped in all
-// photographs gets the least radiance that the shortest allows.
+// Merges each channel separately: the mean over the photographs that show a pixel, weighted by
+// the reliability of its byte and by exposure (Robertson, Borman & Stevenson, ICIP 1999). A
+// pixel that is clipped in all photographs gets the least radiance that clips in the shortest.
 Result<MergedImage> MergeBrackets(std::span<const Bracket> brackets,
                                   const light::CameraResponse& response);
 

@@ -6,61 +6,61 @@
 #include <limits>
 #include <utility>
 
-#include "shared/human/performance.h"
+#include "shared/human/animator.h"
 #include "shared/human/skinning.h"
 
 namespace lararium::bake {
 namespace {
 
-using Pose = std::vector<human::JointTransform>;
+using JointPose = std::vector<human::JointTransform>;
 
 constexpr float kTick = 1.0f / 60.0f;  // seconds
 constexpr float kWalkingSpeed = 1.3f;  // m/s
-constexpr float kStartUp = 2.0f;       // seconds until somebody walks evenly
+constexpr float kStartUp = 2.0f;       // Seconds until a person walks evenly.
 constexpr float kStride = 1.2f;        // seconds
-constexpr int kTicksBetween = 6;       // of candidates while walking
-constexpr double kBetween = 0.25;      // seconds between candidates in clips
+constexpr int kTicksBetween = 6;       // Ticks between candidates while walking.
+constexpr double kBetween = 0.25;      // Seconds between candidates in clips.
 constexpr size_t kMaxCandidates = 400;
-// A sum over blockers of radius^2 times distance^2, m^4: poses less apart are one.
+// Sum over blockers of radius^2 times distance^2, m^4. Poses that differ by less are the same.
 constexpr float kSamePose = 1e-6f;
 
-// Standing, then walking: what the person does with no clip at all.
-void AddLocomotion(const std::shared_ptr<const human::Human>& human, std::vector<Pose>& poses) {
-  const auto model = human::MakePerformanceModel(human);
-  human::Performer performer(model);
-  human::Performance performance;
+// Adds standing and walking, which the person can do without a clip.
+void AddLocomotion(const std::shared_ptr<const human::Human>& human, std::vector<JointPose>& poses) {
+  const auto model = human::MakeAnimationRig(human);
+  human::Animator animator(model);
+  human::AnimationState animation_state;
   glm::vec3 position(0.0f);
   const auto add = [&] {
-    performer.Pose(performance);
-    poses.emplace_back(performer.pose().begin(), performer.pose().end());
+    animator.Pose(animation_state);
+    poses.emplace_back(animator.pose().begin(), animator.pose().end());
   };
-  human::UpdatePerformance(*model, position, 0.0f, kTick, {}, performance);
+  human::UpdateAnimationState(*model, position, 0.0f, kTick, {}, animation_state);
   add();
   const int ticks = static_cast<int>((kStartUp + kStride) / kTick);
   for (int tick = 0; tick < ticks; ++tick) {
     position.z -= kWalkingSpeed * kTick;
-    human::UpdatePerformance(*model, position, 0.0f, kTick, {}, performance);
+    human::UpdateAnimationState(*model, position, 0.0f, kTick, {}, animation_state);
     if (static_cast<float>(tick) * kTick >= kStartUp && tick % kTicksBetween == 0) {
       add();
     }
   }
 }
 
-void AddClips(const human::Human& human, std::vector<Pose>& poses) {
+void AddClips(const human::Human& human, std::vector<JointPose>& poses) {
   for (const human::Clip& clip : human.clips) {
     for (double time = 0.0; time <= clip.duration && poses.size() < kMaxCandidates;
          time += kBetween) {
-      Pose pose = human.skeleton.rest;
+      JointPose pose = human.skeleton.rest;
       human::SampleClip(clip, time, pose);
       poses.push_back(std::move(pose));
     }
   }
 }
 
-// Where the blockers are, seen from the pelvis.
+// Positions of the blockers relative to the pelvis.
 std::vector<glm::vec3> BlockerPlaces(const human::Skeleton& skeleton,
                                      std::span<const human::LightTransfer::Blocker> blockers,
-                                     const Pose& pose,
+                                     const JointPose& pose,
                                      size_t pelvis) {
   const std::vector<glm::mat4> skin = human::SkinOfPose(skeleton, pose);
   const glm::mat4 pelvis_from_actor = glm::inverse(skin[pelvis]);
@@ -73,12 +73,12 @@ std::vector<glm::vec3> BlockerPlaces(const human::Skeleton& skeleton,
 
 }  // namespace
 
-std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
+std::vector<JointPose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
                                  std::span<const human::LightTransfer::Blocker> blockers,
                                  size_t count) {
   const human::Skeleton& skeleton = human->skeleton;
-  std::vector<Pose> candidates;
-  const human::Body body = human::MakeBody(skeleton);
+  std::vector<JointPose> candidates;
+  const human::BodyRig body = human::MakeBodyRig(skeleton);
   if (body.walks()) {
     AddLocomotion(human, candidates);
   }
@@ -87,7 +87,7 @@ std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
   AddClips(*human, candidates);
   const size_t pelvis = body.root == human::kNoJoint ? 0 : static_cast<size_t>(body.root);
   std::vector<std::vector<glm::vec3>> places;
-  for (const Pose& pose : candidates) {
+  for (const JointPose& pose : candidates) {
     places.push_back(BlockerPlaces(skeleton, blockers, pose, pelvis));
   }
   const auto apart = [&](size_t a, size_t b) {
@@ -98,7 +98,7 @@ std::vector<Pose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
     }
     return sum;
   };
-  std::vector<Pose> chosen;
+  std::vector<JointPose> chosen;
   std::vector<float> distance(candidates.size(), std::numeric_limits<float>::max());
   size_t next = 0;
   while (chosen.size() < count && distance[next] > kSamePose) {

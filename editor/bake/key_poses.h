@@ -1,6 +1,6 @@
 #pragma once
 
-// The poses at which a person's light transfer is worked out.
+// Chooses the poses at which the light transfer of a person is baked.
 
 #include <cstddef>
 #include <memory>
@@ -11,9 +11,10 @@
 
 namespace lararium::bake {
 
-// Standing (for who can), the rest pose, and then those that are farthest from all before
-// among walking and every clip of the person: at most count. How far apart two poses are
-// is judged by where the blockers are, seen from the pelvis, the larger ones counting more.
+// Gives at most `count` poses: standing (if the person can stand), the rest pose, then poses
+// from walking and from all clips of the person, each the farthest from those already chosen.
+// The distance of two poses is that of the blockers relative to the pelvis, larger blockers
+// weighted more.
 std::vector<std::vector<human::JointTransform>> ChooseKeyPoses(
     std::shared_ptr<const human::Human> human,
     std::span<const human::LightTransfer::Blocker> blockers,

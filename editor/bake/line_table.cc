@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "shared/core/byte_order_mark.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/stage/caption_file.h"
@@ -12,10 +13,10 @@
 namespace lararium::bake {
 namespace {
 
-constexpr size_t kMaxBytes = size_t{16} << 20;
+constexpr size_t kMaxTableBytes = size_t{16} << 20;
 constexpr size_t kMaxLines = 4096;
 constexpr size_t kMaxLanguages = 64;
-constexpr size_t kMaxCell = 4000;  // bytes
+constexpr size_t kMaxCell = 4000;  // Bytes.
 
 bool IsLineId(std::string_view id) {
   return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](char c) {
@@ -24,8 +25,7 @@ bool IsLineId(std::string_view id) {
   });
 }
 
-// Well-formed: shortest forms only, no surrogates, nothing above U+10FFFF (Unicode 15, table
-// 3-7).
+// Accepts shortest forms only, no surrogates, nothing above U+10FFFF (Unicode 15, table 3-7).
 bool IsUtf8(std::string_view text) {
   for (size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i++]);
@@ -45,17 +45,17 @@ bool IsUtf8(std::string_view text) {
   return true;
 }
 
-// Whatever the notation: ids, languages and texts as they may be, ids once.
+// Checks what both formats require: valid ids, languages and texts, and unique ids.
 class TableBuilder {
  public:
   Status AddLanguage(const std::string& language, const std::string& where) {
     if (!stage::IsLanguageTag(language)) {
-      return Status::Error(where, "'" + language + "' is no language tag",
+      return Status::Error(where, "'" + language + "' is not a valid language tag",
                            "use one like la, it, en or pt-BR");
     }
     const auto& known = table_.languages;
     if (std::find(known.begin(), known.end(), language) != known.end()) {
-      return Status::Error(where, "the language '" + language + "' is there twice");
+      return Status::Error(where, "the language '" + language + "' occurs twice");
     }
     if (known.size() >= kMaxLanguages) {
       return Status::Error(where, "there are more than 64 languages");
@@ -73,7 +73,7 @@ class TableBuilder {
       return Status::Error(where, "the speaker's name is longer than 64 bytes");
     }
     if (!ids_.insert(line.id).second) {
-      return Status::Error(where, "the id '" + line.id + "' is there twice", "rename one");
+      return Status::Error(where, "the id '" + line.id + "' occurs twice", "rename one");
     }
     if (table_.lines.size() >= kMaxLines) {
       return Status::Error(where, "there are more than 4096 lines");
@@ -92,7 +92,7 @@ class TableBuilder {
 };
 
 Status CheckText(std::string_view text, const std::string& place) {
-  if (text.size() > kMaxBytes) {
+  if (text.size() > kMaxTableBytes) {
     return Status::Error(place, "is longer than 16 MiB");
   }
   if (!IsUtf8(text)) {
@@ -104,20 +104,16 @@ Status CheckText(std::string_view text, const std::string& place) {
   return Status();
 }
 
-std::string_view WithoutMark(std::string_view text) {
-  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-}
-
 // ---- CSV ----
 
-// Takes rows of cells off a text.
+// Reads rows of cells from a text.
 class CsvReader {
  public:
   CsvReader(std::string_view text, std::string place)
-      : text_(WithoutMark(text)), place_(std::move(place)), separator_(GuessSeparator(text_)) {}
+      : text_(WithoutByteOrderMark(text)), place_(std::move(place)), separator_(GuessSeparator(text_)) {}
 
   bool AtEnd() const { return at_ >= text_.size(); }
-  // Where the row that was read last began.
+  // Names the begin of the row that was read last.
   std::string Where() const { return place_ + ": row " + std::to_string(row_); }
 
   Status Next(std::vector<std::string>& cells) {
@@ -133,7 +129,7 @@ class CsvReader {
   }
 
  private:
-  // What stands most often in the first line.
+  // The separator that occurs most often in the first line.
   static char GuessSeparator(std::string_view text) {
     const std::string_view head = text.substr(0, text.find('\n'));
     char best = ',';
@@ -201,7 +197,7 @@ enum class Column { kId, kSpeaker, kNotes, kText };
 
 struct Header {
   std::vector<Column> columns;
-  std::vector<std::string> languages;  // parallel; "" where the column is no text
+  std::vector<std::string> languages;  // Parallel to `columns`; "" if the column holds no text.
 };
 
 Result<Header> ReadHeader(const std::vector<std::string>& cells,
@@ -217,7 +213,7 @@ Result<Header> ReadHeader(const std::vector<std::string>& cells,
     if (column == Column::kText) {
       LARARIUM_RETURN_IF_ERROR(builder.AddLanguage(cell, where));
     } else if (!seen.insert(cell).second) {
-      return Status::Error(where, "the column '" + cell + "' is there twice");
+      return Status::Error(where, "the column '" + cell + "' occurs twice");
     }
     header.columns.push_back(column);
     header.languages.push_back(column == Column::kText ? cell : "");
@@ -269,7 +265,7 @@ const std::string& TextOf(const Line& line, const std::string& language) {
 
 // ---- PO ----
 
-// What follows a keyword, or a line by itself: a quoted string.
+// Decodes a quoted string after a keyword or on a line of its own.
 std::optional<std::string> Unquote(std::string_view text) {
   if (text.size() < 2 || text.front() != '"' || text.back() != '"') {
     return std::nullopt;
@@ -305,7 +301,7 @@ class PoReader {
       return Status();
     }
     if (row.empty() || row.front() == '#') {
-      return Status();  // "#~" are entries that were retired
+      return Status();  // "#~" marks obsolete entries.
     }
     if (row.front() == '"') {
       return Append(row);
@@ -434,7 +430,7 @@ Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& place)
       continue;
     }
     if (cells.size() > header.columns.size()) {
-      return Status::Error(reader.Where(), "has more cells than the first row has names",
+      return Status::Error(reader.Where(), "has more cells than the header row",
                            "put texts that hold the separator into quotes");
     }
     LARARIUM_RETURN_IF_ERROR(builder.AddLine(ReadLine(cells, header), reader.Where()));
@@ -518,7 +514,7 @@ std::string FormatLinesJson(const LineTable& table) {
 
 Result<PoFile> ParsePo(std::string_view text, const std::string& place) {
   LARARIUM_RETURN_IF_ERROR(CheckText(text, place));
-  text = WithoutMark(text);
+  text = WithoutByteOrderMark(text);
   PoReader reader(place);
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
@@ -566,13 +562,13 @@ Result<LineTable> LoadLines(const std::filesystem::path& folder) {
   const bool has_csv = std::filesystem::exists(csv, ignored);
   const bool has_json = std::filesystem::exists(json, ignored);
   if (has_csv && has_json) {
-    return Status::Error(json.string(), "there is lines.csv too", "keep one of them");
+    return Status::Error(json.string(), "lines.csv exists too", "keep one of them");
   }
   if (!has_csv && !has_json) {
     return LineTable();
   }
   const std::filesystem::path& file = has_csv ? csv : json;
-  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxBytes));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxTableBytes));
   return has_csv ? ParseLinesCsv(text, file.string()) : ParseLinesJson(text, file.string());
 }
 

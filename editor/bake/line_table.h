@@ -1,12 +1,12 @@
 #pragma once
 
-// The lines of a project: what is said and read, in all languages. One id stands for a
-// line's text, voice, visemes and captions in each of them.
+// The lines of a project: all text that is spoken or read, in all languages. One id names the
+// text, voice, visemes and captions of a line in each language.
 //
-// lines.csv has a header: id, speaker, notes, and a language tag for each further column
-// (la, it, en). A row without a speaker whose id is an actor's name says how captions call
-// that actor. A row whose speaker is "description" is a description for visitors who do not see
-// well, unless an actor is called so.
+// lines.csv has a header: id, speaker, notes, then one column for each language tag (la, it,
+// en). A row without a speaker whose id is the name of an actor gives the name of that actor in
+// captions. A row whose speaker is "description" is an audio description for visitors with low
+// vision, unless an actor has that name.
 
 #include <filesystem>
 #include <map>
@@ -19,16 +19,17 @@
 namespace lararium::bake {
 
 struct Line {
-  std::string id;       // letters, digits, '_' and '-', at most 64: it names files too
-  std::string speaker;  // of the cast; empty: nobody
-  std::string notes;    // for speakers and translators
-  std::map<std::string, std::string, std::less<>> text;  // by language, UTF-8, never empty
+  std::string id;       // Letters, digits, '_' and '-', at most 64, because it names files.
+  std::string speaker;  // Name of an actor in the cast; empty if there is no speaker.
+  std::string notes;    // Remarks for speakers and translators.
+  // Text by language tag, UTF-8, never empty.
+  std::map<std::string, std::string, std::less<>> text;
 
   friend bool operator==(const Line&, const Line&) = default;
 };
 
 struct LineTable {
-  std::vector<std::string> languages;  // in the order of the columns
+  std::vector<std::string> languages;  // Language tags in the order of the columns.
   std::vector<Line> lines;             // ids are unique
 
   const Line* Find(std::string_view id) const;
@@ -36,9 +37,9 @@ struct LineTable {
   friend bool operator==(const LineTable&, const LineTable&) = default;
 };
 
-// CSV as spreadsheets write it (RFC 4180): UTF-8 with or without a mark, ',', ';' or tab
-// between cells, quotes around cells that hold any of them or ends of lines.
-// place: what errors call the text; they name row and column.
+// CSV as spreadsheets write it (RFC 4180): UTF-8 with or without a byte order mark; ',', ';' or
+// tab between cells; quotes around cells that contain one of these or a line break. Errors name
+// the text as `place`, and the row and column.
 Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& place);
 std::string FormatLinesCsv(const LineTable& table);
 
@@ -46,33 +47,34 @@ std::string FormatLinesCsv(const LineTable& table);
 Result<LineTable> ParseLinesJson(std::string_view text, const std::string& place);
 std::string FormatLinesJson(const LineTable& table);
 
-// A gettext catalogue of one language.
+// One translated text in a gettext catalogue of one language.
 struct PoEntry {
-  int row = 0;          // where it begins
+  int row = 0;          // Line of the file at which the entry begins.
   std::string context;  // msgctxt
   std::string source;   // msgid
-  std::string text;     // msgstr; empty: not translated
-  bool fuzzy = false;   // the translator is not sure
+  std::string text;     // msgstr; empty if not translated.
+  bool fuzzy = false;   // The translator marked the text as uncertain.
 };
 struct PoFile {
-  std::string language;  // of the header; empty: it does not say
+  std::string language;  // Language in the header; empty if the header does not state it.
   std::vector<PoEntry> entries;
 };
 Result<PoFile> ParsePo(std::string_view text, const std::string& place);
 
-// Takes over what was translated: an entry means the line whose id is its context, else all
-// whose text in any language is its source. Fuzzy ones are left out. Gives how many texts
-// were set, and the entries that mean no line.
+// Copies translations into the table. An entry belongs to the line whose id is its context;
+// without one, to all lines whose text in any language equals its source. Skips fuzzy entries.
+// Reports how many texts were set and which entries match no line.
 struct PoImport {
   int translated = 0;
   std::vector<std::string> unknown;
 };
 PoImport ImportPo(const PoFile& po, const std::string& language, LineTable& table);
 
-// lines.csv or lines.json of a project's folder; empty where there is neither. Both are an
-// error: nobody could say which is meant.
+// Reads lines.csv or lines.json in the folder of a project; the table is empty if there is
+// neither. Having both is an error, because it would not be clear which one counts.
 Result<LineTable> LoadLines(const std::filesystem::path& folder);
-// Into the file that is there; else lines.csv. A table that could not be read back is refused.
+// Writes the file that exists, otherwise lines.csv. Refuses a table that could not be read
+// back.
 Status SaveLines(const std::filesystem::path& folder, const LineTable& table);
 
 }  // namespace lararium::bake

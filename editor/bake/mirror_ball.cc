@@ -4,20 +4,20 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "shared/core/units.h"
+
 namespace lararium::bake {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-// Share of the outline's radius that is read: beyond, a pixel sees far too much.
+// Usable share of the outline's radius; beyond it, a pixel covers too large an angle.
 constexpr double kUsable = 0.985;
 
-// The angle, from the axis towards the camera, of what a point of the ball reflects: the
-// normal is at angle a, the camera seen from there at -atan(sin a / (D - cos a)).
+// The angle, from the axis towards the camera, of the direction that a point of the ball
+// reflects. The normal is at angle a; from that point the camera is at -atan(sin a / (D - cos
+// a)).
 double ReflectedAngle(double normal_angle, double distance) {
   if (distance <= 0.0) {
     return 2.0 * normal_angle;
@@ -25,7 +25,7 @@ double ReflectedAngle(double normal_angle, double distance) {
   return 2.0 * normal_angle + std::atan2(std::sin(normal_angle), distance - std::cos(normal_angle));
 }
 
-// From the middle of the outline, over its radius.
+// Distance from the middle of the outline, divided by its radius.
 double PictureRadius(double normal_angle, double distance) {
   if (distance <= 0.0) {
     return std::sin(normal_angle);
@@ -34,7 +34,7 @@ double PictureRadius(double normal_angle, double distance) {
          (distance - std::cos(normal_angle));
 }
 
-// The inverse of a function that rises on [low, high], by halving.
+// Inverts a function that rises on [low, high] by bisection.
 template <typename Function>
 double Invert(const Function& function, double value, double low, double high) {
   for (int i = 0; i < 40; ++i) {
@@ -68,7 +68,7 @@ Status Check(const cv::Mat& linear, const BallView& view, int width) {
   const BallCircle& c = view.circle;
   constexpr const char* kPlace = "mirror ball";
   if (linear.type() != CV_32FC3 || linear.cols < 2 || linear.rows < 2) {
-    return Status::Error(kPlace, "the picture is not of linear colour");
+    return Status::Error(kPlace, "the picture does not have linear colour");
   }
   const bool inside = c.radius >= 4.0 && c.x - c.radius > -2.0 && c.y - c.radius > -2.0 &&
                       c.x + c.radius < linear.cols + 1.0 && c.y + c.radius < linear.rows + 1.0;
@@ -78,7 +78,7 @@ Status Check(const cv::Mat& linear, const BallView& view, int width) {
   }
   if (!(view.distance == 0.0 || (view.distance > 1.05 && view.distance < 1e6))) {
     return Status::Error(kPlace, "the camera's distance is impossible",
-                         "give it in radii of the ball, above 1, or 0 where it is far");
+                         "give it in radii of the ball, above 1, or 0 if it is far away");
   }
   if (!(std::min({view.reflectance.r, view.reflectance.g, view.reflectance.b}) > 0.01f)) {
     return Status::Error(kPlace, "the ball's reflectance must be above 0.01");
@@ -89,7 +89,7 @@ Status Check(const cv::Mat& linear, const BallView& view, int width) {
   return Status();
 }
 
-// The strongest edge along a radius, within a tenth of the radius about where it should be.
+// The strongest edge along a radius, within a tenth of the expected radius.
 std::optional<cv::Point2d> EdgeAlong(const cv::Mat& grey, const BallCircle& circle, double angle) {
   const double cosine = std::cos(angle);
   const double sine = std::sin(angle);
@@ -136,8 +136,8 @@ double Off(const BallCircle& circle, const cv::Point2d& point) {
   return std::abs(std::hypot(point.x - circle.x, point.y - circle.y) - circle.radius);
 }
 
-// Fits and leaves out what is far off, until that changes nothing. nullopt where the
-// outline has little support.
+// Fits a circle and removes outliers until nothing changes. Gives nullopt if the outline has
+// little support.
 std::optional<BallCircle> Refine(const cv::Mat& grey, BallCircle circle) {
   constexpr int kRays = 360;
   constexpr double kSupport = 0.5;
@@ -210,7 +210,7 @@ std::optional<BallCircle> FindBall(const cv::Mat& picture) {
     const BallCircle guess{(found[i][0] + 0.5) / scale - 0.5, (found[i][1] + 0.5) / scale - 0.5,
                            found[i][2] / scale, 0.0};
     const auto refined = Refine(grey, guess);
-    // The outline is the largest circle about the place; reflections in it are smaller.
+    // The outline is the largest circle about this point; reflections in the ball are smaller.
     if (refined && refined->radius > best_score) {
       best = refined;
       best_score = refined->radius;
@@ -235,7 +235,8 @@ cv::Point2d BallProjection::Pixel(const glm::dvec3& direction) const {
 
 Result<ProbeImage> UnwrapBall(const cv::Mat& linear, const BallView& view, int width) {
   LARARIUM_RETURN_IF_ERROR(Check(linear, view, width));
-  // Four samples for each texel: neighbours near the outline are far apart on the picture.
+  // Takes four samples per texel, because neighbours near the outline are far apart in the
+  // picture.
   const BallProjection projection(view);
   constexpr std::array<double, 2> kOffsets = {0.25, 0.75};
   ProbeImage image{width, width / 2, {}, {}};

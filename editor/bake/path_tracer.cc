@@ -5,28 +5,27 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <numbers>
 
 #include "editor/bake/directions.h"
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 
 namespace lararium::bake {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 struct SurfacePoint {
   glm::vec3 position = glm::vec3(0.0f);
-  glm::vec3 normal = glm::vec3(0.0f, 1.0f, 0.0f);  // interpolated, on the side of the ray
-  glm::vec3 face = glm::vec3(0.0f, 1.0f, 0.0f);    // the triangle's, likewise
+  glm::vec3 normal = glm::vec3(0.0f, 1.0f, 0.0f);  // Interpolated, on the side of the ray.
+  glm::vec3 face = glm::vec3(0.0f, 1.0f, 0.0f);  // Normal of the triangle, on the side of the ray.
   glm::vec3 albedo = glm::vec3(0.0f);
   glm::vec3 emission = glm::vec3(0.0f);
 };
 
-// Random numbers of one path: well stratified over the paths of a pixel for what matters
-// most (within the pixel, and the two directions from what it sees), independent later.
+// Random numbers of one path. They are well stratified over the paths of a pixel for the most
+// important dimensions (the position in the pixel and the two directions from the first hit),
+// and independent for later ones.
 class PathRandom {
  public:
   PathRandom(const PathTracing& tracing, uint64_t pixel) : random_(tracing.seed, pixel) {
@@ -65,7 +64,7 @@ class Tracer {
   Tracer(std::span<const SurfaceMesh> meshes, const RayScene& rays, const Environment& environment)
       : meshes_(meshes), rays_(rays), environment_(environment) {}
 
-  // Radiance towards the origin from the mesh that is met there, or nothing.
+  // Radiance towards the origin from the first mesh that a ray hits.
   struct Seen {
     uint32_t mesh = 0;
     glm::vec3 radiance = glm::vec3(0.0f);
@@ -101,7 +100,7 @@ SurfacePoint Tracer::PointOf(const glm::vec3& origin,
   return point;
 }
 
-// Light that a direction drawn from the probe brings, over the albedo.
+// Light from a direction sampled from the probe, divided by the albedo.
 glm::vec3 Tracer::SampleProbe(const SurfacePoint& point, PathRandom& random) const {
   const Environment::Sample sample = environment_.Draw(random.DrawPair());
   const float cosine = glm::dot(point.normal, sample.direction);
@@ -109,8 +108,8 @@ glm::vec3 Tracer::SampleProbe(const SurfacePoint& point, PathRandom& random) con
       rays_.Blocked(point.position, sample.direction)) {
     return glm::vec3(0.0f);
   }
-  const float weight = PowerHeuristic(sample.density, cosine / kPi);
-  return environment_.Radiance(sample.direction) * (cosine / kPi * weight / sample.density);
+  const float weight = PowerHeuristic(sample.density, cosine / kPiF);
+  return environment_.Radiance(sample.direction) * (cosine / kPiF * weight / sample.density);
 }
 
 std::optional<Tracer::Seen> Tracer::Trace(const glm::vec3& origin,
@@ -135,7 +134,7 @@ std::optional<Tracer::Seen> Tracer::Trace(const glm::vec3& origin,
     }
     hit = rays_.Trace(point.position, next);
     if (!hit) {
-      const float density = std::max(glm::dot(point.normal, next), 0.0f) / kPi;
+      const float density = std::max(glm::dot(point.normal, next), 0.0f) / kPiF;
       const float weight = PowerHeuristic(density, environment_.Density(next));
       radiance += throughput * environment_.Radiance(next) * weight;
       break;
@@ -148,7 +147,7 @@ std::optional<Tracer::Seen> Tracer::Trace(const glm::vec3& origin,
   return Seen{seen, radiance};
 }
 
-// Rays of an ideal pinhole, stage axes.
+// Rays of an ideal pinhole camera in stage axes.
 struct Lens {
   Lens(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_stage)
       : pinhole(camera) {
@@ -209,7 +208,7 @@ Result<RadianceImage> TracePaths(std::span<const SurfaceMesh> meshes,
   RadianceImage image{pinhole.width, pinhole.height, {}, {}};
   image.pixels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
   image.real.resize(tracing.first_real < meshes.size() ? image.pixels.size() : 0);
-  // In bands, between which progress is reported from this thread.
+  // Renders in bands and reports progress between them from this thread.
   constexpr size_t kBand = 16;
   const auto height = static_cast<size_t>(image.height);
   for (size_t band = 0; band < height && !progress.Cancelled(); band += kBand) {

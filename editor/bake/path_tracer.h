@@ -1,8 +1,7 @@
 #pragma once
 
-// Reference images by path tracing (Kajiya, SIGGRAPH 1986): matte surfaces under a
-// probe's light, nothing approximated but by noise. What the player draws is compared
-// with them.
+// Path-traced reference images (Kajiya, SIGGRAPH 1986): matte surfaces in the light of a probe,
+// exact except for noise. The renderer of the player is compared with them.
 
 #include <cstdint>
 #include <limits>
@@ -20,28 +19,28 @@
 namespace lararium::bake {
 
 struct PathTracing {
-  int samples = 256;  // of each pixel
-  // Reflections between surfaces before the light is reached; 0: only direct light.
+  int samples = 256;  // Per pixel.
+  // Reflections between surfaces before the path reaches the light; 0 gives direct light only.
   int bounces = 4;
   uint64_t seed = 1;
-  // Meshes from here on are real surfaces: they take part in the light, but what the camera
-  // sees of them is kept apart.
+  // Index of the first mesh that is a real surface. Real surfaces take part in the light, but
+  // the camera records them in `RadianceImage::real`.
   size_t first_real = std::numeric_limits<size_t>::max();
 };
 
-// Linear radiance times coverage, and coverage: row by row from the top left.
+// Pixels hold linear radiance times coverage, then coverage, row by row from the top left.
 struct RadianceImage {
   int width = 0;
   int height = 0;
   std::vector<glm::vec4> pixels;
-  std::vector<glm::vec4> real;  // likewise of real surfaces; empty where there are none
+  std::vector<glm::vec4> real;  // The same for the real surfaces; empty if there are none.
 };
 
-// The meshes (stage axes) as an ideal pinhole sees them; a pixel is the mean over its
-// square. Lambert's reflection; a normal between the corners of a triangle is
-// interpolated, and no light comes from below the triangle itself. Direct light is
-// sampled from the probe and from the surface, weighed by the power heuristic (Veach &
-// Guibas, SIGGRAPH 1995). The same seed gives the same image, whatever the number of cores.
+// Renders meshes in stage axes with an ideal pinhole camera; a pixel is the mean over its
+// square. Reflection is Lambertian. Normals are interpolated between the corners of a triangle,
+// and no light arrives from below the triangle itself. Direct light is sampled from the probe
+// and from the surface, combined by the power heuristic (Veach & Guibas, SIGGRAPH 1995). The
+// same seed gives the same image for any number of cores.
 Result<RadianceImage> TracePaths(std::span<const SurfaceMesh> meshes,
                                  const Environment& environment,
                                  const geometry::CameraModel& pinhole,

@@ -10,16 +10,15 @@
 #include <utility>
 
 #include "shared/human/skinning.h"
-#include "shared/render/closed_surface.h"
-#include "shared/render/texture_image.h"
+#include "shared/render/gl/texture_image.h"
+#include "shared/render/passes/closed_surface.h"
 
 namespace lararium::bake {
 namespace {
 
-// Coverage and colour are looked up with this many texels a side at most: light does
-// not see more.
+// Largest side of a texture for coverage and colour; light needs no finer detail.
 constexpr int kTextureSide = 512;
-// Cosine of the angle between normals up to which a seam is smooth.
+// A seam is smooth if the cosine of the angle between its normals is at least this.
 constexpr float kSmooth = 0.5f;
 
 float LinearFromSrgb(float c) {
@@ -64,7 +63,7 @@ struct PositionHash {
   }
 };
 
-// For each vertex the first one at its place whose normal is nearly its own.
+// For each vertex, the first one at its position with nearly the same normal.
 std::vector<uint32_t> FindSeams(const human::SkinnedMesh& mesh) {
   std::unordered_multimap<glm::vec3, uint32_t, PositionHash> firsts;
   std::vector<uint32_t> first(mesh.positions.size());
@@ -87,7 +86,7 @@ float AngleBetween(const glm::vec3& a, const glm::vec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Replaces normals where the triangles define one.
+// Replaces normals wherever the triangles define one.
 void RecomputeNormals(const std::vector<uint32_t>& seams, SurfaceMesh& mesh) {
   std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0.0f));
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
@@ -229,7 +228,7 @@ Result<PosableSurface> PosableSurface::Create(const human::Human& human) {
   return surface;
 }
 
-// All but where its vertices are.
+// The mesh without positions and normals.
 SurfaceMesh PosableSurface::Dressed(size_t index) const {
   const human::SkinnedMesh& source = human_->meshes[index];
   const SurfaceLook& look = looks_[index];

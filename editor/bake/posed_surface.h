@@ -1,6 +1,6 @@
 #pragma once
 
-// What light falls on: a person at a pose, or another model, as plain triangles.
+// The surfaces that receive light, as plain triangles: a posed person or another model.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -22,40 +22,40 @@ namespace lararium::bake {
 struct SurfaceMesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  // unit
-  std::vector<glm::vec3> albedo;   // linear, texture left out
-  std::vector<glm::vec2> uvs;      // of the texture, or empty
+  std::vector<glm::vec3> albedo;   // Linear, without the texture.
+  std::vector<glm::vec2> uvs;      // Texture coordinates, or empty.
   std::vector<uint32_t> indices;
-  cv::Mat texture;   // CV_32FC3, linear RGB; empty: none
-  cv::Mat coverage;  // CV_8UC1; empty: solid
-  // Its back can be seen: a sheet. The back of a closed surface never is.
+  cv::Mat texture;   // CV_32FC3, linear RGB; empty if there is none.
+  cv::Mat coverage;  // CV_8UC1; empty if the mesh is solid.
+  // The mesh is a sheet whose back can be visible; the back of a closed surface never is.
   bool two_sided = false;
-  glm::vec3 emission = glm::vec3(0.0f);  // radiance that it gives off by itself
+  glm::vec3 emission = glm::vec3(0.0f);  // Radiance that the surface emits.
 
   RayMesh ray_mesh() const { return {positions, indices, uvs, coverage}; }
-  // Albedo with texture between the corners of a triangle, and at a vertex.
+  // Albedo with texture, between the corners of a triangle or at a vertex.
   glm::vec3 AlbedoAt(uint32_t triangle, const glm::vec3& barycentric) const;
   glm::vec3 AlbedoAt(uint32_t vertex) const;
   glm::vec3 NormalAt(uint32_t triangle, const glm::vec3& barycentric) const;
 };
 
-// What rays meet of these meshes; RayHit::mesh is the index.
+// The ray scene of these meshes; `RayHit::mesh` is the index into `meshes`.
 Result<RayScene> RaysAt(std::span<const SurfaceMesh> meshes);
 
-// A copy moved by a rigid transform.
+// A copy of the mesh after a rigid transform.
 SurfaceMesh Moved(const glm::mat4& target_from_mesh, const SurfaceMesh& mesh);
 
-// What a material makes of a mesh.
+// How a material changes the appearance of a mesh.
 struct SurfaceLook {
-  cv::Mat texture;  // as SurfaceMesh has them
+  cv::Mat texture;  // The images have the formats of SurfaceMesh.
   cv::Mat coverage;
   bool two_sided = false;
-  glm::vec3 colour = glm::vec3(1.0f);  // multiplies the albedo of vertices
+  glm::vec3 colour = glm::vec3(1.0f);  // Multiplies the albedo of the vertices.
 };
 
-// The images of a model's materials, decoded once.
+// The decoded images of the materials of a model.
 class MaterialImages {
  public:
-  // materials must be valid and outlive this. Fails where a texture cannot be decoded.
+  // `materials` must be valid and outlive the object. Fails if a texture cannot be decoded.
   static Result<MaterialImages> Create(
       std::span<const std::shared_ptr<const human::Texture>> textures,
       std::span<const human::Material> materials,
@@ -68,24 +68,25 @@ class MaterialImages {
 
  private:
   std::span<const human::Material> materials_;
-  std::vector<cv::Mat> colours_;  // of each texture
-  std::vector<cv::Mat> alphas_;   // likewise
+  std::vector<cv::Mat> colours_;  // Indexed by texture.
+  std::vector<cv::Mat> alphas_;   // Indexed by texture.
 };
 
-// The meshes of all parts of a prop in a row, each in its part's frame. The prop must be valid.
+// All meshes of all parts of a prop in one list, each in the frame of its part. The prop must
+// be valid.
 Result<std::vector<SurfaceMesh>> SurfacesOf(const stage::Prop& prop);
 
-// Textures are decoded once and shared by the poses of a person.
+// The surface of a person at any pose. Textures are decoded once.
 class PosableSurface {
  public:
-  // The person must be valid and outlive this. Fails where a texture cannot be decoded.
+  // The person must be valid and outlive the object. Fails if a texture cannot be decoded.
   static Result<PosableSurface> Create(const human::Human& human);
 
-  // Parallel to Human::meshes. Normals are those of the posed triangles, weighted by
-  // angle (Thurmer & Wuthrich, "Computing Vertex Normals from Polygonal Facets", 1998)
-  // and shared across seams that are smooth in the bind pose.
+  // The result is parallel to `Human::meshes`. Normals are those of the posed triangles,
+  // weighted by angle (Thurmer & Wuthrich, "Computing Vertex Normals from Polygonal Facets",
+  // 1998) and shared across seams that are smooth in the bind pose.
   std::vector<SurfaceMesh> Pose(std::span<const glm::mat4> skin) const;
-  // One mesh where its vertices are these, actor frame.
+  // One mesh with the given vertices in the actor frame.
   SurfaceMesh PoseMesh(size_t mesh,
                        std::span<const glm::vec3> positions,
                        std::span<const glm::vec3> normals) const;
@@ -96,8 +97,8 @@ class PosableSurface {
   SurfaceMesh Dressed(size_t mesh) const;
 
   const human::Human* human_;
-  std::vector<SurfaceLook> looks_;            // of each mesh
-  std::vector<std::vector<uint32_t>> seams_;  // of each mesh: the first vertex that is the same
+  std::vector<SurfaceLook> looks_;            // Indexed by mesh.
+  std::vector<std::vector<uint32_t>> seams_;  // First equal vertex of each vertex.
 };
 
 }  // namespace lararium::bake

@@ -18,9 +18,9 @@ namespace lararium::bake {
 namespace {
 
 constexpr int kMaxWidth = 16384;
-// Negative texels down to this share of the mean are taken for ringing.
+// Negative texels up to this share of the mean in magnitude count as ringing.
 constexpr double kMaxRinging = 0.05;
-// Outdoors or by a window the brightest texel exceeds the mean many times over.
+// Outdoors or by a window the brightest texel exceeds the mean by a large factor.
 constexpr double kLowDynamicRange = 4.0;
 
 enum class Shape { kProbe, kAny };
@@ -46,7 +46,7 @@ Status CheckSize(const std::string& place, Shape shape, int64_t width, int64_t h
   return Status();
 }
 
-// The RGB channels of an OpenEXR file's data window.
+// Reads the RGB channels of the data window of an OpenEXR file.
 Result<ProbeImage> ReadExr(const std::filesystem::path& file, Shape shape) {
   try {
     Imf::InputFile input(file.c_str());
@@ -61,7 +61,7 @@ Result<ProbeImage> ReadExr(const std::filesystem::path& file, Shape shape) {
     for (int channel = 0; channel < 3; ++channel) {
       const Imf::Channel* found = input.header().channels().findChannel(names[channel]);
       if (found == nullptr || found->xSampling != 1 || found->ySampling != 1) {
-        return Status::Error(file.string(), std::string("no full channel '") + names[channel] + "'",
+        return Status::Error(file.string(), std::string("has no complete channel '") + names[channel] + "'",
                              "save the probe as plain RGB");
       }
       buffer.insert(names[channel], Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][channel], window,
@@ -93,7 +93,7 @@ bool IsFinite(const glm::vec3& texel) {
   return std::isfinite(texel.r) && std::isfinite(texel.g) && std::isfinite(texel.b);
 }
 
-// The mean of the eight neighbours that are finite; 0 where none is.
+// The mean of the finite ones among the eight neighbours; 0 if there are none.
 glm::vec3 MeanOfNeighbours(const ProbeImage& image, size_t index) {
   const int column = static_cast<int>(index % static_cast<size_t>(image.width));
   const int row = static_cast<int>(index / static_cast<size_t>(image.width));
@@ -112,7 +112,7 @@ glm::vec3 MeanOfNeighbours(const ProbeImage& image, size_t index) {
   return count > 0 ? sum / static_cast<float>(count) : sum;
 }
 
-// Infinite texels first, so that they are no holes.
+// Must run before holes are filled, so that infinite texels are not treated as holes.
 void MendOverflow(ProbeImage& image) {
   constexpr float kLargestHalf = 65504.0f;
   size_t count = 0;
@@ -160,7 +160,7 @@ Status MendHoles(ProbeImage& image, const std::string& place) {
   return Status();
 }
 
-// Over pixels and channels.
+// Mean over pixels and channels.
 double MeanRadiance(const ProbeImage& image) {
   double sum = 0.0;
   for (const glm::vec3& texel : image.pixels) {
@@ -175,7 +175,7 @@ Status ClampNegatives(ProbeImage& image, double mean, const std::string& place) 
     const float smallest = Smallest(image.pixels[i]);
     if (smallest < -kMaxRinging * mean) {
       return Status::Error(place, PixelName(image, i) + " is negative",
-                           "radiance cannot be; repair the image where it was made");
+                           "radiance cannot be negative; repair the image where it was made");
     }
     if (smallest < 0.0f) {
       image.pixels[i] = glm::max(image.pixels[i], glm::vec3(0.0f));
@@ -216,7 +216,7 @@ Result<ProbeImage> ReadByExtension(const std::filesystem::path& file, Shape shap
                            "merge a bracketed series of them: lararium-editor probe merge");
     }
   }
-  return Status::Error(file.string(), "not a kind of HDR image that is known here",
+  return Status::Error(file.string(), "is not an HDR image of a supported format",
                        "use OpenEXR (.exr) or Radiance (.hdr)");
 }
 
@@ -226,7 +226,7 @@ Result<ProbeImage> Read(const std::filesystem::path& file, Shape shape) {
   LARARIUM_RETURN_IF_ERROR(MendHoles(image, file.string()));
   const double mean = MeanRadiance(image);
   if (!(mean > 0.0)) {
-    return Status::Error(file.string(), "the probe is black", "use an image that holds light");
+    return Status::Error(file.string(), "the probe is black", "use an image that contains light");
   }
   LARARIUM_RETURN_IF_ERROR(ClampNegatives(image, mean, file.string()));
   WarnOfLowRange(image, mean);

@@ -10,10 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "shared/core/units.h"
+
 namespace lararium::bake {
 namespace {
 
-// Columns: the middle of two directions, their difference, and the normal of both.
+// Columns: the bisector of two directions, their difference, and the normal of their plane.
 glm::mat3 FrameOf(const glm::vec3& a, const glm::vec3& b) {
   const glm::vec3 middle = glm::normalize(a + b);
   const glm::vec3 across = glm::normalize(a - b);
@@ -58,13 +60,12 @@ glm::quat TurnedTo(const glm::quat& stage_from_probe,
   return glm::normalize(glm::angleAxis(angle, glm::vec3(0.0f, 1.0f, 0.0f)) * stage_from_probe);
 }
 
-// Two vectors of equal weight: the best rotation lays middle on middle and plane on plane.
+// For two vectors of equal weight the best rotation aligns the bisectors and the planes.
 Result<DirectionMatch> MatchDirections(const DirectionPair& first, const DirectionPair& second) {
   constexpr float kLeast = 0.0873f;
-  constexpr float kPi = std::numbers::pi_v<float>;
   const float in_probe = Angle(first.in_probe, second.in_probe);
   const float in_stage = Angle(first.in_stage, second.in_stage);
-  if (!(std::min(in_probe, in_stage) > kLeast && std::max(in_probe, in_stage) < kPi - kLeast)) {
+  if (!(std::min(in_probe, in_stage) > kLeast && std::max(in_probe, in_stage) < kPiF - kLeast)) {
     return Status::Error("directions of the probe",
                          "the two are nearly the same, or opposite to one another",
                          "choose two that are far apart");
@@ -79,7 +80,7 @@ Result<ScaleMatch> MatchScale(const light::ProbeLight& light, std::span<const Gr
   constexpr const char* kPlace = "grey surface";
   constexpr float kClipped = 0.98f;
   if (patches.empty()) {
-    return Status::Error(kPlace, "none was picked");
+    return Status::Error(kPlace, "no patch was picked");
   }
   glm::dvec3 sum(0.0);
   std::vector<glm::dvec3> logs;

@@ -24,18 +24,18 @@ namespace {
 using stage::ObjectModel;
 using stage::Pose;
 
-// A vertex of which so many rays meet the inside of something lies within it and is not seen,
-// but what it has would be spread over the triangles around it.
+// A vertex is buried if at least this share of its rays hits the inside of an object. It is not
+// visible, but its value would be interpolated over the triangles around it.
 constexpr float kBuried = 0.5f;
 constexpr int kSpreading = 8;  // passes
 
-// How the prop stands.
+// State of the prop at a key pose.
 struct KeyPose {
   std::vector<Pose> object_from_part;
   uint32_t shown = 0;  // bit i: part i
 };
 
-// Of each mesh in a row, its part.
+// For each mesh in the list of all meshes, its part.
 std::vector<uint32_t> PartsOfMeshes(const stage::Prop& prop) {
   std::vector<uint32_t> parts;
   for (uint32_t part = 0; part < prop.parts.size(); ++part) {
@@ -96,7 +96,7 @@ class PropBaker {
       : options_(options), parts_(PartsOfMeshes(prop)), surfaces_(std::move(surfaces)) {
     for (const stage::PropPart& part : prop.parts) {
       for (const stage::PropMesh& mesh : part.meshes) {
-        // A flame keeps no light off anything.
+        // A flame blocks no light.
         solid_.push_back(mesh.emission == glm::vec3(0.0f));
       }
     }
@@ -144,7 +144,7 @@ class PropBaker {
   }
 
  private:
-  // Buried vertices take the mean of their neighbours that are not.
+  // Gives buried vertices the mean of their neighbours that are not buried.
   void SpreadOverBuried(const TransferSites& sites, SolvedTransfer& solved) const {
     for (size_t m = 0; m < surfaces_.size(); ++m) {
       const size_t count = surfaces_[m].positions.size();
@@ -161,7 +161,7 @@ class PropBaker {
     }
   }
 
-  // What is not there at a key pose has the light of the first where it is.
+  // A mesh that is hidden at a key pose takes the light of the first pose that shows it.
   void CopyWhereHidden(size_t mesh) {
     const auto is_there = [&](uint32_t shown) { return (shown >> parts_[mesh] & 1u) != 0; };
     const auto found = std::find_if(shown_.begin(), shown_.end(), is_there);
@@ -184,10 +184,10 @@ class PropBaker {
   }
 
   const PropTransferOptions& options_;
-  std::vector<uint32_t> parts_;  // of each mesh
-  std::vector<bool> solid_;      // likewise
+  std::vector<uint32_t> parts_;  // Indexed by mesh.
+  std::vector<bool> solid_;      // Indexed by mesh.
   std::vector<SurfaceMesh> surfaces_;
-  std::vector<uint32_t> shown_;  // of each key pose
+  std::vector<uint32_t> shown_;  // Indexed by key pose.
   std::vector<TransferSites> sites_;
   std::vector<SolvedTransfer> solved_;
 };
@@ -219,7 +219,7 @@ Result<stage::Prop> BakePropTransfer(const ObjectModel& model, const PropTransfe
   LARARIUM_ASSIGN_OR_RETURN(std::vector<SurfaceMesh> surfaces, SurfacesOf(prop));
   const double area = AreaOf(surfaces);
   if (area <= 0.0) {
-    return prop;  // there is nothing to light
+    return prop;  // The prop has no surface.
   }
   prop.light.count = options.count;
   prop.light.bounces = options.bounces;

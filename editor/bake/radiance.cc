@@ -29,7 +29,8 @@ class Reader {
 
   Result<ProbeImage> Read() {
     LARARIUM_RETURN_IF_ERROR(ReadHeader());
-    // A pixel takes four bytes, and runs make at most 127 of two; less is no picture.
+    // A pixel takes four bytes, and a run of two bytes gives at most 127 of them; a shorter
+    // text cannot be a complete picture.
     const auto pixels = static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_);
     if (pixels > 64 * static_cast<uint64_t>(text_.size())) {
       return Damaged("it is too short for its size");
@@ -60,7 +61,7 @@ class Reader {
                                std::ldexp(1.0f, static_cast<int>(pixel[3]) - 136);
   }
 
-  // Up to the line's end, which is taken; nullopt without one.
+  // Takes the text up to the end of the line; nullopt if the line has no end.
   std::optional<std::string_view> Line() {
     const size_t end = text_.find('\n');
     if (end == std::string_view::npos) {
@@ -149,7 +150,8 @@ class Reader {
     return true;
   }
 
-  // Runs of one value (128 + length) and stretches of several (length).
+  // Reads runs of one value (code 128 + length) and sequences of different values (code =
+  // length).
   bool ReadChannel(size_t channel, std::vector<Pixel>& row) {
     for (size_t at = 0; at < row.size();) {
       const std::optional<uint8_t> code = Byte();
@@ -172,8 +174,8 @@ class Reader {
     return true;
   }
 
-  // Pixel after pixel; 1, 1, 1, n repeats the last one n times, and following ones of these
-  // are its higher digits.
+  // Reads pixel by pixel. The pixel 1, 1, 1, n repeats the previous one n times; immediately
+  // following repeat pixels give the higher digits of the count.
   bool ReadPlainRow(Pixel pixel, std::vector<Pixel>& row) {
     int shift = 0;
     for (size_t at = 0; at < row.size();) {
@@ -201,7 +203,7 @@ class Reader {
     return true;
   }
 
-  std::string_view text_;  // what is left
+  std::string_view text_;  // The text not yet read.
   const std::string& place_;
   int width_ = 0;
   int height_ = 0;

@@ -1,7 +1,8 @@
 #pragma once
 
-// Pictures of the Radiance lighting tools (.hdr): a byte of mantissa for each of red, green
-// and blue, and one of exponent for all three (Ward, "Real Pixels", Graphics Gems II, 1991).
+// Reads pictures of the Radiance lighting tools (.hdr). A pixel has one byte of mantissa for
+// each of red, green and blue, and a shared byte of exponent (Ward, "Real Pixels", Graphics
+// Gems II, 1991).
 
 #include <cstddef>
 #include <span>
@@ -12,8 +13,9 @@
 
 namespace lararium::bake {
 
-// The whole picture or an error. Linear, in the file's units; its EXPOSURE is left alone.
-// Rows from the top, columns from the left ("-Y height +X width"), as nearly all are.
+// Gives the complete picture or an error. Values are linear in the units of the file; EXPOSURE
+// is not applied. Supports rows from the top and columns from the left ("-Y height +X width"),
+// as nearly all files have.
 Result<ProbeImage> ParseRadiance(std::span<const std::byte> bytes, const std::string& place);
 
 }  // namespace lararium::bake

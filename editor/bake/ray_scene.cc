@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint8_t kSolid = 128;
 
-// What Embree keeps of a mesh that rays may pass through in places.
+// The data that Embree's filter needs for a mesh with coverage.
 struct Coverage {
   std::vector<glm::vec2> uvs;
   std::vector<uint32_t> indices;
@@ -29,7 +29,7 @@ struct Coverage {
   }
 };
 
-// Embree's filters see one ray at a time here: only single rays are cast.
+// Embree's filter gets one ray at a time here, because only single rays are cast.
 void PassWhereUncovered(const RTCFilterFunctionNArguments* arguments) {
   const auto* coverage = static_cast<const Coverage*>(arguments->geometryUserPtr);
   const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
@@ -92,7 +92,7 @@ bool RayScene::State::Add(const RayMesh& mesh) {
                               3 * sizeof(uint32_t), std::max<size_t>(mesh.indices.size() / 3, 1)));
   const bool made = positions != nullptr && indices != nullptr;
   if (made) {
-    // One triangle of no size keeps a mesh without any in its place.
+    // A degenerate triangle keeps the index of a mesh without triangles.
     positions[0] = glm::vec3(0.0f);
     std::fill_n(indices, 3, 0u);
     std::copy(mesh.positions.begin(), mesh.positions.end(), positions);
@@ -134,7 +134,7 @@ Result<RayScene> RayScene::Create(std::span<const RayMesh> meshes) {
     }
   }
   if (!anything) {
-    return Status::Error("ray casting", "there is no triangle to hit");
+    return Status::Error("ray casting", "the model has no triangles");
   }
   rtcCommitScene(state->scene);
   if (rtcGetDeviceError(state->device) != RTC_ERROR_NONE) {

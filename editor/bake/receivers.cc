@@ -10,7 +10,7 @@ namespace lararium::bake {
 namespace {
 
 constexpr float kOffSurface = 0.02f;  // metres
-// What opposite normals, or following quite another joint, count as in distance.
+// Distance that is added for opposite normals, or for following a different joint.
 constexpr float kNormalDistance = 0.15f;  // metres
 constexpr float kJointDistance = 0.15f;
 constexpr float kPartDistance = 1e3f;
@@ -20,7 +20,7 @@ struct SurfaceVertex {
   glm::vec3 normal = glm::vec3(0.0f);
   uint32_t mesh = 0;
   uint32_t vertex = 0;
-  uint32_t part = 0;  // of a prop
+  uint32_t part = 0;  // Part of a prop.
 };
 
 float Distance(const SurfaceVertex& a, const SurfaceVertex& b) {
@@ -54,8 +54,8 @@ std::vector<SurfaceVertex> Spread(const std::vector<SurfaceVertex>& all, size_t 
   return chosen;
 }
 
-// How much of a vertex follows a joint. human: none for a prop, whose parts are told apart
-// already.
+// The weight of a joint at a vertex. `human` is null for a prop, whose parts are separated
+// elsewhere.
 float WeightOf(const human::Human* human, const SurfaceVertex& at, uint32_t joint) {
   if (human == nullptr) {
     return 1.0f;
@@ -74,7 +74,7 @@ struct Near {
   float distance = std::numeric_limits<float>::max();
 };
 
-// The four nearest; the last is the farthest.
+// The four nearest receivers, then the fifth, which is the farthest.
 std::array<Near, 5> FindNearest(const human::Human* human,
                                 const SurfaceVertex& vertex,
                                 const std::vector<SurfaceVertex>& receivers,
@@ -95,8 +95,8 @@ std::array<Near, 5> FindNearest(const human::Human* human,
   return nearest;
 }
 
-// Falls to nothing at the fifth, so that what is near by takes over without a step. In
-// 1/255; rounding is made up for by the nearest.
+// Weights fall to zero at the distance of the fifth receiver, so that receivers change without
+// a step. In 1/255; the nearest receiver absorbs the rounding error.
 std::array<uint8_t, 4> WeighNearest(const std::array<Near, 5>& nearest) {
   const float reach = std::max(nearest[4].distance, 1e-6f);
   std::array<float, 4> weights = {};

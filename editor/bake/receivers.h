@@ -1,6 +1,6 @@
 #pragma once
 
-// Chooses where on a person or a thing the light left by blockers is worked out.
+// Chooses the points of a person or an object at which the light left by blockers is computed.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace lararium::bake {
 
-// At most count receivers, spread over the surface by farthest-point sampling in place
-// and normal (so that both sides of a sheet have theirs), each a little off it.
-// Then binds every vertex to the nearest of them, preferring those of its own joints and
-// side. rest: the meshes of the human in the bind pose.
+// Places at most `count` receivers by farthest-point sampling in position and normal (so that
+// both sides of a sheet have their own), each slightly above the surface. Then binds each
+// vertex to the nearest receiver and prefers receivers with the same joints and side. `rest`
+// holds the meshes of the human in the bind pose.
 void PlaceReceivers(std::span<const SurfaceMesh> rest,
                     const human::Human& human,
                     size_t count,
                     human::LightTransfer& transfer);
 
-// The same for a prop's meshes as they stand at rest, whose parts are given: each part has its
-// own receivers, and no vertex takes another's.
+// Does the same for the meshes of a prop at rest. `parts` holds the part of each mesh; a vertex
+// uses only receivers of its own part.
 void PlacePropReceivers(std::span<const SurfaceMesh> rest,
                         std::span<const uint32_t> parts,
                         size_t count,

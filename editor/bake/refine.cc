@@ -16,7 +16,7 @@ class Refiner {
  public:
   Refiner(float longest_edge, stage::PropMesh& mesh) : longest_(longest_edge), mesh_(mesh) {}
 
-  // False where it would take more vertices.
+  // False if more vertices would be needed.
   bool Run(size_t most_vertices) {
     std::vector<Triangle> left;
     for (size_t t = 0; t + 2 < mesh_.indices.size(); t += 3) {
@@ -36,9 +36,9 @@ class Refiner {
     return glm::distance(mesh_.positions[t[edge]], mesh_.positions[t[(edge + 1) % 3]]);
   }
 
-  // Halves its longest edge, so that triangles stay as round as they are (Rivara, "Mesh
-  // Refinement Processes Based on the Generalized Bisection of Simplices", 1984). In the end
-  // each edge that was too long is halved in all of its triangles.
+  // Halves the longest edge of a triangle, which preserves its shape (Rivara, "Mesh Refinement
+  // Processes Based on the Generalized Bisection of Simplices", 1984). At the end each edge
+  // that was too long is halved in all of its triangles.
   void Split(const Triangle& t, std::vector<Triangle>& left) {
     size_t edge = 0;
     for (size_t other = 1; other < 3; ++other) {

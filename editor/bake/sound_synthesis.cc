@@ -55,8 +55,8 @@ struct Biquad {
     return Make(hertz, q, alpha, 0.0, -alpha);
   }
 
-  // In place. A loop is filtered as if it had played for ever: its end is heard in its
-  // beginning.
+  // Filters in place. A loop is filtered as if it had played for ever, so that its end
+  // influences its beginning.
   void Run(Samples& samples, bool loops) const {
     double x1 = 0.0, x2 = 0.0, y1 = 0.0, y2 = 0.0;
     const auto step = [&](double x) {
@@ -94,7 +94,7 @@ double RmsOf(const Samples& samples) {
   return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
-// Adds something short; of a loop, over its end into its beginning.
+// Adds a short sound; in a loop, it continues over the end at the beginning.
 void AddAt(const Samples& event, double seconds, double gain, bool loops, Samples& samples) {
   const size_t begin = Frames(seconds);
   for (size_t i = 0; i < event.size(); ++i) {
@@ -117,7 +117,7 @@ void Scale(Samples& samples, double rms) {
   }
 }
 
-// Slow chance, 0 to 1, whose end meets its beginning.
+// Slow noise from 0 to 1 whose end meets its beginning.
 Samples Wandering(size_t frames, double hertz, Random& random) {
   const double seconds = static_cast<double>(frames) / kRate;
   const auto knots = std::max<size_t>(static_cast<size_t>(seconds * hertz), 2);
@@ -135,7 +135,7 @@ Samples Wandering(size_t frames, double hertz, Random& random) {
   return samples;
 }
 
-// A body that was struck: decaying tones.
+// A decaying tone of a body that was struck.
 struct Mode {
   double hertz;
   double decay;  // seconds to 1/e
@@ -153,7 +153,7 @@ Samples Strike(std::span<const Mode> modes, double seconds) {
   return samples;
 }
 
-// A brittle thing that breaks: a burst of noise in a band.
+// A brittle object that breaks: a burst of noise in a band.
 Samples Burst(double hertz, double q, double decay, Random& random) {
   Samples samples = WhiteNoise(Frames(8.0 * decay), random);
   for (size_t i = 0; i < samples.size(); ++i) {
@@ -169,7 +169,7 @@ Samples Reverberate(const Samples& dry, double seconds) {
   Samples sum(dry.size());
   const auto run = [&](const Samples& in, size_t delay, double gain, bool all_pass, Samples& out) {
     Samples line(delay);
-    for (int pass = 0; pass < 2; ++pass) {  // the first fills the lines
+    for (int pass = 0; pass < 2; ++pass) {  // The first pass fills the delay lines.
       for (size_t i = 0; i < in.size(); ++i) {
         double& slot = line[(i + static_cast<size_t>(pass) * in.size()) % delay];
         const double delayed = slot;
@@ -191,8 +191,8 @@ Samples Reverberate(const Samples& dry, double seconds) {
   return sum;
 }
 
-// A fire has a voice of three parts: it flutters, hisses and crackles (Farnell, Designing
-// Sound, MIT Press 2010, "Fire").
+// A fire has three components: it flutters, hisses and crackles (Farnell, Designing Sound, MIT
+// Press 2010, "Fire").
 Samples Brazier() {
   Random random(71);
   const size_t frames = Frames(12.0);
@@ -209,7 +209,7 @@ Samples Brazier() {
   for (size_t i = 0; i < frames; ++i) {
     fire[i] = 0.5 * (0.4 + 0.6 * draught[i]) * flutter[i] + 0.25 * std::pow(gas[i], 4.0) * hiss[i];
   }
-  // Splinters burst in clusters; the energy of breaking is spread over decades.
+  // Splinters burst in clusters; the energies of the bursts range over decades.
   for (double t = Wait(random, 2.2); t < 12.0; t += Wait(random, 2.2)) {
     double within = t;
     for (uint32_t left = 1 + random.Below(6); left > 0 && within < 12.0; --left) {
@@ -224,9 +224,9 @@ Samples Brazier() {
   return fire;
 }
 
-// Bubbles sing at the frequency of Minnaert (1933), 3.26 m/s over their radius for air in
-// water, damped and rising as in van den Doel, "Physically based models for liquid
-// sounds", ACM TAP 2005, equations 4 to 9.
+// A bubble rings at the frequency of Minnaert (1933), 3.26 m/s divided by its radius for air in
+// water, damped and rising as in van den Doel, "Physically based models for liquid sounds", ACM
+// TAP 2005, equations 4 to 9.
 Samples Bubble(double radius, double rise) {
   const double hertz = 3.26 / radius;
   const double damping = 0.13 / radius + 0.0072 * std::pow(radius, -1.5);
@@ -246,7 +246,7 @@ Samples Pour() {
   Samples pour(Frames(kSeconds));
   const Samples stream = Wandering(pour.size(), 6.0, random);
   for (double t = Wait(random, 260.0); t < kSeconds; t += Wait(random, 260.0)) {
-    // Small ones are many, large ones loud.
+    // Small bubbles are numerous, large ones loud.
     const double radius = LogUniform(random, 0.0004, 0.006) * std::pow(random.Uniform(), 0.3);
     const double gain = std::pow(std::max(radius, 0.0002) / 0.006, 1.3) * random.Uniform();
     const double depth = 0.3 + 0.7 * stream[Frames(t) % pour.size()];
@@ -263,7 +263,7 @@ Samples Pour() {
   return pour;
 }
 
-// Fired clay slides on clay, then is set down 0.3 s after the beginning.
+// A lid of fired clay slides on clay and is set down 0.3 s after the beginning.
 Samples Lid() {
   Random random(73);
   Samples lid(Frames(0.6));
@@ -288,7 +288,7 @@ Samples Lid() {
   return lid;
 }
 
-// A wooden hinge sticks and slips; then the leaf meets its frame.
+// A wooden hinge sticks and slips; then the door meets its frame.
 Samples Door() {
   Random random(74);
   Samples door(Frames(2.0));
@@ -299,7 +299,7 @@ Samples Door() {
                                             {2150.0, 0.006, 0.25}}};
   const Samples slip = Strike(kPlanks, 0.08);
   for (double t = 0.05; t < 1.6;) {
-    const double swing = std::sin(pi * (t - 0.05) / 1.55);  // the leaf's speed
+    const double swing = std::sin(pi * (t - 0.05) / 1.55);  // Speed of the door.
     AddAt(slip, t, swing * random.Uniform(0.5, 1.0), false, door);
     t += random.Uniform(0.85, 1.15) / (14.0 + 48.0 * swing);
   }
@@ -311,7 +311,7 @@ Samples Door() {
   return door;
 }
 
-// A pestle goes round in a stone mortar, once in two seconds: grains break under it.
+// A pestle circles in a stone mortar once in two seconds and breaks grains.
 Samples Grind() {
   Random random(75);
   constexpr double kSeconds = 2.0;
@@ -332,8 +332,8 @@ Samples Grind() {
   return grind;
 }
 
-// A syllable of nobody's language: glottal pulses through the formants of a vowel
-// (means of Peterson & Barney, JASA 1952, men; higher for smaller heads).
+// A syllable of an invented language: glottal pulses through the formants of a vowel (means of
+// Peterson & Barney, JASA 1952, men; higher for smaller heads).
 Samples Syllable(double pitch, double head, Random& random) {
   constexpr std::array<std::array<double, 3>, 6> kVowels = {{{730, 1090, 2440},
                                                              {530, 1840, 2480},
@@ -368,7 +368,7 @@ Samples Syllable(double pitch, double head, Random& random) {
   return syllable;
 }
 
-// People far away, somebody who walks by, and the air of a town.
+// Distant voices, a passer-by, and the background noise of a town.
 Samples Street() {
   Random random(76);
   constexpr double kSeconds = 24.0;
@@ -393,7 +393,7 @@ Samples Street() {
   Scale(street, 1.0);
   Scale(voices, 0.5);
   Add(voices, 1.0, street);
-  Biquad::LowPass(1800.0).Run(street, true);  // corners and distance
+  Biquad::LowPass(1800.0).Run(street, true);  // Corners and distance remove high frequencies.
   Samples steps(street.size());
   for (double t = 6.0; t < 12.0; t += random.Uniform(0.50, 0.56)) {
     const double near = std::sin(pi * (t - 6.0) / 6.0);
@@ -411,7 +411,7 @@ Samples Street() {
   return street;
 }
 
-// What is left when nobody speaks: air that moves, in a room that favours low tones.
+// The background of a quiet room: moving air, with the low tones emphasised by the room.
 Samples Room() {
   Random random(77);
   Samples room = WhiteNoise(Frames(10.0), random);

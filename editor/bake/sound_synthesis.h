@@ -1,11 +1,11 @@
 #pragma once
 
-// The sounds that every project has without anybody recording them, made of physics and
-// seeded chance; the same at every bake. A project's own file of the same name takes
-// their place.
+// The sounds that every project has without a recording, synthesised from physics and seeded
+// random numbers; every bake gives the same. A file of the same name in the project replaces
+// them.
 //
-// Levels are those of life, in the measure of voices, which are at -20 dB below full
-// scale: 0 dB is 80 dB of sound pressure at one metre.
+// Levels are realistic relative to voices, which are at -20 dB below full scale: 0 dB is 80 dB
+// of sound pressure at one metre.
 
 #include <span>
 #include <string_view>
@@ -17,13 +17,13 @@ namespace lararium::bake {
 struct BuiltInSound {
   std::string_view name;
   std::string_view what;
-  bool loops = false;  // its end goes on at its beginning without a seam
+  bool loops = false;  // The end continues at the beginning without a seam.
 };
 
-// brazier, door, grind, lid, pour, room, street.
+// The sounds brazier, door, grind, lid, pour, room and street.
 std::span<const BuiltInSound> BuiltInSounds();
 
-// CHECKs that there is one of that name. 48000 samples a second.
+// The sound of that name, at 48000 samples per second. CHECKs that it exists.
 Sound SynthesizeSound(std::string_view name);
 
 }  // namespace lararium::bake

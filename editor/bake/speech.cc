@@ -19,13 +19,13 @@ Sound SoundOf(const SpokenText& spoken) {
   return sound;
 }
 
-constexpr int kHighestRate = 48'000;  // of what is played
+constexpr int kHighestPlaybackRate = 48'000;  // Highest sample rate for playback.
 
 Result<std::vector<std::byte>> BakeRecording(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(Sound sound, ReadSound(file));
-  if (sound.rate > kHighestRate) {
-    sound.samples = Resample(sound.samples, sound.rate, kHighestRate);
-    sound.rate = kHighestRate;
+  if (sound.rate > kHighestPlaybackRate) {
+    sound.samples = Resample(sound.samples, sound.rate, kHighestPlaybackRate);
+    sound.rate = kHighestPlaybackRate;
   }
   return WriteFlac(sound);
 }

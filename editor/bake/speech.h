@@ -1,6 +1,6 @@
 #pragma once
 
-// A line of a drama as people hear it and mouths move for it.
+// Bakes the sound of a line and the mouth shapes that belong to it.
 
 #include <cstddef>
 #include <filesystem>
@@ -16,21 +16,23 @@ namespace lararium::bake {
 
 struct SpeechSource {
   std::string text;
-  std::string language;  // of the text, as espeak-ng calls it: la, it, en, ...
+  std::string language;  // Language of the text as espeak-ng names it: la, it, en, ...
   VoiceSettings voice;
-  std::filesystem::path recording = {};  // of the line; empty: it is synthesised
+  std::filesystem::path recording = {};  // Recording of the line; empty if it is synthesised.
 };
 
-// ID.wav, .flac, .ogg or .opus in a folder; nothing where there is none. Two are an error.
+// Finds ID.wav, .flac, .ogg or .opus in a folder; nullopt if there is none. Two files are an
+// error.
 Result<std::optional<std::filesystem::path>> FindRecording(const std::filesystem::path& folder,
                                                            const std::string& id);
 
-// FLAC. Deterministic. Synthesised voices are made equally loud; recordings stay as they are.
+// Gives a FLAC file. Deterministic. Normalises the loudness of synthesised voices; recordings
+// keep theirs.
 Result<std::vector<std::byte>> BakeSound(const SpeechSource& source);
 
-// From the same beginning as the sound, and as long: from what the synthesis said, or by
-// finding the text's sounds in the recording (speech_aligner.h), in English with the help of
-// its words (speech_words.h). Adds warnings.
+// Gives a track with the beginning and duration of the sound. The timing comes from the
+// synthesiser or, for a recording, from aligning the text with it (speech_aligner.h), in
+// English with the help of its words (speech_words.h). Appends to `warnings`.
 Result<human::VisemeTrack> BakeVisemes(const SpeechSource& source,
                                        std::vector<std::string>& warnings);
 

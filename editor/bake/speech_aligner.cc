@@ -16,27 +16,29 @@ namespace {
 constexpr int kThirds = 3;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// The model's constants (speech_aligner.h), by measuring on synthesised voices that differ
-// from the reference (tests/acceptance/speech_alignment.py).
+// The constants of the model (speech_aligner.h), tuned on synthesised voices that differ from
+// the reference (tests/acceptance/speech_alignment.py).
 constexpr float kWeight = 0.12f;      // w
 constexpr float kWorst = 4.0f;        // c
 constexpr float kSpread = 0.45f;      // s
 constexpr float kAdaptation = 12.0f;  // tau, frames
 constexpr int kRounds = 3;
-constexpr float kPauseCost = 6.0f;    // of one that the synthesis has not
-constexpr float kNoPauseCost = 2.0f;  // of leaving one out that it has
-constexpr float kWordSpread = 0.03f;  // seconds, of word times from elsewhere
-constexpr float kWordWorst = 18.0f;   // those may be wrong altogether
-constexpr int kShortest = 2;          // frames of a sound
-constexpr float kLongest = 5.0f;      // times what is expected
-constexpr double kBand = 2.0;         // seconds by which a boundary may be off a steady pace
-constexpr double kBandShare = 0.25;   // likewise, of the whole
+constexpr float kPauseCost = 6.0f;    // Cost of a pause that the synthesis lacks.
+constexpr float kNoPauseCost = 2.0f;  // Cost of omitting a pause of the synthesis.
+// Standard deviation in seconds of word times from another method.
+constexpr float kWordSpread = 0.03f;
+// Largest cost of such a time, because it may be completely wrong.
+constexpr float kWordWorst = 18.0f;
+constexpr int kShortest = 2;         // Shortest sound, in frames.
+constexpr float kLongest = 5.0f;     // Longest sound relative to its expected duration.
+constexpr double kBand = 2.0;        // Seconds by which a boundary may deviate from a steady pace.
+constexpr double kBandShare = 0.25;  // The same as a share of the whole.
 constexpr double kWidestBand = 10.0;
 constexpr float kSilence = 1e-4f;  // full scale 1
 
-// ---- what is aligned ----
+// ---- input ----
 
-// As loud as every other voice, with a hiss that makes all silences alike.
+// Normalises the voice and adds a faint hiss that makes all silences equal.
 std::vector<Features> Hear(const std::vector<float>& samples, int rate) {
   Sound sound{rate, samples};
   Normalize(sound);
@@ -48,7 +50,7 @@ std::vector<Features> Hear(const std::vector<float>& samples, int rate) {
   return ComputeFeatures(sound.samples, rate);
 }
 
-// Frames that are no pause: within 3 nepers (26 dB) of the loud ones.
+// Frames that belong to no pause: within 3 nepers (26 dB) of the loud ones.
 std::vector<bool> LoudFrames(const std::vector<Features>& frames) {
   std::vector<float> energies;
   for (const Features& frame : frames) {
@@ -63,7 +65,7 @@ std::vector<bool> LoudFrames(const std::vector<Features>& frames) {
   return is_loud;
 }
 
-// Mean 0 and deviation 1 over the loud frames.
+// Scales features to mean 0 and deviation 1 over the loud frames.
 void Standardise(const std::vector<bool>& is_loud, std::vector<Features>& frames) {
   for (size_t f = 0; f < kFeatureCount; ++f) {
     double sum = 0.0, squares = 0.0;
@@ -100,13 +102,13 @@ Voice Listen(const std::vector<float>& samples, int rate) {
 // ---- the model ----
 
 struct Segment {
-  std::string ipa;  // empty: a pause, which may be left out
+  std::string ipa;  // Empty for a pause, which is optional.
   int word = -1;
-  bool expected = true;  // a pause that the synthesis has
-  float frames = 0.0f;   // of the synthesis
-  double middle = 0.0;   // in the synthesis, seconds
+  bool expected = true;  // The synthesis has this pause.
+  float frames = 0.0f;   // Duration in the synthesis.
+  double middle = 0.0;   // Middle in the synthesis, seconds.
   std::array<Features, kThirds> means = {};
-  std::optional<int> begin;  // frame, where it is known from elsewhere
+  std::optional<int> begin;  // Frame, if another method gave it.
 };
 
 Features Mean(std::span<const Features> frames) {
@@ -119,7 +121,7 @@ Features Mean(std::span<const Features> frames) {
   return mean;
 }
 
-// A third of the frames [begin, end), at least one.
+// A third of the frames [begin, end), at least one frame.
 std::span<const Features> Third(std::span<const Features> frames, int begin, int end, int third) {
   const int count = end - begin;
   const int from = std::min(begin + third * count / kThirds, static_cast<int>(frames.size()) - 1);
@@ -178,7 +180,7 @@ void AnchorWords(const WordTimes& words, std::vector<Segment>& segments) {
   }
 }
 
-// What pauses sound like: the quietest twentieth of the recording.
+// The model of pauses: the mean of the quietest twentieth of the recording.
 Features QuietestFrames(const std::vector<Features>& frames) {
   std::vector<Features> sorted = frames;
   const auto count = std::max<std::ptrdiff_t>(std::ssize(sorted) / 20, 1);
@@ -198,7 +200,7 @@ float Cost(const Features& frame, const Features& mean) {
 
 // ---- dynamic programming ----
 
-// The cheapest boundaries of segments over a recording.
+// Finds the boundaries of segments in a recording with the least cost.
 class Search {
  public:
   Search(const std::vector<Segment>& segments,
@@ -217,7 +219,7 @@ class Search {
     band_ = FrameOf(std::min(std::max(kBand, kBandShare * seconds), kWidestBand));
   }
 
-  // Begin of each segment, and the end; empty where the text does not fit.
+  // Gives the begin of each segment, then the end; empty if the text does not fit.
   std::vector<int> Run() {
     cost_.assign(static_cast<size_t>(count_) + 1, kInfinity);
     cost_[0] = 0.0f;
@@ -236,7 +238,7 @@ class Search {
   }
 
  private:
-  // A pause is as long as it likes, or is not there.
+  // A pause has any length, or is absent.
   void PassPause(size_t i) {
     const bool expected = segments_[i].expected;
     float inside = kInfinity;
@@ -345,14 +347,15 @@ class Search {
   double stretch_ = 1.0;
   int band_ = 0;
   std::vector<double> quiet_sum_;
-  std::vector<float> cost_;  // of all segments so far, by where the last one ends
+  // Cost of all segments so far, by the frame at which the last one ends.
+  std::vector<float> cost_;
   std::vector<float> next_;
   std::vector<std::vector<int>> came_from_;
   std::array<std::vector<double>, kThirds> sums_;
   std::vector<float> lengths_;
 };
 
-// Moves the means of each kind of sound towards what was found.
+// Moves the means of each kind of sound towards the aligned frames.
 void Adapt(const std::vector<Features>& frames,
            const std::vector<int>& boundaries,
            const std::vector<std::array<Features, kThirds>>& first_means,
@@ -418,7 +421,7 @@ Result<std::vector<Phoneme>> AlignSpeech(const Sound& recording,
   for (const int16_t sample : reference.samples) {
     spoken.push_back(static_cast<float>(sample) / 32768.0f);
   }
-  // Both at one rate, so that both have the same bands.
+  // Both need the same sample rate to have the same bands.
   const int rate = std::min(recording.rate, reference.rate);
   const Voice reference_voice = Listen(Resample(spoken, reference.rate, rate), rate);
   const Voice voice = Listen(Resample(recording.samples, recording.rate, rate), rate);

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
+
+#include "shared/core/units.h"
 
 namespace lararium::bake {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 constexpr double kWindow = 0.025;       // seconds
 constexpr double kEnergyWindow = 0.01;  // seconds
 constexpr int kBands = 24;
@@ -16,12 +15,12 @@ constexpr int kCepstra = 12;
 constexpr double kLowest = 80.0;     // hertz
 constexpr double kHighest = 7200.0;  // hertz
 constexpr float kEmphasis = 0.97f;
-constexpr double kFloor = 1e-9;  // of energies: below the noise of 16 bits
+constexpr double kFloor = 1e-9;  // Floor of energies, below the noise of 16 bits.
 
 double MelOf(double hertz) { return 1127.0 * std::log1p(hertz / 700.0); }
 double HertzOf(double mel) { return 700.0 * std::expm1(mel / 1127.0); }
 
-// In place, of a power of two (Cooley & Tukey, 1965).
+// Fourier transform in place; the size is a power of two (Cooley & Tukey, 1965).
 void Transform(std::span<std::complex<double>> values) {
   const size_t n = values.size();
   for (size_t i = 1, j = 0; i < n; ++i) {
@@ -49,7 +48,7 @@ void Transform(std::span<std::complex<double>> values) {
   }
 }
 
-// Cepstra of one window after the other, with what all of them share.
+// Computes the cepstra of many windows with shared tables.
 class CepstrumMaker {
  public:
   explicit CepstrumMaker(int rate) : size_(static_cast<size_t>(std::lround(kWindow * rate))) {
@@ -72,7 +71,7 @@ class CepstrumMaker {
 
   size_t size() const { return size_; }
 
-  // begin may lie before the first sample and the end after the last: silence is there.
+  // `begin` may be before the first sample and the end after the last; samples outside are 0.
   void Compute(std::span<const float> samples, std::ptrdiff_t begin, Features& features) {
     std::fill(spectrum_.begin(), spectrum_.end(), 0.0);
     const auto sample = [&](std::ptrdiff_t i) {
@@ -112,7 +111,7 @@ class CepstrumMaker {
   size_t size_;
   std::vector<double> window_;
   std::vector<std::complex<double>> spectrum_;
-  std::array<double, kBands + 2> edges_ = {};  // of the bands, in points of the transform
+  std::array<double, kBands + 2> edges_ = {};  // Edges of the bands in points of the transform.
 };
 
 double LogEnergy(std::span<const float> samples, std::ptrdiff_t begin, std::ptrdiff_t count) {
@@ -164,8 +163,8 @@ std::vector<float> Resample(std::span<const float> samples, int rate, int new_ra
   }
   constexpr double kCrossings = 32.0;
   const double ratio = static_cast<double>(rate) / new_rate;
-  const double cut = std::min(1.0, 1.0 / ratio);  // of the old Nyquist frequency
-  const double reach = kCrossings / cut;          // old samples
+  const double cut = std::min(1.0, 1.0 / ratio);  // Relative to the old Nyquist frequency.
+  const double reach = kCrossings / cut;          // Old samples.
   std::vector<float> result(static_cast<size_t>(static_cast<double>(samples.size()) / ratio));
   for (size_t i = 0; i < result.size(); ++i) {
     const double at = static_cast<double>(i) * ratio;

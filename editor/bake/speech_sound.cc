@@ -19,7 +19,7 @@ constexpr double kMaxSeconds = 600.0;
 
 // A file in memory, as libsndfile reads and writes it.
 struct Memory {
-  std::span<const std::byte> source;  // read from
+  std::span<const std::byte> source;  // Bytes to read.
   std::vector<std::byte> written;
   sf_count_t at = 0;
 
@@ -74,7 +74,7 @@ Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& pla
   const SoundFile file(sf_open_virtual(&io, SFM_READ, &info, &memory), sf_close);
   if (file == nullptr) {
     return Status::Error(place,
-                         std::string("is no sound that can be read: ") + sf_strerror(nullptr),
+                         std::string("cannot be read as a sound: ") + sf_strerror(nullptr),
                          "save it as WAV, FLAC or Ogg");
   }
   if (info.samplerate < kLowestRate || info.samplerate > kHighestRate || info.channels < 1 ||
@@ -86,7 +86,7 @@ Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& pla
   sound.rate = info.samplerate;
   constexpr sf_count_t kBlock = 16384;  // frames
   std::vector<float> block(static_cast<size_t>(kBlock * info.channels));
-  // The header's count is not trusted: what is there is read.
+  // The count in the header is not trusted; read to the end of the data.
   while (true) {
     const sf_count_t frames = sf_readf_float(file.get(), block.data(), kBlock);
     for (sf_count_t i = 0; i < frames; ++i) {
@@ -105,7 +105,7 @@ Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& pla
     }
   }
   if (sound.samples.empty()) {
-    return Status::Error(place, "holds no sound", "record the line again");
+    return Status::Error(place, "contains no sound", "record the line again");
   }
   return sound;
 }
@@ -143,7 +143,7 @@ Result<std::vector<std::byte>> WriteFlac(const Sound& sound) {
 void Normalize(Sound& sound) {
   constexpr float kLevel = 0.1f;   // -20 dB
   constexpr float kPeak = 0.891f;  // -1 dB
-  constexpr float kQuiet = 0.01f;  // parts below -40 dB of the peak are pauses
+  constexpr float kQuiet = 0.01f;  // Parts below -40 dB of the peak are pauses.
   const size_t window = std::max<size_t>(static_cast<size_t>(sound.rate) / 50, 1);
   float peak = 0.0f;
   for (const float sample : sound.samples) {

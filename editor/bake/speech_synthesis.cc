@@ -19,9 +19,9 @@
 namespace lararium::bake {
 namespace {
 
-constexpr size_t kMaxText = 4000;              // bytes
-constexpr double kMaxSeconds = 300.0;          // longer ones are no line
-constexpr std::chrono::seconds kPatience(60);  // with the engine, which takes one or two
+constexpr size_t kMaxSynthesisText = 4000;              // bytes
+constexpr double kMaxSynthesisSeconds = 300.0;          // Longer speech is not accepted as a line.
+constexpr std::chrono::seconds kPatience(60);  // Time limit; the engine takes one or two seconds.
 
 // What the engine's callback collects.
 struct Collected {
@@ -29,15 +29,15 @@ struct Collected {
     bool is_word = false;
     std::string ipa;
     int64_t sample = 0;
-    int text_position = 0;  // of a word: its first character, from 1
-    int length = 0;         // of a word, characters
+    int text_position = 0;  // First character of a word, from 1.
+    int length = 0;         // Characters of a word.
   };
   std::vector<int16_t> samples;
   std::vector<Event> events;
   int rate = 0;
 };
 
-Collected* g_collected = nullptr;  // of the child
+Collected* g_collected = nullptr;  // Used only in the child process.
 
 int Collect(short* samples, int count, espeak_EVENT* events) {
   Collected& collected = *g_collected;
@@ -54,7 +54,7 @@ int Collect(short* samples, int count, espeak_EVENT* events) {
     }
   }
   const double seconds = static_cast<double>(collected.samples.size()) / collected.rate;
-  return seconds > kMaxSeconds ? 1 : 0;
+  return seconds > kMaxSynthesisSeconds ? 1 : 0;
 }
 
 enum class Outcome : int32_t { kSpoken, kNoEngine, kNoLanguage, kNoVariant };
@@ -64,7 +64,7 @@ Outcome SetVoice(const std::string& language, const VoiceSettings& voice) {
     return Outcome::kNoLanguage;
   }
   if (!voice.variant.empty()) {
-    // The engine takes any variant, and ignores those that it has not.
+    // The engine accepts any variant name and ignores unknown ones.
     const char* data = nullptr;
     espeak_Info(&data);
     const std::string file = std::string(data != nullptr ? data : "") + "/voices/!v/";
@@ -101,7 +101,7 @@ Outcome Speak(const std::string& text,
   return outcome;
 }
 
-// ---- from the child to the parent ----
+// ---- from the child process to its parent ----
 
 class Pipe {
  public:
@@ -149,7 +149,7 @@ class Pipe {
   bool good() const { return good_; }
 
  private:
-  // For something to take, or its end.
+  // Waits for data or for the end of the stream.
   bool Await() const {
     int found = -1;
     do {
@@ -182,7 +182,7 @@ void Send(Outcome outcome, const Collected& collected, Pipe pipe) {
   }
 }
 
-// False where the child did not live to tell.
+// False if the child ended before it sent everything.
 bool Receive(Pipe pipe, Outcome& outcome, Collected& collected) {
   outcome = pipe.Take<Outcome>();
   collected.rate = pipe.Take<int>();
@@ -200,14 +200,14 @@ bool Receive(Pipe pipe, Outcome& outcome, Collected& collected) {
   return pipe.good();
 }
 
-// In a process of its own: the engine remembers what it said before, down to the phase of
+// Runs in a separate process: the engine keeps state from earlier texts, down to the phase of
 // the voice, and cannot be started twice in one process.
 Result<Collected> SpeakApart(const std::string& text,
                              const std::string& language,
                              const VoiceSettings& voice) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) {
-    return Status::Error("espeak-ng", "cannot be started: no pipe is to be had");
+    return Status::Error("espeak-ng", "cannot be started: the system has no free pipe");
   }
   const pid_t child = ForkApart();
   if (child == 0) {
@@ -223,11 +223,11 @@ Result<Collected> SpeakApart(const std::string& text,
   const bool told = child > 0 && Receive(Pipe(ends[0]), outcome, collected);
   close(ends[0]);
   if (child > 0) {
-    kill(child, SIGKILL);  // it has told all that it had to, or never will
+    kill(child, SIGKILL);  // The child has sent everything, or never will.
     waitpid(child, nullptr, 0);
   }
   if (!told) {
-    return Status::Error("espeak-ng", "gives no answer for '" + text + "'", "try again");
+    return Status::Error("espeak-ng", "gave no answer for '" + text + "'", "try again");
   }
   if (outcome == Outcome::kNoEngine) {
     return Status::Error("espeak-ng", "cannot be started", "install espeak-ng-data");
@@ -243,7 +243,7 @@ Result<Collected> SpeakApart(const std::string& text,
   return collected;
 }
 
-// The characters [first, first + count) of a text, first from 0.
+// The characters [first, first + count) of a text; `first` counts from 0.
 std::string Characters(const std::string& text, int first, int count) {
   std::string part;
   int at = -1;
@@ -256,9 +256,9 @@ std::string Characters(const std::string& text, int first, int count) {
   return part;
 }
 
-// Sounds one after the other; the engine marks pauses within a sound (before the release
-// of a tap, between words said as one) by events without a name, which belong to what is
-// before them.
+// Joins events to consecutive sounds. The engine marks pauses within a sound (before the
+// release of a tap, between words said as one) by events without a name; they belong to the
+// previous sound.
 std::vector<Phoneme> JoinPhonemes(const std::string& text,
                                   const Collected& collected,
                                   std::vector<std::string>& words) {
@@ -307,7 +307,7 @@ Status VoiceSettings::Validate(const std::string& place) const {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   };
   if (variant.size() > 32 || !std::all_of(variant.begin(), variant.end(), is_plain)) {
-    return Status::Error(place, "\"variant\" is no name of a voice", "use m1 to m8 or f1 to f5");
+    return Status::Error(place, "\"variant\" is not the name of a voice", "use m1 to m8 or f1 to f5");
   }
   if (pitch < 0 || pitch > 99 || range < 0 || range > 99) {
     return Status::Error(place, "\"pitch\" and \"range\" must lie between 0 and 99");
@@ -322,7 +322,7 @@ Result<SpokenText> Synthesize(const std::string& text,
                               const std::string& language,
                               const VoiceSettings& voice) {
   LARARIUM_RETURN_IF_ERROR(voice.Validate("voice"));
-  if (text.size() > kMaxText) {
+  if (text.size() > kMaxSynthesisText) {
     return Status::Error("speech", "the text is longer than 4000 bytes", "split the line");
   }
   LARARIUM_ASSIGN_OR_RETURN(Collected collected, SpeakApart(text, language, voice));
@@ -334,7 +334,7 @@ Result<SpokenText> Synthesize(const std::string& text,
   if (silent) {
     return Status::Error("speech", "there is nothing to say in \"" + text + "\"");
   }
-  if (collected.samples.size() > static_cast<size_t>(kMaxSeconds * collected.rate)) {
+  if (collected.samples.size() > static_cast<size_t>(kMaxSynthesisSeconds * collected.rate)) {
     return Status::Error("speech", "the line lasts longer than five minutes", "split it");
   }
   spoken.samples = std::move(collected.samples);

@@ -10,7 +10,7 @@ namespace {
 
 using human::Viseme;
 
-// How a sign of the IPA shows.
+// The mouth shape of an IPA symbol.
 struct Shape {
   std::string_view ipa;
   Viseme viseme;
@@ -18,7 +18,7 @@ struct Shape {
   bool vowel;
 };
 
-// Longer signs first: the first that fits is taken.
+// Longer symbols first, because the first match is taken.
 constexpr std::array kShapes = {
     Shape{"tʃ", Viseme::kCH, 1.0f, false}, Shape{"dʒ", Viseme::kCH, 1.0f, false},
     Shape{"ts", Viseme::kSS, 1.0f, false}, Shape{"dz", Viseme::kSS, 1.0f, false},
@@ -62,8 +62,8 @@ constexpr std::array kShapes = {
 
 constexpr Shape kUnknown = {"", Viseme::kE, 0.5f, true};
 
-// The signs of one sound that show: "eː" is one, "aɪ" two. Marks of length, stress and
-// secondary articulation show nothing.
+// The visible symbols of one sound: "eː" is one, "aɪ" two. Marks of length, stress and
+// secondary articulation have no shape.
 std::vector<Shape> ShapesOf(std::string_view ipa) {
   std::vector<Shape> shapes;
   size_t at = 0;
@@ -76,13 +76,13 @@ std::vector<Shape> ShapesOf(std::string_view ipa) {
       shapes.push_back(*found);
       at += found->ipa.size();
     } else {
-      ++at;  // a byte of a mark
+      ++at;  // A byte of a mark.
     }
   }
   return shapes;
 }
 
-// Whether the sound is a breath that takes the next vowel's shape.
+// Says whether the sound is a breath that takes the shape of the next vowel.
 bool IsBreath(std::string_view ipa) { return ipa == "h" || ipa == "ɦ" || ipa == "ʔ" || ipa == "ʰ"; }
 
 Shape NextVowel(std::span<const Phoneme> following) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a mouth does for the sounds of a language.
+// Maps the sounds of a language to the shapes of a mouth.
 
 #include <span>
 
@@ -10,9 +10,9 @@
 namespace lararium::bake {
 
 // Each sound becomes the viseme of its place and manner of articulation (the fifteen of
-// shared/human/face.h); diphthongs become two, affricates one, and h takes the shape of the
-// vowel after it. Neighbours of one viseme are one key. Unstressed schwas are weak. Sounds
-// that are no IPA of ours are a half-open mouth.
+// shared/human/face.h). Diphthongs become two visemes, affricates one, and h takes the shape of
+// the vowel after it. Neighbours with the same viseme share a key. Unstressed schwas are weak.
+// Sounds outside the supported IPA symbols become a half-open mouth.
 human::VisemeTrack VisemesOf(std::span<const Phoneme> phonemes, double duration);
 
 }  // namespace lararium::bake

@@ -18,10 +18,10 @@
 namespace lararium::bake {
 namespace {
 
-constexpr int kRate = 16000;              // of the model
-constexpr double kFramesPerSecond = 100;  // likewise
+constexpr int kRate = 16000;              // Sample rate of the model.
+constexpr double kFramesPerSecond = 100;  // Frame rate of the model.
 
-// The model's sounds for those of English as espeak-ng writes them; longer signs first.
+// English sounds as espeak-ng writes them, and the model's names; longer symbols first.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 52> kPhones = {{
     {"tʃ", "CH"}, {"dʒ", "JH"}, {"aɪ", "AY"},   {"aʊ", "AW"},   {"eɪ", "EY"},   {"ɔɪ", "OY"},
     {"oʊ", "OW"}, {"əʊ", "OW"}, {"iə", "IY R"}, {"eə", "EH R"}, {"ʊə", "UH R"}, {"iː", "IY"},
@@ -50,7 +50,7 @@ std::string PhonesOf(std::string_view ipa) {
   return phones;
 }
 
-// Of a word, as espeak-ng said it.
+// Pronunciation of a word according to espeak-ng.
 std::string SpokenPhones(const SpokenText& reference, int word) {
   std::string phones;
   for (const Phoneme& phoneme : reference.phonemes) {
@@ -62,7 +62,7 @@ std::string SpokenPhones(const SpokenText& reference, int word) {
   return phones;
 }
 
-// The library's decoder, quiet.
+// Owns a pocketsphinx decoder without log output.
 class Decoder {
  public:
   Decoder() {
@@ -78,7 +78,7 @@ class Decoder {
   bool ok() const { return decoder_ != nullptr; }
   ps_decoder_t* get() { return decoder_.get(); }
 
-  // "w" and the index is a word of its own, so that none is found twice.
+  // Each word of the sentence is named "w" and its index, so that none is found twice.
   bool AddWord(const SpokenText& reference, size_t index) {
     std::string phones;
     if (char* known = ps_lookup_word(get(), LowerCase(reference.words[index]).c_str())) {
@@ -120,7 +120,7 @@ Result<WordTimes> FindEnglishWords(const Sound& recording, const SpokenText& ref
   }
   std::string grammar = "#JSGF V1.0;\ngrammar line;\npublic <line> =";
   for (size_t i = 0; i < reference.words.size(); ++i) {
-    // Of words that espeak-ng says as one with the next, nothing is known.
+    // The times of words that espeak-ng joins with the next one stay unknown.
     if (decoder.AddWord(reference, i)) {
       grammar += " w" + std::to_string(i);
     }
@@ -149,7 +149,7 @@ Result<WordTimes> FindEnglishWords(const Sound& recording, const SpokenText& ref
     }
   }
   if (found == 0) {
-    return Status::Error("pocketsphinx", "does not hear the line in its recording");
+    return Status::Error("pocketsphinx", "does not recognise the line in its recording");
   }
   return times;
 }

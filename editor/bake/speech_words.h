@@ -1,6 +1,6 @@
 #pragma once
 
-// When the words of an English recording begin, by pocketsphinx.
+// Finds when the words of an English recording begin, with pocketsphinx.
 
 #include "editor/bake/speech_aligner.h"
 #include "editor/bake/speech_sound.h"
@@ -9,9 +9,10 @@
 
 namespace lararium::bake {
 
-// Listens to the recording with a grammar that is the sentence: the words of `reference` in
-// their order, with pauses where there are any. Words have the dictionary's pronunciation, or
-// else that of espeak-ng. Fails where the model is not installed or the sentence is not heard.
+// Recognises the recording with a grammar that is exactly the sentence: the words of
+// `reference` in order, with optional pauses. Words have the pronunciation of the dictionary
+// or, if it lacks them, that of espeak-ng. Fails if the model is not installed or the sentence
+// is not recognised.
 Result<WordTimes> FindEnglishWords(const Sound& recording, const SpokenText& reference);
 
 }  // namespace lararium::bake

@@ -4,19 +4,18 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <span>
 #include <vector>
 
+#include "shared/core/units.h"
+
 namespace lararium::bake {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 constexpr int kSearchWidth = 512;
 constexpr double kWindow = light::kMaxSunRadius;
-constexpr double kAround = 2.0 * kWindow;    // the radiance about the sun is that up to here
-constexpr double kHeld = 0.98;               // share of the window's excess that the cap holds
-constexpr double kSmallestRadius = 0.00465;  // nothing out of doors is smaller and as bright
+constexpr double kAround = 2.0 * kWindow;  // The surrounding radiance is measured up to this angle.
+constexpr double kHeld = 0.98;             // Share of the window's excess that the cap contains.
+constexpr double kSmallestRadius = 0.00465;  // No outdoor source of this brightness is smaller.
 
 double Luminance(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
@@ -39,11 +38,11 @@ struct Texels {
 
 struct CapTexel {
   size_t index = 0;
-  double angle = 0.0;  // from the centre
+  double angle = 0.0;  // Angle from the centre.
   double solid_angle = 0.0;
 };
 
-// The texels whose centre lies within radius of a direction.
+// The texels whose centre is within `radius` of a direction.
 std::vector<CapTexel> Cap(const Texels& texels, const glm::dvec3& centre, double radius) {
   const double polar = std::acos(std::clamp(centre.y, -1.0, 1.0));
   const int first = std::max(0, static_cast<int>((polar - radius) / texels.side()) - 1);
@@ -64,7 +63,7 @@ std::vector<CapTexel> Cap(const Texels& texels, const glm::dvec3& centre, double
   return cap;
 }
 
-// The mean of the blocks of texels that make about kSearchWidth columns.
+// The direction of the brightest block of texels, with about kSearchWidth blocks in a row.
 glm::dvec3 BrightestDirection(const ProbeImage& image) {
   const int block = std::max(1, image.width / kSearchWidth);
   const Texels texels{image.width, image.height};
@@ -124,7 +123,7 @@ glm::dvec3 Centroid(const ProbeImage& image,
   return length > 0.0 ? sum / length : before;
 }
 
-// Of the irradiance of a surface that faces a direction.
+// Luminance of the irradiance of a surface that faces a direction.
 double FacingLuminance(const ProbeImage& image, const Texels& texels, const glm::dvec3& normal) {
   double sum = 0.0;
   for (int row = 0; row < image.height; ++row) {
@@ -142,8 +141,8 @@ double FacingLuminance(const ProbeImage& image, const Texels& texels, const glm:
   return sum;
 }
 
-// The angle within which lies kHeld of the window's excess, and a texel more, because the
-// outermost ones are covered in part. cap is sorted by angle.
+// The angle that contains kHeld of the window's excess, plus one texel, because the outermost
+// texels are partly covered. `cap` is sorted by angle.
 double HoldingRadius(const ProbeImage& image,
                      const Texels& texels,
                      std::span<const CapTexel> cap,
@@ -167,8 +166,8 @@ struct Source {
   double angular_radius = 0.0;
 };
 
-// What the cap of this radius sends beyond what is around it. An even disc of radius R has
-// a mean squared angle of R^2 / 2; a texel of side s adds s^2 / 6 to it.
+// Measures the radiance of the cap beyond its surroundings. A uniform disc of radius R has a
+// mean squared angle of R^2 / 2; a texel of side s adds s^2 / 6.
 Source Measure(const ProbeImage& image,
                const Texels& texels,
                std::span<const CapTexel> cap,

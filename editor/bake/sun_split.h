@@ -1,7 +1,7 @@
 #pragma once
 
-// Finds the sun of a probe's image and takes it out, so that harmonics hold the rest
-// without ringing and the sun casts shadows with edges.
+// Finds the sun in the image of a probe and removes it, so that spherical harmonics represent
+// the rest without ringing and the sun casts sharp shadows.
 
 #include <optional>
 
@@ -10,26 +10,26 @@
 
 namespace lararium::bake {
 
-// The share of a facing surface's irradiance from which on a compact source is a sun: what a
-// blurred shadow would miss of a weaker one is less than such a share of the light.
+// A compact source is a sun if it gives at least this share of the irradiance of a surface that
+// faces it. For a weaker source, a blurred shadow loses less than this share of the light.
 inline constexpr double kLeastSunShare = 0.08;
 
 struct SplitProbe {
-  ProbeImage sky;  // the image, the sun replaced by the radiance around it
-  // In the probe's axes, for the file's units.
+  ProbeImage sky;  // The image with the sun replaced by the radiance around it.
+  // In the axes of the probe and the units of the file.
   std::optional<light::Sun> sun;
-  // What was found at the brightest place, a sun or not.
+  // The brightest source, whether it is a sun or not.
   light::Sun brightest;
-  double share = 0.0;  // of the irradiance of a surface facing it, by luminance
+  double share = 0.0;  // Share of the irradiance (luminance) of a surface that faces `brightest`.
 };
 
-// The brightest texel (of the image brought to 512 columns, so that one hot pixel does not
-// win), centred, and the smallest cap about it that holds what lies within
-// kMaxSunRadius above the radiance around that. A source that fills a larger cap evenly, like
-// a window, has little above what is around it and stays in the sky.
+// Finds the brightest texel (of the image resampled to 512 columns, so that a single hot pixel
+// does not win), refines its centre, and takes the smallest cap about it that contains what
+// exceeds the surrounding radiance within kMaxSunRadius. A source that fills a larger cap
+// evenly, like a window, exceeds its surroundings little and stays in the sky.
 SplitProbe SplitSun(const ProbeImage& image);
 
-// The light of a probe in stage axes, its sun apart.
+// The light of a probe in stage axes, with its sun separate.
 light::ProbeLight ProjectProbeLight(const ProbeImage& image, const ProbePlacement& placement);
 
 }  // namespace lararium::bake

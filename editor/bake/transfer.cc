@@ -23,9 +23,9 @@ namespace lararium::bake {
 namespace {
 
 constexpr size_t kVerticesPerJob = 256;
-// A share of an even sky's light: where less arrives cloth touches cloth, or the body.
+// Share of the light of a uniform sky below which cloth touches cloth or the body.
 constexpr float kClosed = 0.01f;
-constexpr int kOpening = 3;  // rings of vertices
+constexpr int kOpening = 3;  // Rings of vertices.
 
 glm::mat3 Orthonormal(const glm::mat3& m) {
   const glm::vec3 x = glm::normalize(m[0]);
@@ -47,9 +47,9 @@ std::vector<glm::mat3> VertexRotations(const human::Human& human, std::span<cons
   return rotations;
 }
 
-// Cloth moves otherwise than in the key poses: a pocket that is closed in one of them may be open
-// when it is seen, and its black would lie over the triangles around it. Its rim takes the light of
-// what is around it.
+// Cloth moves differently from the key poses: a pocket that is closed in one of them may be
+// open in the show, and its black would spread over the triangles around it. So its vertices
+// take the light of their surroundings.
 void OpenPockets(const TransferSites& sites, SolvedTransfer& solved) {
   for (size_t m = 0; m < sites.meshes.size(); ++m) {
     for (const size_t first : {sites.first[m], sites.first_back[m]}) {
@@ -68,7 +68,7 @@ void OpenPockets(const TransferSites& sites, SolvedTransfer& solved) {
   }
 }
 
-// Turns the vectors of all fronts from the axes of the pose to those of the bind pose.
+// Rotates the vectors of all fronts from the axes of the pose to those of the bind pose.
 void TurnToBindPose(std::span<const glm::mat3> pose_from_bind, int count, SolvedTransfer& solved) {
   const size_t jobs = (pose_from_bind.size() + kVerticesPerJob - 1) / kVerticesPerJob;
   ParallelFor(jobs, [&](size_t job) {

@@ -15,10 +15,10 @@ namespace lararium::bake {
 namespace {
 
 constexpr int kMaxCount = light::kShCount;
-constexpr float kNear = 2e-4f;  // metres: where a ray leaves the surface that it starts from
+constexpr float kNear = 2e-4f;  // Metres by which a ray starts away from its surface.
 constexpr size_t kSitesPerJob = 64;
 
-// What a ray from a site met: the corners of a triangle, as sites, and their weights.
+// A hit of a ray from a site: the corners of the triangle, as sites, and their weights.
 struct Meeting {
   std::array<uint32_t, 3> corners = {};
   std::array<float, 3> weights = {};
@@ -82,7 +82,7 @@ class Solver {
         sum[i] += used[i];
       }
     }
-    // The directions' density is cosine / pi.
+    // The density of the directions is cosine / pi.
     const float each = std::numbers::pi_v<float> / static_cast<float>(solving_.rays);
     for (size_t i = 0; i < used.size(); ++i) {
       for (size_t channel = 0; channel < 3; ++channel) {
@@ -91,7 +91,7 @@ class Solver {
     }
   }
 
-  // Keeps for interreflection what a ray from a site met.
+  // Stores a hit of a ray from a site for the interreflections.
   void Meet(size_t site, const glm::vec3& direction, const RayHit& hit) {
     const bool behind = glm::dot(hit.face, direction) > 0.0f;
     const size_t first = behind ? sites_.first_back[hit.mesh] : sites_.first[hit.mesh];
@@ -112,7 +112,8 @@ class Solver {
     meetings_[site].push_back(meeting);
   }
 
-  // What arrives from the surfaces that its rays met, given what arrives there.
+  // Light reflected from the surfaces that the rays of a site hit, given the light arriving
+  // there.
   TransferVector GatherReflected(size_t site, const std::vector<TransferVector>& arriving) const {
     TransferVector sum = {};
     const auto count = static_cast<size_t>(solving_.count);
@@ -120,7 +121,7 @@ class Solver {
       for (size_t corner = 0; corner < 3; ++corner) {
         const uint32_t other = meeting.corners[corner];
         for (size_t channel = 0; channel < 3; ++channel) {
-          // Radiance albedo / pi, a density of cosine / pi: pi cancels.
+          // Radiance is albedo / pi and the density cosine / pi, so pi cancels.
           const float share = meeting.weights[corner] *
                               sites_.albedo[other][static_cast<int>(channel)] /
                               static_cast<float>(solving_.rays);
@@ -200,7 +201,8 @@ void SpreadTransfer(std::span<const uint32_t> indices,
 }
 
 glm::vec3 ShareOfEvenLight(const TransferVector& vector) {
-  // The first harmonic is a constant: of radiance 1 / that, pi / that arrives unshadowed.
+  // The first harmonic is a constant: for radiance 1 / that constant, the unshadowed irradiance
+  // is pi divided by it.
   const float first = light::EvaluateShBasis(glm::vec3(0.0f, 1.0f, 0.0f))[0];
   const glm::vec3 arrives(vector[0], vector[light::kShCount], vector[2 * light::kShCount]);
   return glm::clamp(arrives / (std::numbers::pi_v<float> * first), 0.0f, 1.0f);

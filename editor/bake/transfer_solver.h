@@ -1,7 +1,7 @@
 #pragma once
 
-// Light transfer at the vertices of surfaces that stand still (Sloan, Kautz & Snyder,
-// SIGGRAPH 2002): what people at a key pose and things in a state have in common.
+// Light transfer at the vertices of static surfaces (Sloan, Kautz & Snyder, SIGGRAPH 2002), for
+// people at a key pose and for objects in a state.
 
 #include <array>
 #include <cstddef>
@@ -15,22 +15,23 @@
 
 namespace lararium::bake {
 
-// One coefficient vector for each channel, [channel][light::kShCount].
+// One vector of coefficients for each channel, [channel][light::kShCount].
 using TransferVector = std::array<float, 3 * light::kShCount>;
 
-// Where light arrives: the vertices of all meshes in a row, and after them once more those of
-// two-sided meshes, seen from behind.
+// The sites that receive light: the vertices of all meshes in one list, then once more the
+// vertices of two-sided meshes, seen from behind.
 struct TransferSites {
   static constexpr size_t kNone = ~size_t{0};
 
   explicit TransferSites(std::vector<SurfaceMesh> surfaces);
 
   std::vector<SurfaceMesh> meshes;
-  std::vector<size_t> first;       // site of each mesh's first vertex
-  std::vector<size_t> first_back;  // of its back, or kNone
-  size_t fronts = 0;               // how many sites are not backs
+  std::vector<size_t> first;  // Site of the first vertex of each mesh.
+  // For each mesh, the site of the back of its first vertex, or kNone.
+  std::vector<size_t> first_back;
+  size_t fronts = 0;  // Number of sites that are not backs.
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  // of the side
+  std::vector<glm::vec3> normals;  // Normals of the side that the site is on.
   std::vector<glm::vec3> albedo;
 
   size_t size() const { return positions.size(); }
@@ -38,33 +39,34 @@ struct TransferSites {
 
 struct TransferSolving {
   int count = 16;   // coefficients: 9, 16, 25 or 36
-  int rays = 256;   // from each site
-  int bounces = 2;  // reflections between surfaces; 0: shadowed direct light alone
+  int rays = 256;   // Rays from each site.
+  int bounces = 2;  // Reflections between surfaces; 0 gives shadowed direct light only.
 };
 
 struct SolvedTransfer {
-  // Irradiance of each site for radiance given by each spherical harmonic, in the axes of the
-  // meshes.
+  // For each site, its irradiance for radiance given by each spherical harmonic, in the axes of
+  // the meshes.
   std::vector<TransferVector> vectors;
-  // Share of each site's rays that met the back of a one-sided surface: near 1 it lies inside
-  // of something.
+  // For each site, the share of its rays that hit the back of a one-sided surface; near 1 the
+  // site lies inside an object.
   std::vector<float> inside;
 };
 
-// The backs of one-sided surfaces reflect nothing. Deterministic, whatever the number of cores.
+// Backs of one-sided surfaces reflect nothing. Deterministic for any number of cores.
 SolvedTransfer SolveTransfer(const TransferSites& sites,
                              const RayScene& rays,
                              const TransferSolving& solving);
 
-// Marked vertices of a mesh take the mean of what their neighbours have that are not, and are not
-// marked any more; then their neighbours, in as many passes. Marks and vectors: one for each
-// vertex.
+// Gives each marked vertex of a mesh the mean of its unmarked neighbours and unmarks it, then
+// continues with their neighbours, at most `passes` times. `marks` and `vectors` have one entry
+// for each vertex.
 void SpreadTransfer(std::span<const uint32_t> indices,
                     int passes,
                     std::vector<bool> marks,
                     std::span<TransferVector> vectors);
 
-// The share of an even sky's light, for each channel, that arrives by a vector; from 0 to 1.
+// The share of the light of a uniform sky that arrives through a vector, per channel, from 0 to
+// 1.
 glm::vec3 ShareOfEvenLight(const TransferVector& vector);
 
 }  // namespace lararium::bake

@@ -6,7 +6,7 @@
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/bundle_writer.h"
 #include "shared/human/human.h"
-#include "shared/render/caption_font.h"
+#include "shared/render/text/caption_font.h"
 #include "shared/stage/caption_file.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/object_use.h"
@@ -20,12 +20,11 @@ namespace {
 
 constexpr char kDramaName[] = "drama.lua";
 
-// What goes into the file: the manifest, and members that borrow from the
-// content and from `made`.
+// The content of the file: the manifest, and members that refer to the content and to `made`.
 struct Packing {
   bundle::ShowManifest manifest;
   std::vector<bundle::MemberContent> members;
-  std::deque<std::vector<std::byte>> made;  // stay where they are
+  std::deque<std::vector<std::byte>> made;  // A deque keeps addresses stable.
 
   struct PackedProp {
     const std::vector<std::byte>* bytes = nullptr;
@@ -76,7 +75,7 @@ Status PackCast(const CastContent& content, size_t index, Packing& packing) {
   return Status();
 }
 
-// Objects of one model share its member.
+// Objects with the same model share its member.
 Status PackObject(const ObjectContent& content, size_t index, Packing& packing) {
   const std::string place = "object '" + content.name + "'";
   const auto same = std::find_if(
@@ -114,7 +113,7 @@ Status PackSpoken(const SpokenContent& content, size_t /*index*/, Packing& packi
   return Status();
 }
 
-// kind: "captions" or "descriptions". list: of the manifest.
+// `kind` is "captions" or "descriptions". `list` belongs to the manifest.
 Status PackTexts(const CaptionContent& content,
                  const std::string& kind,
                  std::vector<bundle::SpokenLanguage>& list,
@@ -169,7 +168,7 @@ Status PackParadata(const ExportContent& content, Packing& packing) {
   return Status();
 }
 
-// Packs the parts of one kind, one after the other.
+// Packs all parts of one kind.
 template <typename Content>
 Status PackAll(const std::vector<Content>& contents,
                Status (*pack)(const Content&, size_t, Packing&),

@@ -1,6 +1,6 @@
 #pragma once
 
-// Packs what visitors need of a project into a bundle.
+// Packs the parts of a project that visitors need into a bundle.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,38 +17,38 @@
 namespace lararium::exporter {
 
 struct PlaceContent {
-  stage::Place place;                    // with its occluders' meshes
-  std::vector<std::byte> scene;          // a serialised scene database (.larscene)
-  std::vector<light::GlossyMap> glossy;  // of each of the place's probes; may be empty
+  stage::Place place;                    // Includes the meshes of its occluders.
+  std::vector<std::byte> scene;          // A serialised scene database (.larscene).
+  std::vector<light::GlossyMap> glossy;  // One map for each probe of the place; may be empty.
 };
 
 struct CastContent {
   std::string name;
-  std::vector<std::byte> human;  // a serialised human (.larhuman)
+  std::vector<std::byte> human;  // A serialised human (.larhuman).
 };
 
 struct ObjectContent {
   std::string name;
-  std::vector<std::byte> prop;  // a serialised prop (.larprop)
+  std::vector<std::byte> prop;  // A serialised prop (.larprop).
   geometry::Rigid3 stage_from_object;
 };
 
-// A line as it is said in one language.
+// A line spoken in one language.
 struct SpokenContent {
-  std::string line;  // its id
+  std::string line;  // Id of the line.
   std::string speaker;
   std::string language;
-  std::string visemes;           // JSON: stage::ParseVisemes
-  std::vector<std::byte> sound;  // FLAC; empty: nothing is heard
+  std::string visemes;           // JSON, read by stage::ParseVisemes.
+  std::vector<std::byte> sound;  // FLAC; empty if the line has no sound.
 };
 
-// What is to be read while lines are said in one language.
+// The captions while lines are spoken in one language.
 struct CaptionContent {
-  std::string language;  // that is spoken
-  std::string captions;  // JSON: stage::ParseCaptions
+  std::string language;  // The spoken language.
+  std::string captions;  // JSON, read by stage::ParseCaptions.
 };
 
-// Everything that goes into a bundle, as plain data.
+// All content of a bundle as plain data.
 struct ExportContent {
   std::string title;
   std::string credits;
@@ -57,18 +57,20 @@ struct ExportContent {
   std::vector<CastContent> cast;
   std::vector<ObjectContent> objects;
   std::vector<SpokenContent> lines;
-  std::vector<CaptionContent> spoken;        // the first unless another is asked for
-  std::vector<CaptionContent> descriptions;  // of what is described, in each language
-  std::vector<std::string> captions;         // languages, likewise
-  std::string caption_metrics;               // JSON: render::ParseCaptionFont; empty: no captions
-  std::vector<std::byte> caption_atlas;      // PNG
+  std::vector<CaptionContent> spoken;  // The first is the default.
+  // The languages of audio descriptions and their captions; the first is the default.
+  std::vector<CaptionContent> descriptions;
+  std::vector<std::string> captions;  // Languages of captions; the first is the default.
+  // JSON, read by render::ParseCaptionFont; empty if there are no captions.
+  std::string caption_metrics;
+  std::vector<std::byte> caption_atlas;  // PNG
   std::vector<audio::SoundData> sounds;
-  std::string paradata;  // JSON: stage::ParseParadata; empty: none
+  std::string paradata;  // JSON, read by stage::ParseParadata; empty if there are none.
 };
 
-// Checks the parts with the player's own parsers, writes the bundle, and opens it
-// again as the player would. key: signs it. On failure a file that was there before is left as
-// it was.
+// Checks the parts with the parsers of the player, writes the bundle, and opens it again as the
+// player does. If `key` is given, it signs the bundle. On failure an existing file stays
+// unchanged.
 Status ExportBundle(const ExportContent& content,
                     const std::filesystem::path& path,
                     Progress& progress,

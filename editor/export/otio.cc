@@ -21,7 +21,7 @@ Json Range(int64_t begin, int64_t length) {
   return {{"OTIO_SCHEMA", "TimeRange.1"}, {"start_time", Time(begin)}, {"duration", Time(length)}};
 }
 
-// What all items have.
+// The fields that all items have.
 Json Item(const char* schema, const std::string& name) {
   return {{"OTIO_SCHEMA", schema},     {"name", name},
           {"source_range", nullptr},   {"effects", Json::array()},
@@ -68,7 +68,7 @@ Json Clip(const TimelineBlock& block, int64_t length) {
 // A track that is being filled from its beginning.
 struct OpenTrack {
   Json json;
-  int64_t end = 0;  // of what is on it
+  int64_t end = 0;  // End of the last block on it.
 };
 
 OpenTrack BeginTrack(const TimelineTrack& track, size_t number) {
@@ -92,7 +92,7 @@ void Append(const TimelineBlock& block, OpenTrack& track) {
   track.end = begin + length;
 }
 
-// One after the other on the first track that is free.
+// Appends blocks in sequence, each to the first free track.
 void AppendTracks(const TimelineTrack& track, Json& children) {
   std::vector<const TimelineBlock*> blocks;
   for (const TimelineBlock& block : track.blocks) {

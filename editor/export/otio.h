@@ -1,7 +1,7 @@
 #pragma once
 
-// A drama's timeline for other programs: OpenTimelineIO's JSON (schemas of 0.15: Timeline.1,
-// Stack.1, Track.1, Clip.2, Gap.1, Marker.2, TimeRange.1, RationalTime.1,
+// Writes the timeline of a drama for other programs as OpenTimelineIO JSON (schemas of 0.15:
+// Timeline.1, Stack.1, Track.1, Clip.2, Gap.1, Marker.2, TimeRange.1, RationalTime.1,
 // ExternalReference.1, MissingReference.1).
 
 #include <string>
@@ -11,30 +11,30 @@
 
 namespace lararium::exporter {
 
-// Something that lasts, or a moment.
+// An item with a duration, or a moment.
 struct TimelineBlock {
   std::string name;
-  double begin = 0.0;  // seconds of the drama
-  double end = 0.0;    // not above begin: a moment
+  double begin = 0.0;  // Seconds of the drama.
+  double end = 0.0;    // Seconds; a moment if it is not after `begin`.
   Json metadata = Json::object();
-  std::string media = {};      // relative to the project; empty: there is none
-  double media_seconds = 0.0;  // how long that is; 0: not known
+  std::string media = {};      // Path relative to the project; empty if there is none.
+  double media_seconds = 0.0;  // Duration of the media; 0 if it is unknown.
 };
 
 struct TimelineTrack {
   std::string name;
   bool audio = false;
-  std::vector<TimelineBlock> blocks;  // in any order
+  std::vector<TimelineBlock> blocks;  // Any order.
 };
 
 struct ShowTimeline {
   std::string title;
   std::vector<TimelineTrack> tracks;
-  std::vector<TimelineBlock> markers;  // of all
+  std::vector<TimelineBlock> markers;  // Markers of the complete timeline.
 };
 
-// Times are whole ticks, of 120 a second. What would overlap on a track goes to a further
-// one of its name. Moments are markers of their track.
+// Rounds times to ticks of 1/120 s. Items that would overlap on a track go to an additional
+// track of the same name. Moments become markers of their track.
 Json FormatOtio(const ShowTimeline& timeline);
 
 }  // namespace lararium::exporter

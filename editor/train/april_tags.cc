@@ -20,6 +20,7 @@
 #include <optional>
 
 #include "shared/core/parallel.h"
+#include "shared/core/units.h"
 #include "shared/geometry/triangulation.h"
 
 namespace lararium::train {
@@ -30,18 +31,18 @@ using Eigen::Vector3d;
 using geometry::Rigid3;
 using vision::Keyframe;
 using vision::SceneDatabase;
+constexpr double kMinAngle =
+    2.0 * kRadiansPerDegree;            // Minimum of the widest angle between two views.
+constexpr double kInlierPixels = 2.0;   // Largest RMS error of the corners in an agreeing view.
+constexpr double kCornerPixels = 0.05;  // Smallest assumed standard deviation of a corner.
+constexpr float kMinDecisionMargin =
+    20.0f;                                 // Mean grey-level difference between bits and threshold.
+constexpr size_t kMaxPairs = 300;          // Maximum number of view pairs tried as hypotheses.
+constexpr size_t kDetectors = 16;          // Number of keyframes searched in parallel.
+constexpr double kMaxDisagreement = 0.05;  // Relative deviation of a tag's scale from the median.
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMinAngle = 2.0 * kDegree;  // between the views farthest apart
-constexpr double kInlierPixels = 2.0;        // of a view's corners, root mean square
-constexpr double kCornerPixels = 0.05;       // corners are not better than this
-constexpr float kMinDecisionMargin = 20.0f;  // grey levels between a bit and its threshold
-constexpr size_t kMaxPairs = 300;            // of views that are tried as a start
-constexpr size_t kDetectors = 16;            // keyframes looked at side by side
-constexpr double kMaxDisagreement = 0.05;    // of one tag from the middle of three or more
-
-// A family's constructor and destructor, and how many wrong bits may be mended:
-// none where codes lie close to each other or the table of mended ones is huge.
+// A family's constructor and destructor, and the number of wrong bits that may be corrected: none
+// if the codes are close to each other or if the table of corrected codes would be huge.
 struct FamilyEntry {
   std::string_view name;
   apriltag_family_t* (*create)();
@@ -78,7 +79,7 @@ Status Problem(std::string_view problem, std::string_view remedy) {
 
 // ------------------------------------------------------------ detection
 
-// A tag in one keyframe; corners in raw pixels, in the same order in every view.
+// A tag in one keyframe. Corners are in raw pixels and in the same order in every view.
 struct TagView {
   int id = 0;
   uint32_t keyframe = 0;
@@ -86,8 +87,8 @@ struct TagView {
   std::array<Vector2d, 4> pixels;
 };
 
-// The library's detectors share the families: their tables of codes may be large,
-// and are only read while they detect.
+// The library's detectors share the families, because their code tables may be large and are only
+// read during detection.
 class TagDetector {
  public:
   explicit TagDetector(std::span<const FamilyEntry> entries) {
@@ -97,7 +98,7 @@ class TagDetector {
     for (size_t i = 0; i < kDetectors; ++i) {
       detectors_.emplace_back(apriltag_detector_create(), apriltag_detector_destroy);
       apriltag_detector_t& detector = *detectors_.back();
-      detector.nthreads = 1;  // keyframes are shared out among threads, not their rows
+      detector.nthreads = 1;  // Whole keyframes are distributed over threads instead.
       detector.quad_decimate = 1.0f;
       detector.refine_edges = true;
       for (size_t f = 0; f < entries.size(); ++f) {
@@ -106,7 +107,7 @@ class TagDetector {
     }
   }
 
-  // In every step-th keyframe. In the order of the keyframes, then of the ids.
+  // Detects tags in every step-th keyframe. Ordered by keyframe, then by id.
   std::vector<TagView> Detect(const SceneDatabase& database, size_t step = 1) const {
     std::vector<std::vector<TagView>> found((database.keyframes.size() + step - 1) / step);
     ParallelFor(kDetectors, [&](size_t d) {
@@ -141,7 +142,7 @@ class TagDetector {
       }
       TagView view{detection->id, keyframe, detection->family->name, {}};
       for (size_t c = 0; c < 4; ++c) {
-        // The library's pixel (0, 0) is the corner of the first pixel.
+        // In the library, (0, 0) is the corner of the first pixel and not its centre.
         view.pixels[c] = {detection->p[c][0] - 0.5, detection->p[c][1] - 0.5};
       }
       views.push_back(view);
@@ -158,14 +159,15 @@ class TagDetector {
 
 // ------------------------------------------------------------ triangulation
 
-using Corners = std::array<Vector3d, 4>;
+using TagCorners = std::array<Vector3d, 4>;
 
-std::optional<Corners> Triangulate(std::span<const TagView> views, const SceneDatabase& database) {
+std::optional<TagCorners> Triangulate(std::span<const TagView> views,
+                                      const SceneDatabase& database) {
   std::vector<Rigid3> cameras;
   for (const TagView& view : views) {
     cameras.push_back(database.keyframes[view.keyframe].camera_from_map);
   }
-  Corners corners;
+  TagCorners corners;
   std::vector<Vector2d> plane(views.size());
   for (size_t c = 0; c < 4; ++c) {
     for (size_t v = 0; v < views.size(); ++v) {
@@ -180,8 +182,8 @@ std::optional<Corners> Triangulate(std::span<const TagView> views, const SceneDa
   return corners;
 }
 
-// Sum over the four corners of squared distances in pixels; infinite behind the camera.
-double SquaredError(const TagView& view, const Corners& corners, const SceneDatabase& database) {
+// Sum of the squared reprojection errors of the four corners, pixels^2; infinite behind the camera.
+double SquaredError(const TagView& view, const TagCorners& corners, const SceneDatabase& database) {
   const Rigid3& camera_from_map = database.keyframes[view.keyframe].camera_from_map;
   double sum = 0.0;
   for (size_t c = 0; c < 4; ++c) {
@@ -193,7 +195,7 @@ double SquaredError(const TagView& view, const Corners& corners, const SceneData
 }
 
 std::vector<TagView> Agreeing(std::span<const TagView> views,
-                              const Corners& corners,
+                              const TagCorners& corners,
                               const SceneDatabase& database) {
   std::vector<TagView> agreeing;
   for (const TagView& view : views) {
@@ -204,8 +206,8 @@ std::vector<TagView> Agreeing(std::span<const TagView> views,
   return agreeing;
 }
 
-// The largest set of views that agree with the tag as two of them see it: wrong
-// detections and a second tag of the same id stay out.
+// The largest set of views that agree with the tag as triangulated from two of them. This excludes
+// wrong detections and a second tag with the same id.
 std::vector<TagView> FindConsensus(std::span<const TagView> views, const SceneDatabase& database) {
   std::vector<TagView> best;
   const size_t pairs = views.size() * (views.size() - 1) / 2;
@@ -217,7 +219,7 @@ std::vector<TagView> FindConsensus(std::span<const TagView> views, const SceneDa
         continue;
       }
       const std::array<TagView, 2> both = {views[a], views[b]};
-      if (const std::optional<Corners> corners = Triangulate(both, database)) {
+      if (const std::optional<TagCorners> corners = Triangulate(both, database)) {
         std::vector<TagView> agreeing = Agreeing(views, *corners, database);
         if (agreeing.size() > best.size()) {
           best = std::move(agreeing);
@@ -245,7 +247,7 @@ double WidestAngle(std::span<const TagView> views,
 
 // ------------------------------------------------------------ lengths
 
-// Covariance of a triangulated point whose pixels scatter by deviation_px.
+// Covariance of a triangulated point whose pixels have the standard deviation deviation_px.
 Eigen::Matrix3d PointCovariance(const Vector3d& point,
                                 std::span<const TagView> views,
                                 const SceneDatabase& database,
@@ -264,7 +266,7 @@ Eigen::Matrix3d PointCovariance(const Vector3d& point,
   return information.ldlt().solve(Eigen::Matrix3d::Identity());
 }
 
-// The four sides and the two diagonals: corners, and length over the side.
+// A side or a diagonal of the square: indices of its corners, and its length in sides.
 struct Segment {
   size_t from;
   size_t to;
@@ -277,9 +279,9 @@ constexpr std::array<Segment, 6> kSegments = {{{0, 1, 1.0},
                                                {0, 2, std::numbers::sqrt2},
                                                {1, 3, std::numbers::sqrt2}}};
 
-// The side of the square in map units by least squares over the six segments,
-// each weighed by how well it is known, and the standard deviation of it.
-std::pair<double, double> SideLength(const Corners& corners,
+// The side of the square in map units, and its standard deviation, by least squares over the six
+// segments, weighted by their variances.
+std::pair<double, double> SideLength(const TagCorners& corners,
                                      const std::array<Eigen::Matrix3d, 4>& covariance) {
   double information = 0.0;
   double side = 0.0;
@@ -302,7 +304,7 @@ std::pair<double, double> SideLength(const Corners& corners,
   return {side / information, std::sqrt(variance) / information};
 }
 
-// The measured tag, or why it is left out.
+// Measures a tag; the error says why it is left out.
 Result<TagReport> MeasureTag(std::span<const TagView> all,
                              const SceneDatabase& database,
                              double size_m) {
@@ -311,7 +313,7 @@ Result<TagReport> MeasureTag(std::span<const TagView> all,
     return Problem(name + " is seen in one keyframe only", "film it from several places");
   }
   std::vector<TagView> views = FindConsensus(all, database);
-  std::optional<Corners> corners;
+  std::optional<TagCorners> corners;
   if (views.size() >= 2) {
     corners = Triangulate(views, database);
   }
@@ -334,7 +336,7 @@ Result<TagReport> MeasureTag(std::span<const TagView> all,
   }
   const double count = static_cast<double>(views.size());
   report.error_px = std::sqrt(sum / (4.0 * count));
-  // Twelve of the eight coordinates in each view went into the corners.
+  // The views give eight coordinates each; twelve degrees of freedom are used by the corners.
   const double deviation_px = std::max(std::sqrt(sum / (8.0 * count - 12.0)), kCornerPixels);
   std::array<Eigen::Matrix3d, 4> covariance;
   for (size_t c = 0; c < 4; ++c) {
@@ -348,7 +350,7 @@ Result<TagReport> MeasureTag(std::span<const TagView> all,
 
 // ------------------------------------------------------------ all tags together
 
-// Moves tags that are of another size than most to scale.left_out.
+// Moves tags whose size differs from most others to scale.left_out.
 void LeaveOutStrangers(TagScale& scale) {
   if (scale.tags.size() < 3) {
     return;
@@ -364,15 +366,16 @@ void LeaveOutStrangers(TagScale& scale) {
     const double off = std::abs(tag.metres_per_unit / median - 1.0);
     const bool strange = off > std::max(kMaxDisagreement, 5.0 * tag.deviation);
     if (strange) {
-      scale.left_out.push_back("tag " + std::to_string(tag.id) + " is of another size than most");
+      scale.left_out.push_back("tag " + std::to_string(tag.id) +
+                               " differs in size from most other tags");
     }
     return strange;
   });
 }
 
-// The mean weighed by variance; where tags disagree by more than their own
-// deviations, the result's grows in proportion (Birge, "The Calculation of Errors
-// by the Method of Least Squares", Physical Review 1932).
+// The mean weighted by the inverse variances. If the tags disagree by more than their deviations,
+// the deviation of the result grows in proportion (Birge, "The Calculation of Errors by the Method
+// of Least Squares", Physical Review 1932).
 void Combine(double size_m, TagScale& scale) {
   double information = 0.0;
   double sum = 0.0;
@@ -398,7 +401,7 @@ void Combine(double size_m, TagScale& scale) {
   scale.spread = std::sqrt(squares / (count * static_cast<double>(kSegments.size())));
 }
 
-// No tag of the family was found: says whether there are others.
+// The error if no tag of the family was found; it says whether there are tags of other families.
 Status NothingFound(const SceneDatabase& database, const TagOptions& options) {
   const bool any_image =
       std::any_of(database.keyframes.begin(), database.keyframes.end(),
@@ -406,7 +409,7 @@ Status NothingFound(const SceneDatabase& database, const TagOptions& options) {
   if (!any_image) {
     return Problem("the map holds no images of its keyframes", "train the place again");
   }
-  constexpr size_t kSamples = 16;  // keyframes that are looked at again
+  constexpr size_t kSamples = 16;  // Number of keyframes searched for other families.
   std::vector<FamilyEntry> others(kFamilies.begin(), kFamilies.end());
   std::erase_if(others, [&](const FamilyEntry& entry) { return entry.name == options.family; });
   const std::vector<TagView> strangers =
@@ -414,7 +417,7 @@ Status NothingFound(const SceneDatabase& database, const TagOptions& options) {
   if (!strangers.empty()) {
     return Problem("no tag of the family " + options.family + " is seen, but there are some of " +
                        strangers.front().family,
-                   "name that family");
+                   "choose that family");
   }
   return Problem("no tag of the family " + options.family + " is seen in any keyframe",
                  "film one flat, with its white margin, larger than 30 pixels");

@@ -1,7 +1,7 @@
 #pragma once
 
-// Metres from markers of known size: AprilTags (Wang & Olson, "AprilTag 2:
-// Efficient and robust fiducial detection", IROS 2016) seen in the keyframes.
+// Measures the scale of a map from markers of known size in the keyframes: AprilTags (Wang & Olson,
+// "AprilTag 2: Efficient and robust fiducial detection", IROS 2016).
 
 #include <Eigen/Core>
 #include <array>
@@ -15,44 +15,43 @@
 
 namespace lararium::train {
 
-// The families that can be looked for, and the sentence that lists them.
+// The supported tag families, and the remedy of an error that lists them.
 std::span<const std::string_view> TagFamilies();
 std::string TagFamilyRemedy();
 
 struct TagOptions {
   std::string family = "tag36h11";
-  // Side of the square where the border's black meets white, metres: of tag36h11
-  // and its like the outline of the black square.
+  // Side of the square at which the border changes from black to white, metres. For tag36h11 and
+  // similar families this is the outline of the black square.
   double size_m = 0.0;
 
   Status Validate() const;
 };
 
-// One tag, triangulated from all keyframes that agree on it.
+// One tag, triangulated from all keyframes that agree on its position.
 struct TagReport {
   int id = 0;
-  int views = 0;                 // keyframes that it was measured in
-  double error_px = 0.0;         // root mean square reprojection error of its corners
-  double metres_per_unit = 0.0;  // as this tag alone says
-  double deviation = 0.0;        // relative standard deviation of that
-  std::array<Eigen::Vector3d, 4> corners = {};  // in the map, around the square
+  int views = 0;                 // Number of keyframes used.
+  double error_px = 0.0;         // Root mean square reprojection error of the corners.
+  double metres_per_unit = 0.0;  // Scale of the map according to this tag alone.
+  double deviation = 0.0;        // Relative standard deviation of metres_per_unit.
+  std::array<Eigen::Vector3d, 4> corners = {};  // Map frame, in order around the square.
 };
 
 struct TagScale {
-  double metres_per_unit = 0.0;  // metres for each unit of the map
-  // Relative standard deviation: what the corners' scatter in the images leads to,
-  // more where the tags disagree by more than that.
+  double metres_per_unit = 0.0;  // Metres per map unit.
+  // Relative standard deviation of metres_per_unit, from the scatter of the corners in the images;
+  // larger if the tags disagree by more than that.
   double deviation = 0.0;
-  // Root mean square of how far the sides and diagonals of all tags are from what
-  // they should be, relative to that.
+  // Root mean square of the relative errors of the sides and diagonals of all tags.
   double spread = 0.0;
-  std::vector<TagReport> tags;        // by id
-  std::vector<std::string> left_out;  // tags that were seen and not used, and why
+  std::vector<TagReport> tags;        // Sorted by id.
+  std::vector<std::string> left_out;  // Tags that were seen but not used, and why.
 };
 
-// Looks for tags in every keyframe that has an image, on all cores. The same
-// database gives the same result. Errors say why there is no scale: no tag at
-// all, tags of another family, a tag in too few keyframes or too far away.
+// Searches every keyframe that has an image for tags, on all cores. The same database gives the
+// same result. Errors say why there is no scale: no tag at all, only tags of another family, or a
+// tag in too few keyframes or too far away.
 Result<TagScale> MeasureTagScale(const vision::SceneDatabase& database, const TagOptions& options);
 
 }  // namespace lararium::train

@@ -18,15 +18,15 @@ using vision::Descriptor;
 using vision::Observation;
 using vision::SceneDatabase;
 
-constexpr int kColumns = 8;  // parts of an image that want points of their own
+constexpr int kColumns = 8;  // Grid of image parts, each of which needs its own points.
 constexpr int kRows = 6;
 constexpr uint32_t kNone = 0xffffffff;
 
 // ------------------------------------------------------------ points
 
-// 0..1 for each point: how unlike those of other points its descriptors are.
+// [points]: How much the point's descriptor differs from those of other points, 0..1.
 std::vector<float> Distinctiveness(const SceneDatabase& db) {
-  // Squared distance between a point's descriptor and its look from elsewhere.
+  // Usual squared distance between two descriptors of one point from different views.
   constexpr float kUsual = 200.0f * 200.0f;
   constexpr int kChecks = 48;
   constexpr size_t kJobs = 16;
@@ -42,7 +42,7 @@ std::vector<float> Distinctiveness(const SceneDatabase& db) {
       }
       const size_t found =
           searcher.Search(db.descriptors[db.descriptor_begin[point]], kChecks, neighbours);
-      float other = 2.0f * 512.0f * 512.0f;  // of descriptors that have nothing in common
+      float other = 2.0f * 512.0f * 512.0f;  // Squared distance of orthogonal descriptors.
       for (size_t i = 0; i < found; ++i) {
         if (db.descriptor_point[neighbours[i].descriptor] != point) {
           other = static_cast<float>(neighbours[i].squared_distance);
@@ -55,9 +55,9 @@ std::vector<float> Distinctiveness(const SceneDatabase& db) {
   return distinct;
 }
 
-// The greedy choice. A point's gain is the sum over its sights of
-//   weight / (1 + what the sight's part of the image has) * hunger,
-// where hunger falls to 1 as the keyframe comes to have enough to be located by.
+// Chooses points greedily. A point's gain is the sum over its observations of
+//   weight / (1 + weight chosen so far in this part of the image) * hunger,
+// where hunger falls to 1 as the keyframe gets enough points to be located.
 class PointChooser {
  public:
   explicit PointChooser(const SceneDatabase& db)
@@ -71,16 +71,17 @@ class PointChooser {
       begin_[i] += begin_[i - 1];
     }
     const std::vector<float> distinct = Distinctiveness(db);
-    sights_.resize(db.observations.size());
+    observations_.resize(db.observations.size());
     std::vector<uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (const Observation& o : db.observations) {
-      sights_[next[o.point]++] = {CellOf(db.camera, o), distinct[o.point] * ScaleWeight(o.scale)};
+      observations_[next[o.point]++] = {CellOf(db.camera, o),
+                                        distinct[o.point] * ScaleWeight(o.scale)};
     }
   }
 
   std::vector<uint32_t> Choose(size_t count) {
     struct Candidate {
-      float gain;  // at most
+      float gain;  // Upper bound of the gain.
       uint32_t point;
       bool operator<(const Candidate& other) const {
         return gain != other.gain ? gain < other.gain : point > other.point;
@@ -94,7 +95,7 @@ class PointChooser {
     while (chosen.size() < count && !queue.empty()) {
       const Candidate best = queue.top();
       queue.pop();
-      // Gains only fall: what is still ahead of the next at most is the best.
+      // Gains only fall, so a candidate whose gain is not below the next upper bound is the best.
       const float gain = Gain(best.point);
       if (!queue.empty() && gain < queue.top().gain) {
         queue.push({gain, best.point});
@@ -102,8 +103,8 @@ class PointChooser {
       }
       chosen.push_back(best.point);
       for (uint32_t s = begin_[best.point]; s < begin_[best.point + 1]; ++s) {
-        cells_[sights_[s].cell] += sights_[s].weight;
-        keyframes_[sights_[s].cell / (kColumns * kRows)] += sights_[s].weight;
+        cells_[observations_[s].cell] += observations_[s].weight;
+        keyframes_[observations_[s].cell / (kColumns * kRows)] += observations_[s].weight;
       }
     }
     std::sort(chosen.begin(), chosen.end());
@@ -111,7 +112,7 @@ class PointChooser {
   }
 
  private:
-  struct Sight {
+  struct CellObservation {
     uint32_t cell = 0;
     float weight = 0.0f;
   };
@@ -123,13 +124,13 @@ class PointChooser {
            static_cast<uint32_t>(column);
   }
 
-  // Features finer than this are only found in an enlarged image.
+  // Features with a scale below kFindable are only found in an enlarged image.
   static float ScaleWeight(float scale) {
     constexpr float kFindable = 2.0f;
     return std::min(1.0f, scale / kFindable);
   }
 
-  // A pose takes some fifteen points, of which about half are found in a frame.
+  // A pose needs about fifteen points, and about half of the points are found in a frame.
   static float Hunger(float has) {
     constexpr float kEnough = 40.0f;
     constexpr float kMost = 9.0f;
@@ -139,25 +140,26 @@ class PointChooser {
   float Gain(uint32_t point) const {
     float gain = 0.0f;
     for (uint32_t s = begin_[point]; s < begin_[point + 1]; ++s) {
-      const uint32_t cell = sights_[s].cell;
-      gain +=
-          sights_[s].weight / (1.0f + cells_[cell]) * Hunger(keyframes_[cell / (kColumns * kRows)]);
+      const uint32_t cell = observations_[s].cell;
+      gain += observations_[s].weight / (1.0f + cells_[cell]) *
+              Hunger(keyframes_[cell / (kColumns * kRows)]);
     }
     return gain;
   }
 
-  std::vector<uint32_t> begin_;  // [points + 1], into sights_
-  std::vector<Sight> sights_;
-  std::vector<float> cells_;      // [keyframes][rows][columns]: weight chosen so far
-  std::vector<float> keyframes_;  // [keyframes]: likewise
+  std::vector<uint32_t> begin_;  // [points + 1]: Ranges of observations_.
+  std::vector<CellObservation> observations_;
+  // Weight chosen so far, per image part and per keyframe.
+  std::vector<float> cells_;      // [keyframes][rows][columns]
+  std::vector<float> keyframes_;  // [keyframes]
 };
 
 // ------------------------------------------------------------ images
 
-// A sight as the follower's patches need it.
+// The view of a point in one observation, as far as it matters for the patches of PatchTracker.
 struct View {
   uint32_t keyframe = 0;
-  Eigen::Vector3f direction;  // from the point, unit
+  Eigen::Vector3f direction;  // Unit direction from the point to the camera.
   float scale = 0.0f;
 };
 
@@ -183,7 +185,7 @@ std::vector<std::vector<View>> ViewsOfPoints(const SceneDatabase& db) {
 
 // ------------------------------------------------------------ pruning
 
-// Indices of the descriptors of a point that stay.
+// Indices of the descriptors of a point that are kept.
 std::vector<uint32_t> DescriptorsWithin(const SceneDatabase& db, uint32_t point, int most) {
   const uint32_t first = db.descriptor_begin[point];
   const std::span<const Descriptor> all =
@@ -204,7 +206,7 @@ std::vector<uint32_t> DescriptorsWithin(const SceneDatabase& db, uint32_t point,
   return indices;
 }
 
-// Appends a descriptor of from to those of a point of to, with its sessions where from has them.
+// Appends a descriptor of `from` to the point of `to`, with its sessions if `from` has them.
 void AddDescriptor(const SceneDatabase& from,
                    uint32_t descriptor,
                    uint32_t point,
@@ -216,7 +218,7 @@ void AddDescriptor(const SceneDatabase& from,
   }
 }
 
-// points: ascending.
+// The database with only the given points, which must be ascending.
 SceneDatabase WithPoints(const SceneDatabase& db,
                          std::span<const uint32_t> points,
                          int max_descriptors) {
@@ -252,7 +254,7 @@ SceneDatabase WithPoints(const SceneDatabase& db,
 
 // ------------------------------------------------------------ recall
 
-std::span<const Observation> SightsOf(const SceneDatabase& db, uint32_t keyframe) {
+std::span<const Observation> ObservationsOf(const SceneDatabase& db, uint32_t keyframe) {
   const auto less = [](const Observation& o, uint32_t wanted) { return o.keyframe < wanted; };
   const auto first =
       std::lower_bound(db.observations.begin(), db.observations.end(), keyframe, less);
@@ -262,8 +264,8 @@ std::span<const Observation> SightsOf(const SceneDatabase& db, uint32_t keyframe
 
 struct HeldOutView {
   uint32_t keyframe = 0;
-  vision::Features finest;  // as training looks for them
-  vision::Features query;   // as the player does
+  vision::Features finest;  // Features as training extracts them.
+  vision::Features query;   // Features as the player extracts them.
 };
 
 Result<std::vector<HeldOutView>> HeldOutViews(const SceneDatabase& db, size_t stride) {
@@ -301,12 +303,12 @@ Result<std::vector<HeldOutView>> HeldOutViews(const SceneDatabase& db, size_t st
   return views;
 }
 
-// Descriptors that came from a view, [descriptors]: those of the points that it
-// observes which equal a feature there, but for what compression changed.
+// Sets marks[descriptor] for descriptors that came from the view: those of points that the view
+// observes and that equal a feature at the same pixel, apart from compression artefacts.
 void MarkDescriptorsOf(const SceneDatabase& db, const HeldOutView& view, std::vector<bool>& marks) {
   constexpr float kSamePx = 1.0f;
   constexpr uint32_t kSame = 80 * 80;
-  std::vector<uint32_t> order(view.finest.size());  // features by row
+  std::vector<uint32_t> order(view.finest.size());  // Features sorted by row.
   for (uint32_t f = 0; f < order.size(); ++f) {
     order[f] = f;
   }
@@ -314,7 +316,7 @@ void MarkDescriptorsOf(const SceneDatabase& db, const HeldOutView& view, std::ve
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     return keypoints[a].y != keypoints[b].y ? keypoints[a].y < keypoints[b].y : a < b;
   });
-  for (const Observation& o : SightsOf(db, view.keyframe)) {
+  for (const Observation& o : ObservationsOf(db, view.keyframe)) {
     auto f = std::lower_bound(order.begin(), order.end(), o.y - kSamePx,
                               [&](uint32_t i, float y) { return keypoints[i].y < y; });
     for (; f != order.end() && keypoints[*f].y < o.y + kSamePx; ++f) {
@@ -327,8 +329,8 @@ void MarkDescriptorsOf(const SceneDatabase& db, const HeldOutView& view, std::ve
   }
 }
 
-// The map without what only the held-out views know: their descriptors and
-// observations, and points that are left with nothing. Keyframes keep their index.
+// The map without the descriptors and observations of the held-out views and without points that
+// are then left without any. Keyframes keep their index.
 SceneDatabase WithoutViews(const SceneDatabase& db, std::span<const HeldOutView> views) {
   std::vector<bool> of_views(db.descriptors.size(), false);
   std::vector<bool> held_out(db.keyframes.size(), false);
@@ -365,7 +367,7 @@ SceneDatabase WithoutViews(const SceneDatabase& db, std::span<const HeldOutView>
 double MeanDifferencePx(const SceneDatabase& db, uint32_t keyframe, const Rigid3& found) {
   double sum = 0.0;
   size_t count = 0;
-  for (const Observation& o : SightsOf(db, keyframe)) {
+  for (const Observation& o : ObservationsOf(db, keyframe)) {
     const Eigen::Vector3d point = db.points[o.point].cast<double>();
     const auto expected = db.camera.Project(db.keyframes[keyframe].camera_from_map * point);
     const auto actual = db.camera.Project(found * point);
@@ -440,7 +442,7 @@ std::vector<uint32_t> ChoosePoints(const SceneDatabase& database, size_t count) 
 
 std::vector<uint32_t> ChooseImages(const SceneDatabase& database, double coverage) {
   const std::vector<std::vector<View>> views = ViewsOfPoints(database);
-  // shows[k]: sights, as (point, place in views[point]), that look as in keyframe k.
+  // shows[k]: Observations that look like those in keyframe k, as (point, index into views[point]).
   std::vector<std::vector<std::pair<uint32_t, uint32_t>>> shows(database.keyframes.size());
   for (uint32_t point = 0; point < views.size(); ++point) {
     for (const View& image : views[point]) {
@@ -457,8 +459,9 @@ std::vector<uint32_t> ChooseImages(const SceneDatabase& database, double coverag
     shown[point].resize(views[point].size(), false);
   }
   const auto gain = [&](uint32_t k) {
-    return std::count_if(shows[k].begin(), shows[k].end(),
-                         [&](const auto& sight) { return !shown[sight.first][sight.second]; });
+    return std::count_if(shows[k].begin(), shows[k].end(), [&](const auto& observation) {
+      return !shown[observation.first][observation.second];
+    });
   };
   const double wanted = coverage * static_cast<double>(database.observations.size());
   double covered = 0.0;

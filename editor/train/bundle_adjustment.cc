@@ -53,7 +53,7 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7, 3> {
   Eigen::Vector2d pixel_;
 };
 
-// A ceres::Problem with the memory of its parameters.
+// A ceres::Problem together with its parameter blocks.
 class Bundle {
  public:
   Bundle(const CameraModel& camera, const BundleOptions& options)
@@ -72,7 +72,7 @@ class Bundle {
   Bundle(const Bundle&) = delete;
   Bundle& operator=(const Bundle&) = delete;
 
-  // Pointers to blocks stay valid: reserve before adding.
+  // Must be called before blocks are added, so that pointers to blocks stay valid.
   void Reserve(size_t poses, size_t points) {
     poses_.reserve(poses);
     points_.reserve(points);
@@ -99,7 +99,7 @@ class Bundle {
   }
 
   void AddObservation(const Eigen::Vector2d& pixel, double* pose, double* point) {
-    // The problem owns its costs.
+    // The problem owns its cost functions.
     problem_.AddResidualBlock(new ReprojectionCost(camera_, pixel), &loss_, intrinsics_.data(),
                               pose, point);
   }
@@ -108,7 +108,7 @@ class Bundle {
     ceres::Solver::Options options;
     options.max_num_iterations = options_.max_iterations;
     options.function_tolerance = options_.function_tolerance;
-    options.num_threads = 1;  // several do not give the same bits twice
+    options.num_threads = 1;  // Several threads would not give reproducible bits.
     options.logging_type = ceres::SILENT;
     constexpr size_t kMaxDensePoses = 250;
     options.linear_solver_type = poses_.size() == 1                ? ceres::DENSE_QR
@@ -126,7 +126,7 @@ class Bundle {
   Rigid3 pose(size_t i) const { return ToPose(poses_[i]); }
   const Eigen::Vector3d& point(size_t i) const { return points_[i]; }
   ceres::Problem& problem() { return problem_; }
-  // Intrinsics, poses, points.
+  // All blocks that are not constant: intrinsics, poses, points.
   std::vector<double*> VariableBlocks() {
     std::vector<double*> blocks = {intrinsics_.data()};
     for (PoseBlock& pose : poses_) {
@@ -148,8 +148,8 @@ class Bundle {
     return options;
   }
 
-  // Within a group the order is that of addresses, which follow the index in a
-  // vector; the intrinsics lie elsewhere and get a group to themselves.
+  // Elimination order: points first. Within a group, Ceres orders blocks by address, which follows
+  // the index in a vector. The intrinsics are not in these vectors and get a group of their own.
   std::shared_ptr<ceres::ParameterBlockOrdering> PointsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (Eigen::Vector3d& point : points_) {
@@ -183,8 +183,8 @@ std::vector<uint32_t> TracksWithPoints(const Reconstruction& reconstruction) {
   return tracks;
 }
 
-// The most observed of tracks, until each image sees points_per_image of them;
-// in order of index.
+// The most observed of the tracks, as many as each image needs to see points_per_image of them; in
+// order of index.
 std::vector<uint32_t> ThinOut(const Reconstruction& reconstruction,
                               std::vector<uint32_t> tracks,
                               size_t points_per_image) {
@@ -206,9 +206,9 @@ std::vector<uint32_t> ThinOut(const Reconstruction& reconstruction,
   return tracks;
 }
 
-// A bundle of tracks' points and of all images that observe them, in which only
-// the poses of some images may change. Points of more than firm_observations
-// hold still too.
+// A bundle of the points of tracks and of all images that observe them. Only the poses of the
+// images in `variable` may change. Points with more than firm_observations observations stay fixed,
+// too.
 struct ReconstructionBundle {
   ReconstructionBundle(const Reconstruction& reconstruction,
                        std::vector<uint32_t> bundled_tracks,
@@ -247,10 +247,10 @@ struct ReconstructionBundle {
 
   Bundle bundle;
   std::vector<uint32_t> tracks;
-  std::vector<uint32_t> images;  // in the order of the bundle's poses
+  std::vector<uint32_t> images;  // Parallel to the bundle's poses.
 };
 
-// Moves all points but those of tracks (ascending) to where their rays meet now.
+// Triangulates all points again except those of tracks, which are ascending.
 void IntersectOthers(Reconstruction& reconstruction, std::span<const uint32_t> tracks) {
   for (const uint32_t track : TracksWithPoints(reconstruction)) {
     if (!std::binary_search(tracks.begin(), tracks.end(), track)) {
@@ -259,7 +259,7 @@ void IntersectOthers(Reconstruction& reconstruction, std::span<const uint32_t> t
   }
 }
 
-// Scales the map about one camera so that another is at a distance again.
+// Scales the map about the first anchor's camera, so that the second one is at the given distance.
 void RestoreUnit(Reconstruction& reconstruction,
                  const std::array<uint32_t, 2>& anchors,
                  double distance) {
@@ -304,7 +304,7 @@ bool ReprojectionResidual(const CameraModel& fixed,
                           double* by_intrinsics,
                           double* by_pose,
                           double* by_point) {
-  const Eigen::Map<const Eigen::Vector3d> v(pose);  // of the quaternion (v, w)
+  const Eigen::Map<const Eigen::Vector3d> v(pose);  // The quaternion is (v, w).
   const double w = pose[3];
   const Eigen::Map<const Eigen::Vector3d> translation(pose + 4);
   const Eigen::Map<const Eigen::Vector3d> in_map(point);
@@ -336,7 +336,7 @@ bool ReprojectionResidual(const CameraModel& fixed,
   if (by_pose == nullptr && by_point == nullptr) {
     return true;
   }
-  // By the point on the plane z = 1, then by the point in camera axes.
+  // Derivatives by the point on the plane z = 1, then by the point in camera axes.
   const double slope = 2.0 * (k1 + 2.0 * k2 * r2);
   const double mixed = x * y * slope + 2.0 * fixed.p1 * x + 2.0 * fixed.p2 * y;
   Eigen::Matrix2d by_plane;
@@ -415,7 +415,7 @@ bool AdjustLocally(Reconstruction& reconstruction,
     tracks.resize(options.points_per_image);
     std::sort(tracks.begin(), tracks.end());
   }
-  // One image more hardly moves a point that so many fix.
+  // One more image hardly moves a point with this many observations.
   constexpr size_t kFirmObservations = 10;
   ReconstructionBundle adjusted(reconstruction, std::move(tracks), variable, options,
                                 kFirmObservations);
@@ -469,8 +469,8 @@ IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
           crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
           crs.cols.data(), crs.values.data());
   Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
-  // The unit is free. It does not touch the intrinsics, so that a trace of
-  // damping makes the equations solvable without a change of the answer.
+  // The unit of length is not determined. It does not affect the intrinsics, so a little damping
+  // makes the equations solvable without changing the result.
   for (int i = 0; i < normal.cols(); ++i) {
     normal.coeffRef(i, i) *= 1.0 + 1e-9;
   }
@@ -479,7 +479,8 @@ IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
     return {};
   }
   const double variance_of_residuals = 2.0 * cost / (crs.num_rows - crs.num_cols);
-  const auto deviation = [&](int parameter) {  // of the first block, the intrinsics
+  // Standard deviation of a parameter of the first block, the intrinsics.
+  const auto deviation = [&](int parameter) {
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(normal.cols());
     unit[parameter] = 1.0;
     const double variance = factors.solve(unit)[parameter] * variance_of_residuals;

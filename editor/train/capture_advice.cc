@@ -21,7 +21,7 @@ Sentence Frames(const CaptureAdvice& advice) {
                                      : Sentence("frames %s to %s", {advice.first, advice.last});
 }
 
-// What follows the name of a stretch.
+// The words that follow the name of a stretch and say at which end of the plan it lies.
 Sentence Where(End end) {
   switch (end) {
     case End::kNone:
@@ -43,12 +43,12 @@ Sentence Distance(const WalkDistance& walk) {
     return Sentence("about %s m", {Fixed(walk.value, 1)});
   }
   constexpr double kAsFar = 0.95;
-  return walk.value < kAsFar ? Sentence("about %s %% of the distance to what is seen",
-                                        {Fixed(100.0 * walk.value, 0)})
-                             : Sentence("about as far as what is seen is away");
+  return walk.value < kAsFar
+             ? Sentence("about %s %% of the distance to the scene", {Fixed(100.0 * walk.value, 0)})
+             : Sentence("about as far as the scene is away");
 }
 
-// What a visitor does who is located poorly then.
+// Describes the step or turn after which a visitor is located poorly.
 Sentence Leaves(const CaptureAdvice& advice) {
   const Sentence by = Distance(advice.walk);
   switch (advice.kind) {
@@ -105,7 +105,7 @@ Sentence Title(WeakReason reason) {
 Sentence Remedy(WeakReason reason) {
   switch (reason) {
     case WeakReason::kFewFeatures:
-      return Sentence("turn on more light, and keep things with texture in view");
+      return Sentence("turn on more light, and keep textured objects in view");
     case WeakReason::kBlur:
       return Sentence("film this part again, more slowly or in better light, with the focus fixed");
     case WeakReason::kFastMotion:
@@ -115,7 +115,7 @@ Sentence Remedy(WeakReason reason) {
           "film this part again so that it overlaps with the rest by two thirds, and keep people "
           "out of the way");
     case WeakReason::kFewPoints:
-      return Sentence("stay longer here, and walk past what is seen");
+      return Sentence("stay longer here, and walk past the objects in view");
   }
   return Sentence();
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-// What is to be filmed next, and why frames are weak: kinds and numbers, and the sentences that
-// they make.
+// Advice on what to film next and reasons why frames are weak, as data and as sentences.
 
 #include <string>
 
@@ -13,40 +12,43 @@ enum class WeakReason {
   kFewFeatures,
   kBlur,
   kFastMotion,
-  kNotLocated,  // for none of the reasons above
-  kFewPoints,   // located, but hardly
+  kNotLocated,  // None of the reasons above applies.
+  kFewPoints,   // The frame was located, but with few points.
 };
 Sentence Title(WeakReason reason);
 Sentence Remedy(WeakReason reason);
 
-// How far somebody is to walk.
+// The distance that the person who films should walk.
 struct WalkDistance {
-  double value = 0.0;      // metres, or a share of the distance to what is seen
-  bool in_metres = false;  // the map's scale is known
+  double value = 0.0;      // Metres, or a share of the distance to the scene.
+  bool in_metres = false;  // True if the map's scale is known.
 
   friend bool operator==(const WalkDistance&, const WalkDistance&) = default;
 };
 
-// What to film next, or what to do otherwise when filming. Stretches are named by their first and
-// last frames, which may be one.
+// One piece of advice. A stretch of frames is given by the names of its first and last frames,
+// which may be the same. The comments of Kind say which other fields are set.
 struct CaptureAdvice {
   enum class Kind {
-    kEnough,        // nothing is missing
-    kNotLocated,    // frames, reason
-    kShortGaps,     // value: how many stretches of one or two frames could not be located
-    kOneSide,       // frames, end, walk; value: degrees between the directions of sight
-    kStepLeft,      // where a visitor who leaves the path so is located poorly: frames, end,
-    kStepRight,     //   walk: the step; value: points found again
-    kStepNearer,    //
-    kStepBack,      //
-    kTurnLeft,      // the same of a turn where they stand; no walk
-    kTurnRight,     //
+    kEnough,      // nothing is missing
+    kNotLocated,  // first, last, reason
+    kShortGaps,   // value: number of stretches of one or two frames that could not be located
+    kOneSide,     // first, last, end, walk; value: degrees between the viewing directions
+    // A visitor who leaves the path by this step is located poorly. first, last, end; walk: length
+    // of the step; value: number of points found again.
+    kStepLeft,
+    kStepRight,
+    kStepNearer,
+    kStepBack,
+    // A visitor who turns on the spot is located poorly. Same fields, without walk.
+    kTurnLeft,
+    kTurnRight,
     kFocal,         // value: standard deviation of the focal length, percent
-    kFewKeyframes,  // value: how many shape the map
-    kExposure,      // value: stops by which it changed; session
-    kWritten,       // text: a whole sentence, as reports of earlier versions have it
+    kFewKeyframes,  // value: number of keyframes in the map
+    kExposure,      // value: change of the exposure in stops; session
+    kWritten,       // text: a whole sentence, from reports of earlier versions
   };
-  // Of the plan, that a stretch lies at.
+  // The end of the plan at which a stretch lies.
   enum class End { kNone, kLeft, kRight, kNear, kFar };
 
   Kind kind = Kind::kEnough;
@@ -61,7 +63,7 @@ struct CaptureAdvice {
 
   friend bool operator==(const CaptureAdvice&, const CaptureAdvice&) = default;
 };
-// As people read it.
+// The advice as a sentence for people.
 Sentence AdviceSentence(const CaptureAdvice& advice);
 
 }  // namespace lararium::train

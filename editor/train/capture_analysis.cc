@@ -4,24 +4,22 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "shared/core/median.h"
 #include "shared/core/parallel.h"
+#include "shared/core/units.h"
 
 namespace lararium::train {
 namespace {
 
 using geometry::Rigid3;
 using vision::Observation;
-using Kind = CaptureAdvice::Kind;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kGlance = 30.0 * kDegree;  // to either side, as visitors do
+using AdviceKind = CaptureAdvice::Kind;
+constexpr double kGlance = 30.0 * kRadiansPerDegree;  // Visitors look this far to either side.
 
 // ------------------------------------------------------------ histograms
 
-// Counts of values in bins that end below edges[i]; one more bin takes the rest.
+// Counts values in bins; bin i ends below edges[i], and one more bin takes the rest.
 Histogram Bin(std::span<const double> values,
               std::span<const double> edges,
               std::vector<std::string> labels) {
@@ -54,8 +52,8 @@ Histogram BinTracks(const vision::SceneDatabase& database) {
   return Bin(lengths, edges, {"2", "3", "4", "5-6", "7-10", "11-20", "21-40", "41-80", "more"});
 }
 
-// The widest angle at each point between the rays to two of the keyframes that
-// saw it; of very many, evenly chosen ones.
+// [points]: The widest angle between the rays to two observing keyframes, radians. Of many
+// keyframes an even selection is used.
 std::vector<float> PointParallax(const vision::SceneDatabase& database) {
   constexpr size_t kMaxViews = 24;
   std::vector<std::vector<uint32_t>> viewers(database.points.size());
@@ -90,7 +88,7 @@ std::vector<float> PointParallax(const vision::SceneDatabase& database) {
 Histogram BinParallax(std::span<const float> parallax) {
   std::vector<double> degrees;
   for (const float angle : parallax) {
-    degrees.push_back(angle / kDegree);
+    degrees.push_back(angle / kRadiansPerDegree);
   }
   const std::vector<double> edges = {1, 2, 4, 8, 16, 32, 64};
   return Bin(degrees, edges, {"0-1", "1-2", "2-4", "4-8", "8-16", "16-32", "32-64", "more"});
@@ -107,13 +105,13 @@ PlanView MakePlan(const vision::SceneDatabase& database) {
     ahead += map_from_camera * Eigen::Vector3d::UnitZ();
   }
   PlanView plan;
-  constexpr double kClear = 0.1;  // of the mean of unit vectors; less has no direction
+  constexpr double kClear = 0.1;  // Minimum length of the mean of unit vectors.
   const double count = static_cast<double>(std::max<size_t>(1, database.keyframes.size()));
   if (up.norm() > kClear * count) {
     plan.up = up.normalized();
   }
   ahead -= plan.up * plan.up.dot(ahead);
-  if (ahead.norm() < kClear * count) {  // a walk all around: any direction will do
+  if (ahead.norm() < kClear * count) {  // The cameras looked in all directions.
     ahead = plan.up.unitOrthogonal();
   }
   plan.ahead = ahead.normalized();
@@ -123,13 +121,13 @@ PlanView MakePlan(const vision::SceneDatabase& database) {
 
 // ------------------------------------------------------------ standing places
 
-struct Square {
+struct Squared {
   Eigen::Vector2d min;
   Eigen::Vector2d max;
 };
 
-Square Bounds(std::span<const Eigen::Vector2d> points, double margin) {
-  Square square{points.front(), points.front()};
+Squared Bounds(std::span<const Eigen::Vector2d> points, double margin) {
+  Squared square{points.front(), points.front()};
   for (const Eigen::Vector2d& point : points) {
     square.min = square.min.cwiseMin(point);
     square.max = square.max.cwiseMax(point);
@@ -144,17 +142,17 @@ ViewpointPrediction Better(const ViewpointPrediction& a, const ViewpointPredicti
   return rank(a) != rank(b) ? (rank(a) < rank(b) ? a : b) : (a.error_px <= b.error_px ? a : b);
 }
 
-// The keyframe's camera moved by offset, map coordinates.
+// The camera moved by offset, which is in map coordinates.
 Rigid3 Displaced(const Rigid3& camera_from_map, const Eigen::Vector3d& offset) {
   return {camera_from_map.rotation,
           camera_from_map.translation - camera_from_map.rotation * offset};
 }
 
-// The camera turned to its right by angle, where it stands.
+// The camera turned to its right by angle, in radians, on the spot.
 Rigid3 Turned(const Rigid3& camera_from_map, double angle) {
   const Eigen::Vector3d center = camera_from_map.Center();
   Rigid3 turned;
-  // The camera's turn to the right turns what it sees to the left.
+  // If the camera turns to the right, the scene turns to the left in the camera frame.
   turned.rotation =
       (Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()) * camera_from_map.rotation).normalized();
   turned.translation = -(turned.rotation * center);
@@ -172,7 +170,7 @@ void FillPlaces(const vision::SceneDatabase& database,
     path.push_back(analysis.plan(keyframe.camera_from_map.Center()));
   }
   const double margin = 0.6 * predictor.median_depth();
-  const Square square = Bounds(path, margin);
+  const Squared square = Bounds(path, margin);
   const Eigen::Vector2d extent = square.max - square.min;
   constexpr double kCellsAlong = 28.0;
   analysis.cell = extent.maxCoeff() / kCellsAlong;
@@ -216,10 +214,10 @@ void FillPlaces(const vision::SceneDatabase& database,
 
 // ------------------------------------------------------------ weak frames
 
-constexpr int kFewFeatures = 150;     // an image with fewer is rarely located
-constexpr int kFewObservations = 60;  // a located frame with fewer hangs loosely
+constexpr int kFewFeatures = 150;     // An image with fewer is rarely located.
+constexpr int kFewObservations = 60;  // The pose of a frame with fewer is weak.
 
-// Median sharpness of the frames around each.
+// [frames]: Median sharpness of the surrounding frames.
 std::vector<double> SharpnessAround(std::span<const FrameReport> frames) {
   constexpr size_t kReach = 20;
   std::vector<double> around;
@@ -274,7 +272,7 @@ std::vector<WeakFrames> FindWeakFrames(std::span<const FrameReport> frames) {
 
 // ------------------------------------------------------------ advice
 
-// A keyframe that shapes the advice.
+// A keyframe on the camera path.
 struct Stop {
   std::string name;
   Eigen::Vector2d place;
@@ -306,7 +304,7 @@ class Adviser {
     AdviseOnCamera();
     AdviseOnExposure();
     if (advice_.empty()) {
-      advice_.push_back({.kind = Kind::kEnough});
+      advice_.push_back({.kind = AdviceKind::kEnough});
     }
     return std::move(advice_);
   }
@@ -317,7 +315,7 @@ class Adviser {
                             : WalkDistance{units / predictor_.median_depth(), false};
   }
 
-  // Where a stretch lies at an end of the walk.
+  // The end of the plan at which a stretch of stops lies.
   CaptureAdvice::End Where(size_t first, size_t last) const {
     using End = CaptureAdvice::End;
     Eigen::Vector2d low = stops_.front().place;
@@ -344,7 +342,7 @@ class Adviser {
     return kEnds[static_cast<size_t>(axis)][share > 0.5 ? 1 : 0];
   }
 
-  // Calls say(first, last) for runs of at least min_run stops that are bad.
+  // Calls say(first, last) for every run of at least min_run bad stops.
   void ForRuns(const std::vector<bool>& bad,
                size_t min_run,
                const std::function<void(size_t, size_t)>& say) const {
@@ -372,20 +370,20 @@ class Adviser {
         continue;
       }
       const auto& frames = report_.frame_reports;
-      advice_.push_back({.kind = Kind::kNotLocated,
+      advice_.push_back({.kind = AdviceKind::kNotLocated,
                          .first = frames[weak.first].name,
                          .last = frames[weak.last].name,
                          .reason = weak.reason});
     }
     if (shorter > 0) {
-      advice_.push_back({.kind = Kind::kShortGaps, .value = static_cast<double>(shorter)});
+      advice_.push_back({.kind = AdviceKind::kShortGaps, .value = static_cast<double>(shorter)});
     }
   }
 
-  // Stretches whose points are seen from nearly one direction.
+  // Advises on stretches whose points are seen from nearly the same direction.
   void AdviseOnParallax() {
-    constexpr double kNarrow = 5.0 * kDegree;
-    constexpr double kWanted = 15.0 * kDegree;
+    constexpr double kNarrow = 5.0 * kRadiansPerDegree;
+    constexpr double kWanted = 15.0 * kRadiansPerDegree;
     std::vector<std::vector<float>> angles(stops_.size());
     for (const Observation& o : database_.observations) {
       angles[o.keyframe].push_back(analysis_.point_parallax[o.point]);
@@ -401,33 +399,33 @@ class Adviser {
           Median(std::vector<double>(medians.begin() + static_cast<ptrdiff_t>(first),
                                      medians.begin() + static_cast<ptrdiff_t>(last) + 1));
       advice_.push_back(
-          {.kind = Kind::kOneSide,
+          {.kind = AdviceKind::kOneSide,
            .first = stops_[first].name,
            .last = stops_[last].name,
            .end = Where(first, last),
-           .value = angle / kDegree,
+           .value = angle / kRadiansPerDegree,
            .walk = Distance(2.0 * std::tan(0.5 * kWanted) * predictor_.median_depth())});
     });
   }
 
-  // What happens to a visitor who leaves the path a little.
+  // Advises on stretches where a visitor who leaves the path a little is located poorly.
   void AdviseOnSteps() {
     const double step = 0.25 * predictor_.median_depth();
     if (!(step > 0.0)) {
       return;
     }
     struct Way {
-      Kind kind;
-      Eigen::Vector3d offset;  // plan axes: right, ahead
-      double turn;             // radians, to the right
+      AdviceKind kind;
+      Eigen::Vector3d offset;  // The camera's right and ahead along the floor, map units.
+      double turn;             // Radians to the right.
     };
     const std::array<Way, 6> ways = {{
-        {Kind::kStepLeft, {-step, 0, 0}, 0.0},
-        {Kind::kStepRight, {step, 0, 0}, 0.0},
-        {Kind::kStepNearer, {0, step, 0}, 0.0},
-        {Kind::kStepBack, {0, -step, 0}, 0.0},
-        {Kind::kTurnLeft, {0, 0, 0}, -kGlance},
-        {Kind::kTurnRight, {0, 0, 0}, kGlance},
+        {AdviceKind::kStepLeft, {-step, 0, 0}, 0.0},
+        {AdviceKind::kStepRight, {step, 0, 0}, 0.0},
+        {AdviceKind::kStepNearer, {0, step, 0}, 0.0},
+        {AdviceKind::kStepBack, {0, -step, 0}, 0.0},
+        {AdviceKind::kTurnLeft, {0, 0, 0}, -kGlance},
+        {AdviceKind::kTurnRight, {0, 0, 0}, kGlance},
     }};
     constexpr size_t kMaxStops = 60;
     const size_t stride = (stops_.size() + kMaxStops - 1) / kMaxStops;
@@ -463,7 +461,7 @@ class Adviser {
 
   Rigid3 AfterStep(size_t stop, const Eigen::Vector3d& offset, double turn) const {
     const Rigid3& pose = database_.keyframes[stops_[stop].keyframe].camera_from_map;
-    // Left and near as the camera itself sees them, along the floor.
+    // Directions along the floor as seen from the camera.
     const Eigen::Vector3d axis = pose.rotation.conjugate() * Eigen::Vector3d::UnitX();
     const Eigen::Vector3d up = analysis_.plan.up;
     const Eigen::Vector3d right = (axis - up * up.dot(axis)).stableNormalized();
@@ -476,18 +474,18 @@ class Adviser {
     const double focal = report_.camera.Focal();
     if (report_.intrinsics_estimated && report_.focal_deviation_px > kUncertain * focal) {
       advice_.push_back(
-          {.kind = Kind::kFocal, .value = 100.0 * report_.focal_deviation_px / focal});
+          {.kind = AdviceKind::kFocal, .value = 100.0 * report_.focal_deviation_px / focal});
     }
     constexpr size_t kFewKeyframes = 10;
     if (database_.keyframes.size() < kFewKeyframes) {
-      advice_.push_back(
-          {.kind = Kind::kFewKeyframes, .value = static_cast<double>(database_.keyframes.size())});
+      advice_.push_back({.kind = AdviceKind::kFewKeyframes,
+                         .value = static_cast<double>(database_.keyframes.size())});
     }
   }
 
-  // Exposure that changes while filming costs matches.
+  // Advises on exposure changes while filming, which cost matches.
   void AdviseOnExposure() {
-    std::vector<std::array<float, 2>> range(32, {0.0f, 0.0f});  // stops, by session
+    std::vector<std::array<float, 2>> range(32, {0.0f, 0.0f});  // [session]: Photographic stops.
     std::vector<bool> used(32, false);
     for (const vision::Keyframe& keyframe : database_.keyframes) {
       const float stops = std::log2(std::max(1e-6f, keyframe.gain[1]));
@@ -501,7 +499,7 @@ class Adviser {
       const float spread = range[session][1] - range[session][0];
       if (spread > kMuch) {
         advice_.push_back(
-            {.kind = Kind::kExposure, .value = spread, .session = static_cast<int>(session)});
+            {.kind = AdviceKind::kExposure, .value = spread, .session = static_cast<int>(session)});
       }
     }
   }

@@ -1,7 +1,6 @@
 #pragma once
 
-// What a finished training says about how the place was filmed, and what to film
-// next.
+// Analyses after training how well the place was filmed, and advises what to film next.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -16,8 +15,8 @@
 
 namespace lararium::train {
 
-// The place from above. Upwards is where cameras were held upright; the top of
-// the plan is where they looked on average.
+// Axes of the view of the place from above, in map coordinates. Up is the mean up direction of the
+// cameras; the top of the plan is their mean viewing direction.
 struct PlanView {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();
   Eigen::Vector3d ahead = Eigen::Vector3d::UnitZ();
@@ -30,41 +29,41 @@ struct PlanView {
 
 struct Histogram {
   std::vector<std::string> labels;
-  std::vector<size_t> counts;  // of the same index
+  std::vector<size_t> counts;  // Parallel to labels.
 };
 
-// A stretch of frames of one weakness.
+// Consecutive frames with the same weakness.
 struct WeakFrames {
-  size_t first = 0;  // indices of TrainReport::frame_reports
+  size_t first = 0;  // First and last index into TrainReport::frame_reports.
   size_t last = 0;
   WeakReason reason = WeakReason::kNotLocated;
   bool located = false;
 };
 
-// A square of the floor where a visitor may stand, at the height of the nearest
-// keyframe, looking where the keyframes near it looked, or up to 30 degrees to
-// either side: the worst of these.
+// A square of the floor where a visitor may stand. The prediction is made at the height of the
+// nearest keyframes. For each of them it is the worst over the keyframe's viewing direction and 30
+// degrees to either side; the best keyframe counts.
 struct StandingPlace {
-  Eigen::Vector2d center;  // plan
+  Eigen::Vector2d center;  // Plan coordinates.
   ViewpointPrediction prediction;
 };
 
 struct CaptureAnalysis {
   PlanView plan;
-  Histogram reprojection;             // observations by error, pixels
-  Histogram track_lengths;            // points by number of images that saw them
-  Histogram parallax;                 // points by the widest angle between two of their sights
-  std::vector<float> point_parallax;  // [points], radians
-  double cell = 0.0;                  // side of a standing place, map units
-  std::vector<StandingPlace> places;  // around the camera path
+  Histogram reprojection;             // Observations by reprojection error, pixels.
+  Histogram track_lengths;            // Points by number of observing images.
+  Histogram parallax;                 // Points by the widest angle between two observations.
+  std::vector<float> point_parallax;  // [points]: Widest angle, radians.
+  double cell = 0.0;                  // Side of a standing place, map units.
+  std::vector<StandingPlace> places;  // Cover the surroundings of the camera path.
   double noise_px = 0.0;
   double median_depth = 0.0;
   std::vector<WeakFrames> weak;
-  std::vector<CaptureAdvice> advice;  // the most urgent first; never empty
+  std::vector<CaptureAdvice> advice;  // The most urgent first; never empty.
 };
 
-// metres_per_unit: of the map, where the stage has fixed it; advice gives
-// distances in metres then.
+// metres_per_unit is the scale of the map, if the stage has fixed it. Advice then gives distances
+// in metres.
 CaptureAnalysis AnalyseCapture(const TrainReport& report,
                                const vision::SceneDatabase& database,
                                std::optional<double> metres_per_unit);

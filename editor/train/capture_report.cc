@@ -54,7 +54,7 @@ constexpr std::array<std::string_view, 4> kQualityFills = {"#cfe6e1", "#f4e6bf",
                                                            "#e2aaa5"};
 constexpr std::array<std::string_view, 4> kQualityNames = {"good", "fair", "poor", "none"};
 
-std::string Fixed(double value, int decimals) {
+std::string FixedOrDash(double value, int decimals) {
   if (!std::isfinite(value)) {
     return "-";
   }
@@ -65,7 +65,7 @@ std::string Fixed(double value, int decimals) {
   return {text.data(), end.ptr};
 }
 
-// For text and attributes; control characters become blanks.
+// Escapes text for HTML and attributes. Control characters become blanks.
 std::string Escape(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -109,7 +109,7 @@ std::string Base64(std::span<const std::byte> bytes) {
   return text;
 }
 
-// An <img> of at most width pixels; empty where there is no picture.
+// An <img> of at most width pixels; empty if there is no picture.
 std::string Picture(const cv::Mat& image, int width, std::string_view alt) {
   if (image.empty()) {
     return {};
@@ -129,13 +129,13 @@ std::string Picture(const cv::Mat& image, int width, std::string_view alt) {
   }
 }
 
-// Whole percents; 100 only where nothing is missing.
+// Whole percent; 100 only if nothing is missing.
 std::string Percent(double share) {
-  return Fixed(share < 1.0 ? std::min(99.0, std::round(100.0 * share)) : 100.0, 0) + " %";
+  return FixedOrDash(share < 1.0 ? std::min(99.0, std::round(100.0 * share)) : 100.0, 0) + " %";
 }
 
 std::string Size(uint64_t bytes) {
-  return Fixed(static_cast<double>(bytes) / (1024.0 * 1024.0), 1) + " MiB";
+  return FixedOrDash(static_cast<double>(bytes) / (1024.0 * 1024.0), 1) + " MiB";
 }
 
 // <b data-NAME="value">shown</b>
@@ -157,7 +157,7 @@ std::string KeyEntry(std::string_view colour, std::string_view what) {
 
 // ------------------------------------------------------------ the page
 
-// Places of the plan on a drawing.
+// Maps plan coordinates to a drawing.
 struct PlanScale {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   double scale = 1.0;
@@ -247,10 +247,10 @@ class Page {
     html_ += FactBox("points", std::to_string(database_.points.size()),
                      std::to_string(database_.points.size()), "points in the map");
     html_ += FactBox("observations", std::to_string(database_.observations.size()),
-                     std::to_string(database_.observations.size()), "sights of them");
-    html_ +=
-        FactBox("error", Fixed(database_.mean_reprojection_error_px, 4),
-                Fixed(database_.mean_reprojection_error_px, 2) + " px", "mean reprojection error");
+                     std::to_string(database_.observations.size()), "observations of points");
+    html_ += FactBox("error", FixedOrDash(database_.mean_reprojection_error_px, 4),
+                     FixedOrDash(database_.mean_reprojection_error_px, 2) + " px",
+                     "mean reprojection error");
     html_ += "</div></header>\n";
   }
 
@@ -270,7 +270,7 @@ class Page {
 
   // ---------------------------------------------------------- plans
 
-  // Frames all cameras and places, and most of the points.
+  // Chooses a scale that shows all cameras and places, and most of the points.
   PlanScale MakeScale() const {
     std::vector<double> x;
     std::vector<double> y;
@@ -310,23 +310,24 @@ class Page {
   }
 
   std::string PlanStart(const PlanScale& scale, std::string_view label) const {
-    return "<svg viewBox=\"0 0 " + Fixed(scale.width, 0) + " " + Fixed(scale.height + 24, 0) +
-           "\" role=\"img\" aria-label=\"" + std::string(label) + "\">\n";
+    return "<svg viewBox=\"0 0 " + FixedOrDash(scale.width, 0) + " " +
+           FixedOrDash(scale.height + 24, 0) + "\" role=\"img\" aria-label=\"" +
+           std::string(label) + "\">\n";
   }
 
-  // A path of dots.
+  // An SVG path of dots.
   std::string Dots(const std::vector<Eigen::Vector2d>& places,
                    std::string_view colour,
                    double size) const {
     std::string path;
     for (const Eigen::Vector2d& at : places) {
-      path += "M" + Fixed(at.x(), 1) + " " + Fixed(at.y(), 1) + "h0";
+      path += "M" + FixedOrDash(at.x(), 1) + " " + FixedOrDash(at.y(), 1) + "h0";
     }
     return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + std::string(colour) +
-           "\" stroke-width=\"" + Fixed(size, 1) + "\" stroke-linecap=\"round\"/>\n";
+           "\" stroke-width=\"" + FixedOrDash(size, 1) + "\" stroke-linecap=\"round\"/>\n";
   }
 
-  // Points of the map, those that are fixed well darker.
+  // The points of the map; well determined points are darker.
   std::string PointDots(const PlanScale& scale) const {
     constexpr size_t kMost = 6000;
     constexpr float kWell = 8.0f * std::numbers::pi_v<float> / 180.0f;
@@ -342,32 +343,32 @@ class Page {
     return Dots(weakly, "#c3ccd1", 1.6) + Dots(well, "#7e8d96", 1.6);
   }
 
-  // A bar of a round length.
+  // A scale bar of a round length.
   std::string Ruler(const PlanScale& scale) const {
     const double metres = options_.metres_per_unit.value_or(1.0);
-    const double about = 100.0 / scale.scale * metres;  // that 100 drawn units stand for
+    const double about = 100.0 / scale.scale * metres;  // Length of 100 drawn units.
     const double power = std::pow(10.0, std::floor(std::log10(about)));
     const double length = about >= 5.0 * power   ? 5.0 * power
                           : about >= 2.0 * power ? 2.0 * power
                                                  : power;
     const double drawn = length / metres * scale.scale;
     const int decimals = length < 1.0 ? static_cast<int>(std::ceil(-std::log10(length))) : 0;
-    const std::string y = Fixed(scale.height + 10, 1);
-    return "<path d=\"M4 " + y + "h" + Fixed(drawn, 1) +
-           "\" stroke=\"#22303a\" stroke-width=\"2\"/><text x=\"" + Fixed(drawn + 12, 1) +
-           "\" y=\"" + Fixed(scale.height + 14, 1) + "\">" + Fixed(length, decimals) +
+    const std::string y = FixedOrDash(scale.height + 10, 1);
+    return "<path d=\"M4 " + y + "h" + FixedOrDash(drawn, 1) +
+           "\" stroke=\"#22303a\" stroke-width=\"2\"/><text x=\"" + FixedOrDash(drawn + 12, 1) +
+           "\" y=\"" + FixedOrDash(scale.height + 14, 1) + "\">" + FixedOrDash(length, decimals) +
            (options_.metres_per_unit ? " m" : " map units") + "</text>\n";
   }
 
-  // The camera path: a dot for each located frame of this training, crosses where
-  // frames are missing, rings for keyframes of other sessions.
+  // The camera path: dots for located frames of this training, crosses for missing frames, rings
+  // for keyframes of other sessions.
   std::string PathDrawing(const PlanScale& scale) const {
     std::string svg;
     std::string line;
     std::vector<Eigen::Vector2d> good;
     std::vector<Eigen::Vector2d> weak;
     std::string crosses;
-    std::map<std::string, Eigen::Vector3d> own;  // centres by name
+    std::map<std::string, Eigen::Vector3d> own;  // Camera centres by frame name.
     std::optional<Eigen::Vector2d> previous;
     bool gap = false;
     for (size_t i = 0; i < report_.frame_reports.size(); ++i) {
@@ -379,10 +380,11 @@ class Page {
       const Eigen::Vector2d at = scale(analysis_.plan(frame.camera_from_map->Center()));
       if (gap && previous) {
         const Eigen::Vector2d middle = 0.5 * (*previous + at);
-        crosses +=
-            "M" + Fixed(middle.x() - 4, 1) + " " + Fixed(middle.y() - 4, 1) + "l8 8m0-8l-8 8";
+        crosses += "M" + FixedOrDash(middle.x() - 4, 1) + " " + FixedOrDash(middle.y() - 4, 1) +
+                   "l8 8m0-8l-8 8";
       }
-      line += (gap || !previous ? "M" : "L") + Fixed(at.x(), 1) + " " + Fixed(at.y(), 1);
+      line +=
+          (gap || !previous ? "M" : "L") + FixedOrDash(at.x(), 1) + " " + FixedOrDash(at.y(), 1);
       (IsWeak(i) ? weak : good).push_back(at);
       own[frame.name] = frame.camera_from_map->Center();
       previous = at;
@@ -394,7 +396,7 @@ class Page {
       const Eigen::Vector3d center = keyframe.camera_from_map.Center();
       if (found == own.end() || (found->second - center).norm() > 1e-3 * analysis_.median_depth) {
         const Eigen::Vector2d at = scale(analysis_.plan(keyframe.camera_from_map.Center()));
-        svg += "<circle cx=\"" + Fixed(at.x(), 1) + "\" cy=\"" + Fixed(at.y(), 1) +
+        svg += "<circle cx=\"" + FixedOrDash(at.x(), 1) + "\" cy=\"" + FixedOrDash(at.y(), 1) +
                "\" r=\"2.5\" fill=\"#fff\" stroke=\"#5d6b75\"/>";
       }
     }
@@ -413,8 +415,8 @@ class Page {
     for (const auto* keyframe : {&database_.keyframes.front(), &database_.keyframes.back()}) {
       const Eigen::Vector2d at = scale(analysis_.plan(keyframe->camera_from_map.Center()));
       const bool right = at.x() > 0.6 * scale.width;
-      svg += "<text x=\"" + Fixed(at.x() + (right ? -7 : 7), 1) + "\" y=\"" + Fixed(at.y() - 6, 1) +
-             "\"" + (right ? " text-anchor=\"end\"" : "") + ">" +
+      svg += "<text x=\"" + FixedOrDash(at.x() + (right ? -7 : 7), 1) + "\" y=\"" +
+             FixedOrDash(at.y() - 6, 1) + "\"" + (right ? " text-anchor=\"end\"" : "") + ">" +
              Escape(keyframe->name.substr(0, 40)) + "</text>\n";
     }
     return svg;
@@ -433,12 +435,13 @@ class Page {
       const Eigen::Vector2d at = scale(place.center);
       const auto quality = static_cast<size_t>(QualityOf(place.prediction));
       const std::string error = std::isfinite(place.prediction.error_px)
-                                    ? Fixed(place.prediction.error_px, 2) + " px expected"
+                                    ? FixedOrDash(place.prediction.error_px, 2) + " px expected"
                                     : "no pose expected";
-      svg += "<rect x=\"" + Fixed(at.x() - 0.5 * side, 1) + "\" y=\"" +
-             Fixed(at.y() - 0.5 * side, 1) + "\" width=\"" + Fixed(side, 1) + "\" height=\"" +
-             Fixed(side, 1) + "\" fill=\"" + std::string(kQualityFills[quality]) + "\"><title>" +
-             Fixed(place.prediction.matches, 0) + " points, " + error + "</title></rect>";
+      svg += "<rect x=\"" + FixedOrDash(at.x() - 0.5 * side, 1) + "\" y=\"" +
+             FixedOrDash(at.y() - 0.5 * side, 1) + "\" width=\"" + FixedOrDash(side, 1) +
+             "\" height=\"" + FixedOrDash(side, 1) + "\" fill=\"" +
+             std::string(kQualityFills[quality]) + "\"><title>" +
+             FixedOrDash(place.prediction.matches, 0) + " points, " + error + "</title></rect>";
     }
     return svg + "\n";
   }
@@ -470,7 +473,7 @@ class Page {
         "would recognise when it looks where the film looked nearby, or 30 degrees to either "
         "side (the worst of these counts), and from how exactly "
         "they are seen (" +
-        Fixed(analysis_.noise_px, 2) +
+        FixedOrDash(analysis_.noise_px, 2) +
         " px). Walls are known only through "
         "the directions that points were seen from. Squares:";
     for (size_t q = 0; q < counts.size(); ++q) {
@@ -490,7 +493,7 @@ class Page {
         return image;
       }
     }
-    // The latest session comes last.
+    // The latest session comes last, so the search runs backwards.
     const auto found =
         std::find_if(database_.keyframes.rbegin(), database_.keyframes.rend(),
                      [&](const vision::Keyframe& keyframe) {
@@ -502,7 +505,7 @@ class Page {
   void AddFilmed() {
     html_ += "<section><h2>What was filmed</h2>\n<div class=\"pictures\">\n";
     constexpr size_t kPictures = 5;
-    // Located frames of this training; without any, keyframes.
+    // Shows located frames of this training, or keyframes if there are none.
     std::vector<std::pair<std::string, int64_t>> frames;
     for (const LocatedFrame& frame : report_.located) {
       frames.emplace_back(frame.name, frame.frame_index);
@@ -525,8 +528,8 @@ class Page {
     html_ += "</section>\n";
   }
 
-  // Frames from first to last: located or not, how sharp, how fast. Long films are
-  // drawn with several frames in a column, the worst of them.
+  // A strip of all frames in order: whether they were located, their sharpness and motion. In a
+  // long recording a column stands for several frames and shows the worst one.
   void AddStrip() {
     const std::vector<FrameReport>& frames = report_.frame_reports;
     if (frames.size() < 2) {
@@ -539,9 +542,9 @@ class Page {
       sharpest = std::max(sharpest, frame.motion.sharpness);
     }
     constexpr double kWidth = 1000.0;
-    constexpr double kFastest = 0.12;  // of the diagonal, the top of the drawing
+    constexpr double kFastest = 0.12;  // Shift at the top of the drawing, share of the diagonal.
     const double width = kWidth / static_cast<double>(columns);
-    std::array<std::string, 3> located;  // paths: good, weak, missing
+    std::array<std::string, 3> located;  // Paths of good, weak and missing frames.
     std::string sharp;
     std::string motion;
     for (size_t c = 0; c < columns; ++c) {
@@ -557,8 +560,9 @@ class Page {
       }
       const double x = static_cast<double>(c) * width;
       const auto bar = [&](double y, double height) {
-        return "M" + Fixed(x, 1) + " " + Fixed(y, 1) + "h" + Fixed(width + 0.1, 1) + "v" +
-               Fixed(-height, 1) + "h-" + Fixed(width + 0.1, 1) + "z";
+        return "M" + FixedOrDash(x, 1) + " " + FixedOrDash(y, 1) + "h" +
+               FixedOrDash(width + 0.1, 1) + "v" + FixedOrDash(-height, 1) + "h-" +
+               FixedOrDash(width + 0.1, 1) + "z";
       };
       located[state] += bar(16.0, 16.0);
       sharp += bar(66.0, sharpest > 0.0 ? 40.0 * std::sqrt(sharpness / sharpest) : 0.0);
@@ -598,7 +602,7 @@ class Page {
              Fact("weak", std::to_string(hardly), std::to_string(hardly)) +
              " hang on few points.</p>\n<div class=\"weak\">\n";
     constexpr size_t kMost = 12;
-    // The longest stretches, in the order of the film.
+    // Shows the longest stretches, in the order of the recording.
     std::vector<size_t> order(analysis_.weak.size());
     for (size_t i = 0; i < order.size(); ++i) {
       order[i] = i;
@@ -633,7 +637,7 @@ class Page {
              std::string(kQualityColours[weak.located ? 2 : 3]) + "\">" +
              (weak.located ? "" : "not located: ") + Title(weak.reason).English() + "</span><br>" +
              std::to_string(middle.features) + " features, " + std::to_string(middle.observations) +
-             " points of the map, moved " + Fixed(100.0 * middle.motion.shift, 1) +
+             " points of the map, moved " + FixedOrDash(100.0 * middle.motion.shift, 1) +
              " % of the image.<br>" + Remedy(weak.reason).English() + ".</figcaption></figure>\n";
   }
 
@@ -651,11 +655,11 @@ class Page {
       const double height =
           120.0 * static_cast<double>(histogram.counts[i]) / static_cast<double>(most);
       const double x = static_cast<double>(i) * width;
-      svg += "<rect x=\"" + Fixed(x + 1, 1) + "\" y=\"" + Fixed(125.0 - height, 1) + "\" width=\"" +
-             Fixed(width - 2, 1) + "\" height=\"" + Fixed(height, 1) +
+      svg += "<rect x=\"" + FixedOrDash(x + 1, 1) + "\" y=\"" + FixedOrDash(125.0 - height, 1) +
+             "\" width=\"" + FixedOrDash(width - 2, 1) + "\" height=\"" + FixedOrDash(height, 1) +
              "\" fill=\"#6d9ea3\" data-count=\"" + std::to_string(histogram.counts[i]) +
              "\"><title>" + histogram.labels[i] + ": " + std::to_string(histogram.counts[i]) +
-             "</title></rect><text x=\"" + Fixed(x + 0.5 * width, 1) +
+             "</title></rect><text x=\"" + FixedOrDash(x + 0.5 * width, 1) +
              "\" y=\"140\" text-anchor=\"middle\" style=\"font-size:" +
              (histogram.labels[i].size() * histogram.labels.size() > 40 ? "9px" : "10px") + "\">" +
              histogram.labels[i] + "</text>\n";
@@ -665,9 +669,10 @@ class Page {
 
   void AddHistograms() {
     html_ += "<section><h2>How exactly the points are known</h2>\n<div class=\"three\">\n";
-    html_ += "<figure><h3>Reprojection error</h3>" + Bars(analysis_.reprojection, "reprojection") +
-             "<figcaption>sights by how far from the point's projection they are, up to so many "
-             "pixels</figcaption></figure>\n";
+    html_ +=
+        "<figure><h3>Reprojection error</h3>" + Bars(analysis_.reprojection, "reprojection") +
+        "<figcaption>observations by their distance from the point's projection, up to this many "
+        "pixels</figcaption></figure>\n";
     html_ += "<figure><h3>Track length</h3>" + Bars(analysis_.track_lengths, "tracks") +
              "<figcaption>points by how many images saw them</figcaption></figure>\n";
     html_ += "<figure><h3>Parallax</h3>" + Bars(analysis_.parallax, "parallax") +
@@ -705,11 +710,11 @@ class Page {
     html_ += "</section>\n";
   }
 
-  // Gains of the keyframes in stops.
+  // Draws the gains of the keyframes in stops.
   void AddGains() {
     if (database_.colours.empty() || database_.keyframes.size() < 2) {
       html_ +=
-          "<p class=\"small\">The map has no colours, so that changes of exposure are not "
+          "<p class=\"small\">The map has no colours, so changes of exposure are not "
           "known.</p>\n";
       return;
     }
@@ -731,17 +736,17 @@ class Page {
       for (size_t k = 0; k < database_.keyframes.size(); ++k) {
         const double stops =
             std::log2(std::max(1e-6, double{database_.keyframes[k].gain[channel]}));
-        path += (k == 0 ? "M" : "L") + Fixed(1000.0 * static_cast<double>(k) / count, 1) + " " +
-                Fixed(75.0 - 70.0 * stops / reach, 1);
+        path += (k == 0 ? "M" : "L") + FixedOrDash(1000.0 * static_cast<double>(k) / count, 1) +
+                " " + FixedOrDash(75.0 - 70.0 * stops / reach, 1);
       }
       html_ += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + std::string(kColours[channel]) +
                "\" stroke-width=\"1.5\" stroke-dasharray=\"" + std::string(kDashes[channel]) +
                "\"/>\n";
     }
     html_ +=
-        "<text x=\"1008\" y=\"12\">+" + Fixed(reach, 0) +
+        "<text x=\"1008\" y=\"12\">+" + FixedOrDash(reach, 0) +
         " stops</text><text x=\"1008\" y=\"79\">0</text><text x=\"1008\" y=\"148\">-" +
-        Fixed(reach, 0) + "</text><text x=\"0\" y=\"165\">" +
+        FixedOrDash(reach, 0) + "</text><text x=\"0\" y=\"165\">" +
         Escape(database_.keyframes.front().name.substr(0, 40)) +
         "</text><text x=\"1000\" y=\"165\" text-anchor=\"end\">" +
         Escape(database_.keyframes.back().name.substr(0, 40)) +
@@ -761,22 +766,26 @@ class Page {
     html_ += "<section><h2>Camera and training</h2>\n<div class=\"two\">\n<table>\n";
     html_ += Row("image",
                  std::to_string(camera.width) + " x " + std::to_string(camera.height) + " pixels");
-    std::string focal = Fact("focal", Fixed(camera.Focal(), 4), Fixed(camera.Focal(), 1)) + " px";
+    std::string focal =
+        Fact("focal", FixedOrDash(camera.Focal(), 4), FixedOrDash(camera.Focal(), 1)) + " px";
     if (report_.intrinsics_estimated) {
       focal += ", estimated, standard deviation " +
-               Fact("focal-deviation", Fixed(report_.focal_deviation_px, 4),
-                    Fixed(report_.focal_deviation_px, 2)) +
-               " px (" + Fixed(100.0 * report_.focal_deviation_px / camera.Focal(), 2) + " %)";
+               Fact("focal-deviation", FixedOrDash(report_.focal_deviation_px, 4),
+                    FixedOrDash(report_.focal_deviation_px, 2)) +
+               " px (" + FixedOrDash(100.0 * report_.focal_deviation_px / camera.Focal(), 2) +
+               " %)";
     } else {
       focal += ", given";
     }
     html_ += Row("focal length", focal);
-    html_ += Row("field of view",
-                 Fixed(360.0 / std::numbers::pi * std::atan(0.5 * camera.width / camera.fx), 0) +
-                     " degrees across");
-    html_ += Row("principal point", Fixed(camera.cx, 1) + ", " + Fixed(camera.cy, 1));
-    html_ += Row("distortion", "k1 " + Fixed(camera.k1, 4) + ", k2 " + Fixed(camera.k2, 4) +
-                                   ", p1 " + Fixed(camera.p1, 4) + ", p2 " + Fixed(camera.p2, 4));
+    html_ +=
+        Row("field of view",
+            FixedOrDash(360.0 / std::numbers::pi * std::atan(0.5 * camera.width / camera.fx), 0) +
+                " degrees across");
+    html_ += Row("principal point", FixedOrDash(camera.cx, 1) + ", " + FixedOrDash(camera.cy, 1));
+    html_ += Row("distortion", "k1 " + FixedOrDash(camera.k1, 4) + ", k2 " +
+                                   FixedOrDash(camera.k2, 4) + ", p1 " + FixedOrDash(camera.p1, 4) +
+                                   ", p2 " + FixedOrDash(camera.p2, 4));
     html_ += "</table>\n<table>\n";
     if (options_.database_bytes > 0) {
       html_ += Row("size on disk", Fact("bytes", std::to_string(options_.database_bytes),
@@ -787,11 +796,11 @@ class Page {
                                      " (" + std::to_string(database_.descriptors.size()) + ")");
     double seconds = 0.0;
     for (const auto& [step, duration] : report_.seconds) {
-      html_ += Row(Escape(step), Fixed(duration, 1) + " s");
+      html_ += Row(Escape(step), FixedOrDash(duration, 1) + " s");
       seconds += duration;
     }
     if (!report_.seconds.empty()) {
-      html_ += Row("training altogether", Fixed(seconds, 1) + " s");
+      html_ += Row("training altogether", FixedOrDash(seconds, 1) + " s");
     }
     html_ += "</table>\n</div></section>\n";
   }

@@ -1,7 +1,6 @@
 #pragma once
 
-// The capture report: how well a place was filmed, and what to film next, as one
-// HTML page for people.
+// The capture report: an HTML page that shows how well a place was filmed and what to film next.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,21 +17,22 @@
 namespace lararium::train {
 
 struct CaptureReportOptions {
-  std::string title = {};                      // the place's name
-  std::string source = {};                     // what was filmed: a file name
-  std::optional<double> metres_per_unit = {};  // of the map, where the stage has fixed it
-  uint64_t database_bytes = 0;                 // of the .larscene; 0 leaves it out
-  // The image of a frame of the source (BGR or grey), or an empty one. Without it,
-  // pictures come from the keyframes.
+  std::string title = {};                      // Name of the place.
+  std::string source = {};                     // File name of the recording.
+  std::optional<double> metres_per_unit = {};  // Scale of the map, if the stage has fixed it.
+  uint64_t database_bytes = 0;                 // Size of the .larscene file; 0 leaves it out.
+  // Returns the image of a frame of the source (BGR or grey), or an empty one. Without this
+  // function, pictures come from the keyframes.
   std::function<cv::Mat(int64_t frame_index)> frame_image = {};
 };
 
-// frame_image from the source that was trained on; borrows it.
+// Makes a CaptureReportOptions::frame_image that reads the trained source. The source must outlive
+// it.
 std::function<cv::Mat(int64_t)> FrameImagesOf(capture::FrameSource& source);
 
-// The page: everything within (styles, drawings, pictures as data URIs), no
-// scripts, nothing fetched. The same input gives the same bytes. Numbers carry
-// data- attributes with their names, so that programs can read them back.
+// Formats the page. It is self-contained (styles, drawings, pictures as data URIs), has no scripts
+// and fetches nothing. The same input gives the same bytes. Numbers carry data- attributes with
+// their names, so that programs can read them.
 std::string FormatCaptureReport(const TrainReport& report,
                                 const vision::SceneDatabase& database,
                                 const CaptureReportOptions& options);

@@ -12,14 +12,14 @@ namespace lararium::train {
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
-using Kind = CalibrationAdvice::Kind;
+using LensKind = CalibrationAdvice::Kind;
 
-constexpr int kEnoughViews = 20;  // below which more are asked for
-constexpr int kHoldOutEvery = 5;  // views
+constexpr int kEnoughViews = 20;  // Fewer fitted views lead to the advice to film more.
+constexpr int kHoldOutEvery = 5;  // Every fifth view is held out.
 constexpr int64_t kImagesOfRecording = 240;
-constexpr int kSearchWidth = 800;          // of the image that the board is looked for in
-constexpr double kImpossibleFocal = 0.05;  // standard deviation, of the focal length
-constexpr double kFrontalTilt = 0.17;      // radians: no board was tilted by more
+constexpr int kSearchWidth = 800;          // Longer side of the image that is searched, pixels.
+constexpr double kImpossibleFocal = 0.05;  // Relative standard deviation of the focal length.
+constexpr double kFrontalTilt = 0.17;      // A smaller maximum tilt cannot be calibrated, radians.
 constexpr double kPoorFocal = 0.02;
 constexpr double kGoodFocal = 0.005;
 constexpr double kGoodCover = 0.6;
@@ -35,7 +35,7 @@ std::vector<cv::Point2f> ToCv(std::span<const Eigen::Vector2d> corners) {
   return points;
 }
 
-// The shortest way from a corner to its neighbour.
+// The shortest distance between neighbouring corners.
 double Spacing(std::span<const cv::Point2f> corners, const Board& board) {
   double shortest = std::numeric_limits<double>::max();
   const auto columns = static_cast<size_t>(board.columns);
@@ -50,7 +50,7 @@ double Spacing(std::span<const cv::Point2f> corners, const Board& board) {
   return shortest;
 }
 
-// Places found in an image that is smaller by scale, in the image itself.
+// Converts positions from an image that was reduced by scale to the original image.
 void Enlarge(std::vector<cv::Point2f>& corners, double scale) {
   for (cv::Point2f& corner : corners) {
     corner.x = static_cast<float>((corner.x + 0.5) / scale - 0.5);
@@ -69,11 +69,12 @@ cv::Mat Reduced(const cv::Mat& grey, double& scale) {
   return reduced;
 }
 
-// Found by the sector search, which neither noise nor blur upsets, and made exact by the gradients
-// around each corner: half the error of either alone.
+// Finds the board by OpenCV's sector-based detector, which is robust to noise and blur, and refines
+// the corners by the surrounding gradients. Together they have half the error of either one alone.
 std::optional<std::vector<cv::Point2f>> SearchBoard(const cv::Mat& grey, const Board& board) {
-  constexpr double kWindow = 0.42;  // half of it, of the spacing: no other corner within
-  constexpr double kNearest = 5.0;  // px between corners
+  // Half the refinement window as a share of the spacing; no other corner lies within.
+  constexpr double kWindow = 0.42;
+  constexpr double kNearest = 5.0;  // Minimum spacing of the corners, pixels.
   double scale = 1.0;
   const cv::Mat reduced = Reduced(grey, scale);
   std::vector<cv::Point2f> corners;
@@ -94,7 +95,7 @@ std::optional<std::vector<cv::Point2f>> SearchBoard(const cv::Mat& grey, const B
   return corners;
 }
 
-// How far edges of squares reach, across the worse of both directions of the board.
+// Width of the edges between squares, in the less sharp of the board's two directions, pixels.
 double BlurOf(const cv::Mat& grey, const Board& board, std::span<const Eigen::Vector2d> corners) {
   constexpr float kRise = 0.8f;
   const std::vector<cv::Point2f> points = ToCv(corners);
@@ -120,7 +121,8 @@ Status Board::Validate() const {
     }
   }
   if (!std::isfinite(square) || square < 0.0 || square > 10.0) {
-    return Status::Error(Text(), "squares must be at most 10 m wide", "give metres, as 0.025");
+    return Status::Error(Text(), "squares must be at most 10 m wide",
+                         "give the width in metres, for example 0.025");
   }
   return Status();
 }
@@ -141,7 +143,7 @@ std::optional<Corners> FindBoard(const cv::Mat& grey, const Board& board) {
     }
     return corners;
   } catch (const cv::Exception&) {
-    return std::nullopt;  // an image too small for such a board
+    return std::nullopt;  // The image is too small for this board.
   }
 }
 
@@ -165,10 +167,12 @@ double CornerGrid::Covered() const {
 BoardCollector::BoardCollector(const Board& board, int width, int height)
     : board_(board), width_(width), height_(height) {}
 
-// Lengths as shares of the image, so that views that differ by kSpacing do so visibly.
+// Lengths are shares of the image size. The weights make a distance of kSpacing a visible
+// difference.
 BoardCollector::Pose BoardCollector::PoseOf(std::span<const Eigen::Vector2d> corners) const {
-  constexpr double kOfSize = 0.5;  // of a doubling
-  constexpr double kOfTilt = 4.0;  // of the share by which the board's end is farther away
+  constexpr double kOfSize = 0.5;  // Weight of a doubling of the size.
+  constexpr double kOfTilt =
+      4.0;  // Weight of the relative difference in distance across the board.
   constexpr double kOfRoll = 0.15;
   std::vector<cv::Point2f> on_board;
   for (int row = 0; row < board_.rows; ++row) {
@@ -198,7 +202,7 @@ BoardCollector::Pose BoardCollector::PoseOf(std::span<const Eigen::Vector2d> cor
   return pose;
 }
 
-// What is sharp is told by the sharpest quarter.
+// Largest blur of a sharp view, relative to the sharpest quarter of all views.
 double BoardCollector::SharpLimit() const {
   constexpr size_t kEnough = 8;
   constexpr double kSharpPx = 3.0;
@@ -229,7 +233,7 @@ void BoardCollector::LookForOthers(const cv::Mat& grey) {
   }
 }
 
-// Of the two views that are most alike the less sharp one goes.
+// Removes the less sharp one of the two most similar views.
 void BoardCollector::MakeRoom() {
   size_t gone = 0;
   double nearest = std::numeric_limits<double>::max();
@@ -245,25 +249,25 @@ void BoardCollector::MakeRoom() {
   views_.erase(views_.begin() + static_cast<std::ptrdiff_t>(gone));
 }
 
-BoardSight BoardCollector::Add(const geometry::Frame& frame, const std::string& name) {
+BoardObservation BoardCollector::Add(const geometry::Frame& frame, const std::string& name) {
   std::optional<Corners> corners = FindBoard(frame.grey, board_);
   if (!corners) {
     ++images_;
     corners_.clear();
     LookForOthers(frame.grey);
-    return BoardSight::kNone;
+    return BoardObservation::kNone;
   }
   const double blur = BlurOf(frame.grey, board_, *corners);
   return AddView({name, frame.index, blur, *std::move(corners)});
 }
 
-BoardSight BoardCollector::AddView(BoardView view) {
+BoardObservation BoardCollector::AddView(BoardView view) {
   constexpr double kSpacing = 0.12;
   ++images_;
   corners_ = view.corners;
   blurs_.push_back(view.blur_px);
   if (view.blur_px > SharpLimit()) {
-    return BoardSight::kBlurred;
+    return BoardObservation::kBlurred;
   }
   Entry entry{std::move(view), PoseOf(corners_)};
   const auto distance = [&](const Entry& other) { return (other.pose - entry.pose).norm(); };
@@ -274,14 +278,14 @@ BoardSight BoardCollector::AddView(BoardView view) {
     if (entry.view.blur_px < alike->view.blur_px) {
       *alike = std::move(entry);
     }
-    return BoardSight::kAlike;
+    return BoardObservation::kAlike;
   }
   grid_.Add(corners_, width_, height_);
   views_.push_back(std::move(entry));
   if (views_.size() > 2 * kMostViews) {
     MakeRoom();
   }
-  return BoardSight::kKept;
+  return BoardObservation::kKept;
 }
 
 BoardCounts BoardCollector::counts() const {
@@ -309,7 +313,7 @@ std::vector<BoardView> BoardCollector::Chosen() const {
 
 namespace {
 
-// What cv::calibrateCamera takes and gives.
+// Input and output of cv::calibrateCamera.
 struct Fit {
   cv::Mat camera;
   cv::Mat distortion;
@@ -399,7 +403,7 @@ class Calibrator {
     return indices;
   }
 
-  // start: intrinsics to begin with; nullptr: from the views alone.
+  // start holds initial intrinsics; with nullptr they are estimated from the views.
   Result<Fit> FitViews(std::span<const size_t> indices, const Fit* start) const {
     std::vector<std::vector<cv::Point3f>> points(indices.size(), points_);
     std::vector<std::vector<cv::Point2f>> corners;
@@ -424,16 +428,17 @@ class Calibrator {
   }
 
   Status NoAngle(const std::string& how) const {
-    return Problem("the focal length cannot be told: the board was held at nearly one angle" + how,
-                   "tilt it by 20 to 40 degrees to all sides, near the camera");
+    return Problem(
+        "the focal length cannot be determined: the board was held at nearly one angle" + how,
+        "tilt it by 20 to 40 degrees to all sides, near the camera");
   }
 
-  // Views that are far worse than the others show another board, or moved while the shutter was
-  // open: without them, until none is.
+  // Views with far larger errors than the others show another board or were blurred by motion. They
+  // are removed until none is left.
   Result<Fit> FitWithoutOutliers() {
     constexpr int kRounds = 4;
-    constexpr double kOver = 3.0;   // times the median
-    constexpr double kLeast = 0.3;  // px, which is never an outlier
+    constexpr double kOver = 3.0;   // Limit of an outlier, relative to the median error.
+    constexpr double kLeast = 0.3;  // Errors below this are never outliers, pixels.
     for (int round = 0;; ++round) {
       LARARIUM_RETURN_IF_ERROR(Step(0.15 * round));
       const std::vector<size_t> fitted = Indices(Part::kFitted);
@@ -484,7 +489,7 @@ class Calibrator {
     result_.rms_px = fit.rms;
   }
 
-  // The jackknife with groups of views: Shao & Tu, "The Jackknife and Bootstrap", 1995.
+  // Grouped jackknife: Shao & Tu, "The Jackknife and Bootstrap", 1995.
   Status TakeDeviation(const Fit& fit) {
     const std::vector<size_t> fitted = Indices(Part::kFitted);
     constexpr size_t kGroups = 5;
@@ -550,18 +555,19 @@ class Calibrator {
       return NoAngle(std::isfinite(deviation) ? " (+- " + std::to_string(percent) + " %)" : "");
     }
     if (const Status status = result_.camera.Validate(); !status.ok()) {
-      return Problem("what was seen makes no possible camera (" + status.message() + ")",
+      return Problem("the views do not give a valid camera (" + status.message() + ")",
                      "hold the board in all parts of the image, in its corners too, and tilt it");
     }
     return Status();
   }
 
-  // Each pose from the view itself, of the camera from the others.
+  // Evaluates the held-out views: the pose comes from the view itself, the intrinsics from the
+  // fitted views.
   void HoldOut() {
     const geometry::CameraModel& c = result_.camera;
     const cv::Matx33d matrix(c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0);
     const cv::Vec4d distortion(c.k1, c.k2, c.p1, c.p2);
-    constexpr double kOther = 5.0;  // times what is an outlier: not the board at all
+    constexpr double kOther = 5.0;  // Beyond this multiple of limit_, the view shows another board.
     double squares = 0.0;
     for (const size_t i : Indices(Part::kHeldOut)) {
       CalibratedView& view = result_.views[i];
@@ -592,11 +598,11 @@ class Calibrator {
     result_.held_out_rms_px = result_.held_out > 0 ? std::sqrt(squares / result_.held_out) : 0.0;
   }
 
-  void Advise(Kind kind, double value) { result_.advice.push_back({kind, value}); }
+  void Advise(LensKind kind, double value) { result_.advice.push_back({kind, value}); }
 
-  // The corners of the image first: distortion is strongest there.
+  // Begins with the corners of the image, where distortion is strongest.
   void AdviseOnParts() {
-    constexpr int kHardly = 2;  // of a part's cells
+    constexpr int kHardly = 2;  // Number of cells up to which a part counts as not covered.
     constexpr int kWide = CornerGrid::kColumns / 3;
     constexpr int kHigh = CornerGrid::kRows / 3;
     for (const int part : {0, 2, 6, 8, 1, 3, 5, 7, 4}) {
@@ -610,26 +616,27 @@ class Calibrator {
         }
       }
       if (seen <= kHardly) {
-        Advise(Kind::kPart, part);
+        Advise(LensKind::kPart, part);
       }
     }
   }
 
   void Judge() {
-    const double fine_px = std::max(0.5, size_.width / 2560.0);  // compressed and moving, too
+    // An error that is acceptable even for compressed video with motion.
+    const double fine_px = std::max(0.5, size_.width / 2560.0);
     const double focal = result_.FocalDeviation();
     const bool uneven = result_.rms_px > fine_px;
     const bool held_out = result_.held_out_rms_px > 1.5 * result_.rms_px + 0.1;
-    if (focal > kGoodFocal) Advise(Kind::kTilt, focal);
-    if (uneven) Advise(Kind::kUneven, result_.rms_px);
-    if (held_out) Advise(Kind::kHeldOut, result_.held_out_rms_px);
+    if (focal > kGoodFocal) Advise(LensKind::kTilt, focal);
+    if (uneven) Advise(LensKind::kUneven, result_.rms_px);
+    if (held_out) Advise(LensKind::kHeldOut, result_.held_out_rms_px);
     AdviseOnParts();
-    if (result_.fitted < kEnoughViews) Advise(Kind::kFewViews, result_.fitted);
+    if (result_.fitted < kEnoughViews) Advise(LensKind::kFewViews, result_.fitted);
     if (5 * result_.counts.blurred > result_.counts.found) {
-      Advise(Kind::kBlur, result_.counts.blurred);
+      Advise(LensKind::kBlur, result_.counts.blurred);
     }
     const double aspect = result_.camera.fx / result_.camera.fy - 1.0;
-    if (std::abs(aspect) > 0.02) Advise(Kind::kAspect, aspect);
+    if (std::abs(aspect) > 0.02) Advise(LensKind::kAspect, aspect);
     const bool poor =
         focal > kPoorFocal || result_.rms_px > 3.0 * fine_px || result_.covered < kPoorCover;
     const bool good = focal <= kGoodFocal && !uneven && !held_out && result_.covered >= kGoodCover;
@@ -643,7 +650,7 @@ class Calibrator {
   const BoardCollector& collector_;
   Progress& progress_;
   std::vector<cv::Point3f> points_;
-  double limit_ = 0.0;  // px, beyond which a view is an outlier
+  double limit_ = 0.0;  // RMS error beyond which a view is an outlier, pixels.
   Calibration result_;
 };
 
@@ -680,8 +687,8 @@ Result<Calibration> CalibrateFromBoard(capture::FrameSource& source,
     if (frame->index % stride != 0 && !source.live()) {
       continue;
     }
-    const BoardSight sight = views.Add(*frame, source.FrameName(frame->index));
-    if (next && !next({*frame, sight, views})) {
+    const BoardObservation observation = views.Add(*frame, source.FrameName(frame->index));
+    if (next && !next({*frame, observation, views})) {
       break;
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-// A camera's intrinsics from views of a chessboard: Zhang, "A Flexible New Technique for Camera
-// Calibration", PAMI 2000; with the errors that they have, and what to film to make them less.
+// Calibrates a camera's intrinsics from views of a chessboard (Zhang, "A Flexible New Technique for
+// Camera Calibration", PAMI 2000), estimates their errors, and advises what to film to reduce them.
 
 #include <Eigen/Core>
 #include <array>
@@ -20,88 +20,90 @@
 
 namespace lararium::train {
 
-// Inner corners are those where four squares meet: a board of 10 x 7 squares has 9 x 6.
+// A chessboard, described by its inner corners, where four squares meet: a board of 10 x 7 squares
+// has 9 x 6.
 struct Board {
-  static constexpr int kFewest = 3;  // corners of a side
+  static constexpr int kFewest = 3;  // Fewest and most inner corners along a side.
   static constexpr int kMost = 40;
 
-  int columns = 9;      // inner corners
-  int rows = 6;         // likewise
-  double square = 0.0;  // side in metres; 0: not known. Intrinsics do not depend on it
+  int columns = 9;      // Inner corners along a row.
+  int rows = 6;         // Inner corners along a column.
+  double square = 0.0;  // Side of a square, metres; 0 if unknown. Does not affect the intrinsics.
 
   Status Validate() const;
   std::string Text() const;  // "board 9x6"
   size_t corners() const { return static_cast<size_t>(columns) * static_cast<size_t>(rows); }
 };
 
-// The inner corners, row by row, pixels; nullopt where not all of the board is seen. grey: 8 bits.
+// Finds the inner corners in a grey image of 8 bits, in pixels, row by row. nullopt if the board is
+// not completely visible.
 std::optional<std::vector<Eigen::Vector2d>> FindBoard(const cv::Mat& grey, const Board& board);
 
-// What came of an image.
-enum class BoardSight {
-  kNone,     // no board was found
-  kBlurred,  // it is less sharp than others
-  kAlike,    // a view like it is there already
+// The result of adding an image.
+enum class BoardObservation {
+  kNone,     // No board was found.
+  kBlurred,  // The view is less sharp than others.
+  kAlike,    // A similar view exists already.
   kKept,
 };
 
 struct BoardView {
-  std::string name;                      // of the image, as the recording calls it
-  int64_t frame = 0;                     // its index
-  double blur_px = 0.0;                  // how far edges of squares reach
-  std::vector<Eigen::Vector2d> corners;  // row by row, pixels
+  std::string name;                      // Name of the image in the recording.
+  int64_t frame = 0;                     // Index of the image in the recording.
+  double blur_px = 0.0;                  // Width of the edges between squares.
+  std::vector<Eigen::Vector2d> corners;  // Pixels, row by row.
 };
 
-// How often corners were seen in cells of the image.
+// Counts how often corners were seen in each cell of the image.
 struct CornerGrid {
   static constexpr int kColumns = 12;
   static constexpr int kRows = 9;
-  std::array<std::array<int, kColumns>, kRows> counts = {};  // from the top
+  std::array<std::array<int, kColumns>, kRows> counts = {};  // The first row is the top one.
 
   void Add(std::span<const Eigen::Vector2d> corners, int width, int height);
-  double Covered() const;  // share of the cells
+  double Covered() const;  // Share of the cells with corners.
 };
 
-// Views that differ, without which there is no calibration.
+// Minimum number of different views for a calibration.
 inline constexpr size_t kFewestViews = 8;
 
-// Parts of the image, three by three, row by row from the upper left.
+// Number of image parts: three by three, row by row from the upper left.
 inline constexpr int kImageParts = 9;
 
 struct BoardCounts {
-  int images = 0;   // that were looked at
-  int found = 0;    // that show the board
-  int blurred = 0;  // of these
+  int images = 0;   // Number of images searched.
+  int found = 0;    // Number of images that show the board.
+  int blurred = 0;  // Number of images that show the board blurred.
 };
 
-// Gathers views that differ in where, how large and how tilted the board is; of those that are
-// alike the sharpest. Deterministic.
+// Collects views that differ in position, size and tilt of the board. Of similar views the sharpest
+// is kept. Deterministic.
 class BoardCollector {
  public:
   static constexpr size_t kMostViews = 50;
 
   BoardCollector(const Board& board, int width, int height);
 
-  BoardSight Add(const geometry::Frame& frame, const std::string& name);
-  // A view that was found already.
-  BoardSight AddView(BoardView view);
+  BoardObservation Add(const geometry::Frame& frame, const std::string& name);
+  // Adds a view that was found elsewhere.
+  BoardObservation AddView(BoardView view);
 
   const Board& board() const { return board_; }
   int width() const { return width_; }
   int height() const { return height_; }
-  // Of the image that was added last; empty where it shows no board.
+  // Corners in the image that was added last; empty if it shows no board.
   const std::vector<Eigen::Vector2d>& corners() const { return corners_; }
   const CornerGrid& grid() const { return grid_; }
   BoardCounts counts() const;
   size_t kept() const { return views_.size(); }
-  // The sharp ones, at most kMostViews, in the order of their images.
+  // The sharp views, at most kMostViews, in the order of their images.
   std::vector<BoardView> Chosen() const;
-  // Boards of a corner more or less on each side are looked for too where this one never was
-  // seen: the size of one that was seen.
+  // The size of another board that was found. As long as board() has not been seen, boards with one
+  // corner more or less along each side are searched for, too.
   std::optional<Board> OtherBoard() const { return other_; }
 
  private:
-  // Where, how large and how tilted.
+  // Position, size, tilt and roll of a board in the image, scaled for comparison.
   using Pose = Eigen::Matrix<double, 6, 1>;
   struct Entry {
     BoardView view;
@@ -118,21 +120,21 @@ class BoardCollector {
   int height_;
   std::vector<Eigen::Vector2d> corners_;
   CornerGrid grid_;
-  std::vector<double> blurs_;  // of all images with a board
+  std::vector<double> blurs_;  // BoardView::blur_px of all images with a board.
   std::vector<Entry> views_;
   int images_ = 0;
   std::optional<Board> other_;
 };
 
-// What to do for a better calibration.
+// Advice for a better calibration.
 struct CalibrationAdvice {
   enum class Kind {
-    kTilt,      // value: standard deviation of the focal length, as a share of it
-    kPart,      // value: which part of the image shows no corner; see kImageParts
-    kBlur,      // value: how many views were left out
-    kFewViews,  // value: how many there are
-    kUneven,    // value: RMS in pixels; the board bends, or the camera changed meanwhile
-    kHeldOut,   // value: RMS in pixels of the views that were held out
+    kTilt,      // value: relative standard deviation of the focal length
+    kPart,      // value: index of an image part with hardly any corners; see kImageParts
+    kBlur,      // value: number of views left out
+    kFewViews,  // value: number of views
+    kUneven,    // value: RMS in pixels; the board is bent, or the camera settings changed
+    kHeldOut,   // value: RMS in pixels of the held-out views
     kAspect,    // value: fx / fy - 1
   };
   Kind kind = Kind::kTilt;
@@ -143,9 +145,9 @@ struct CalibratedView {
   enum class Part { kFitted, kHeldOut, kRejected };
   BoardView view;
   Part part = Part::kFitted;
-  double rms_px = 0.0;    // of its corners
-  double tilt = 0.0;      // radians between board and image plane
-  double distance = 0.0;  // of the board's middle; metres, or squares where those are not known
+  double rms_px = 0.0;    // Root mean square reprojection error of the corners.
+  double tilt = 0.0;      // Angle between board and image plane, radians.
+  double distance = 0.0;  // Distance of the board's centre; metres, or squares if unknown.
 };
 
 struct CameraDeviation {
@@ -156,39 +158,40 @@ struct Calibration {
   enum class Verdict { kGood, kUsable, kPoor };
 
   geometry::CameraModel camera;
-  // Standard deviations: the larger one of what the residuals give, were they independent, and of
-  // what leaving out every fifth of the views in turn gives, which knows of bent boards too.
+  // Standard deviations. Each is the larger of two estimates: from the residuals, assuming that
+  // they are independent, and from leaving out every fifth part of the views in turn, which also
+  // shows the effect of a bent board.
   CameraDeviation deviation;
-  double rms_px = 0.0;           // of all corners of the views that were fitted
-  double held_out_rms_px = 0.0;  // of every fifth view, which was not; 0 where there is none
+  double rms_px = 0.0;           // RMS error of all corners of the fitted views.
+  double held_out_rms_px = 0.0;  // RMS error of the held-out views; 0 if there are none.
   int fitted = 0;
   int held_out = 0;
-  int rejected = 0;  // views that fit none of the others
+  int rejected = 0;  // Number of views that contradict the others.
   BoardCounts counts;
-  CornerGrid grid;                    // of the fitted views
-  double covered = 0.0;               // share of the image's cells
+  CornerGrid grid;                    // Corners of the fitted views.
+  double covered = 0.0;               // Share of the grid's cells with corners.
   double max_tilt = 0.0;              // radians
-  std::vector<CalibratedView> views;  // in the order of their images
+  std::vector<CalibratedView> views;  // Ordered by image.
   Verdict verdict = Verdict::kGood;
-  std::vector<CalibrationAdvice> advice;  // the most urgent first
+  std::vector<CalibrationAdvice> advice;  // The most urgent first.
 
   double FocalDeviation() const { return deviation.fx / camera.fx; }
 };
 
-// Errors say what was seen, and the remedy: no board, blurred ones only, too few that differ, all
-// from one angle.
+// Fails if no board was found, if most views are blurred, if too few views differ, or if all are
+// from nearly one angle. Errors say what was seen and what to do.
 Result<Calibration> Calibrate(const BoardCollector& views, Progress& progress);
 
-// What is known after an image; borrowed.
+// The state after an image, for callbacks. Holds references.
 struct BoardMoment {
   const geometry::Frame& frame;
-  BoardSight sight;
+  BoardObservation observation;
   const BoardCollector& views;
 };
 
-// Looks for the board in a recording (at some 240 images all over it; all of a folder) or, until
-// seconds have gone, at what a live camera shows; then calibrates. next: told of each image;
-// false: enough. Cancelled: an error.
+// Searches for the board and then calibrates. In a recording it looks at about 240 images, evenly
+// distributed; from a live camera it looks at all images for the given number of seconds. next is
+// called after each image and ends the search by returning false. Cancelling gives an error.
 Result<Calibration> CalibrateFromBoard(capture::FrameSource& source,
                                        const Board& board,
                                        double seconds,

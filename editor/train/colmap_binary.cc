@@ -10,14 +10,14 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "COLMAP's files are little-endian");
 
-// The bytes of each record at least, to bound counts.
+// Minimum size of each record in bytes, which limits the counts.
 constexpr size_t kCameraBytes = 24;
 constexpr size_t kImageBytes = 4 + 7 * 8 + 4 + 1 + 8;
 constexpr size_t kFeatureBytes = 24;
 constexpr size_t kPointBytes = 8 + 3 * 8 + 3 + 8 + 8;
-constexpr size_t kSightBytes = 8;
+constexpr size_t kObservationBytes = 8;
 
-// Takes numbers from the front of bytes; remembers when they ran out.
+// Takes numbers from the front of the bytes; remembers if there were too few.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -39,7 +39,8 @@ class Reader {
     return value;
   }
 
-  // How many records of at least record_bytes follow; 0 and failed where so many cannot.
+  // Takes the number of records that follow, each of at least record_bytes. Fails and returns 0 if
+  // the remaining bytes cannot hold them.
   size_t TakeCount(size_t record_bytes) {
     const auto count = Take<uint64_t>();
     if (count > bytes_.size() / record_bytes) {
@@ -50,7 +51,7 @@ class Reader {
     return static_cast<size_t>(count);
   }
 
-  // Up to a zero byte.
+  // Takes text up to a zero byte.
   std::string TakeText() {
     const size_t length = bytes_.find('\0');
     if (length == std::string_view::npos) {
@@ -78,7 +79,7 @@ class Reader {
   bool failed_ = false;
 };
 
-Status ParseCameras(std::string_view bytes, const std::string& place, ColmapModel& model) {
+Status ParseBinaryCameras(std::string_view bytes, const std::string& place, ColmapModel& model) {
   Reader in(bytes);
   const size_t count = in.TakeCount(kCameraBytes);
   for (size_t i = 0; i < count && !in.failed(); ++i) {
@@ -102,7 +103,7 @@ Status ParseCameras(std::string_view bytes, const std::string& place, ColmapMode
   return in.Finish(place);
 }
 
-Status ParseImages(std::string_view bytes, const std::string& place, ColmapModel& model) {
+Status ParseBinaryImages(std::string_view bytes, const std::string& place, ColmapModel& model) {
   Reader in(bytes);
   const size_t count = in.TakeCount(kImageBytes);
   for (size_t i = 0; i < count && !in.failed(); ++i) {
@@ -128,7 +129,7 @@ Status ParseImages(std::string_view bytes, const std::string& place, ColmapModel
   return in.Finish(place);
 }
 
-Status ParsePoints(std::string_view bytes, const std::string& place, ColmapModel& model) {
+Status ParseBinaryPoints(std::string_view bytes, const std::string& place, ColmapModel& model) {
   Reader in(bytes);
   const size_t count = in.TakeCount(kPointBytes);
   for (size_t i = 0; i < count && !in.failed(); ++i) {
@@ -141,17 +142,17 @@ Status ParsePoints(std::string_view bytes, const std::string& place, ColmapModel
       channel = in.Take<uint8_t>();
     }
     point.error = in.Take<double>();
-    point.sights.resize(in.TakeCount(kSightBytes));
-    for (ColmapSight& sight : point.sights) {
-      sight.image = in.Take<uint32_t>();
-      sight.feature = in.Take<uint32_t>();
+    point.observations.resize(in.TakeCount(kObservationBytes));
+    for (ColmapObservation& observation : point.observations) {
+      observation.image = in.Take<uint32_t>();
+      observation.feature = in.Take<uint32_t>();
     }
   }
   return in.Finish(place);
 }
 
 template <typename T>
-void Put(std::string& bytes, T value) {
+void PutBinary(std::string& bytes, T value) {
   static_assert(std::is_arithmetic_v<T>);
   const size_t at = bytes.size();
   bytes.resize(at + sizeof(T));
@@ -161,56 +162,56 @@ void Put(std::string& bytes, T value) {
 }  // namespace
 
 Status ParseColmapBinary(const ColmapFiles& files, const std::string& place, ColmapModel& model) {
-  LARARIUM_RETURN_IF_ERROR(ParseCameras(files.cameras, place + "/cameras.bin", model));
-  LARARIUM_RETURN_IF_ERROR(ParseImages(files.images, place + "/images.bin", model));
-  return ParsePoints(files.points, place + "/points3D.bin", model);
+  LARARIUM_RETURN_IF_ERROR(ParseBinaryCameras(files.cameras, place + "/cameras.bin", model));
+  LARARIUM_RETURN_IF_ERROR(ParseBinaryImages(files.images, place + "/images.bin", model));
+  return ParseBinaryPoints(files.points, place + "/points3D.bin", model);
 }
 
 ColmapFiles SerializeColmapBinary(const ColmapModel& model) {
   ColmapFiles files;
-  Put<uint64_t>(files.cameras, model.cameras.size());
+  PutBinary<uint64_t>(files.cameras, model.cameras.size());
   for (const ColmapCamera& camera : model.cameras) {
-    Put(files.cameras, camera.id);
-    Put(files.cameras, static_cast<int32_t>(camera.model));
-    Put(files.cameras, camera.width);
-    Put(files.cameras, camera.height);
+    PutBinary(files.cameras, camera.id);
+    PutBinary(files.cameras, static_cast<int32_t>(camera.model));
+    PutBinary(files.cameras, camera.width);
+    PutBinary(files.cameras, camera.height);
     for (const double parameter : camera.parameters) {
-      Put(files.cameras, parameter);
+      PutBinary(files.cameras, parameter);
     }
   }
-  Put<uint64_t>(files.images, model.images.size());
+  PutBinary<uint64_t>(files.images, model.images.size());
   for (const ColmapImage& image : model.images) {
-    Put(files.images, image.id);
+    PutBinary(files.images, image.id);
     const Eigen::Quaterniond& q = image.camera_from_map.rotation;
     for (const double component : {q.w(), q.x(), q.y(), q.z()}) {
-      Put(files.images, component);
+      PutBinary(files.images, component);
     }
     for (const double t : image.camera_from_map.translation) {
-      Put(files.images, t);
+      PutBinary(files.images, t);
     }
-    Put(files.images, image.camera);
+    PutBinary(files.images, image.camera);
     files.images.append(image.name.c_str(), image.name.size() + 1);
-    Put<uint64_t>(files.images, image.features.size());
+    PutBinary<uint64_t>(files.images, image.features.size());
     for (const ColmapFeature& feature : image.features) {
-      Put(files.images, feature.x);
-      Put(files.images, feature.y);
-      Put(files.images, feature.point);
+      PutBinary(files.images, feature.x);
+      PutBinary(files.images, feature.y);
+      PutBinary(files.images, feature.point);
     }
   }
-  Put<uint64_t>(files.points, model.points.size());
+  PutBinary<uint64_t>(files.points, model.points.size());
   for (const ColmapPoint& point : model.points) {
-    Put(files.points, point.id);
+    PutBinary(files.points, point.id);
     for (const double x : point.position) {
-      Put(files.points, x);
+      PutBinary(files.points, x);
     }
     for (const uint8_t channel : point.colour) {
-      Put(files.points, channel);
+      PutBinary(files.points, channel);
     }
-    Put(files.points, point.error);
-    Put<uint64_t>(files.points, point.sights.size());
-    for (const ColmapSight& sight : point.sights) {
-      Put(files.points, sight.image);
-      Put(files.points, sight.feature);
+    PutBinary(files.points, point.error);
+    PutBinary<uint64_t>(files.points, point.observations.size());
+    for (const ColmapObservation& observation : point.observations) {
+      PutBinary(files.points, observation.image);
+      PutBinary(files.points, observation.feature);
     }
   }
   return files;

@@ -1,7 +1,7 @@
 #pragma once
 
-// The binary form of COLMAP models: little-endian numbers without padding. Its
-// layout is that of Reconstruction::ReadBinary of COLMAP 3.8.
+// The binary form of COLMAP models: little-endian numbers without padding, in the layout of
+// Reconstruction::ReadBinary of COLMAP 3.8.
 
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace lararium::train {
 
-// Sizes and counts are checked against the bytes at hand before anything is
-// allocated; references and numbers are Validate()'s to check.
+// Checks sizes and counts against the available bytes before anything is allocated. References and
+// numbers are checked by ColmapModel::Validate() only.
 Status ParseColmapBinary(const ColmapFiles& files, const std::string& place, ColmapModel& model);
 ColmapFiles SerializeColmapBinary(const ColmapModel& model);
 

@@ -28,15 +28,15 @@ constexpr std::string_view kImport = "import from COLMAP";
 
 // ------------------------------------------------------------------- export
 
-// sRGB byte of a linear value (IEC 61966-2-1); 0 where it is unknown.
+// The sRGB byte of a linear value (IEC 61966-2-1). Negative values, which mean unknown, give 0.
 uint8_t SrgbFromLinear(float linear) {
   const double v = std::clamp(static_cast<double>(linear), 0.0, 1.0);
   const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
   return static_cast<uint8_t>(std::lround(255.0 * encoded));
 }
 
-// A relative path without blanks (COLMAP's text reader ends names there) that
-// stays inside its folder and ends like an image.
+// A relative path that stays inside its folder and has the suffix of an image. It contains no
+// blanks, because COLMAP's text reader ends names at them.
 std::string FileNameOf(const vision::Keyframe& keyframe) {
   std::string name = keyframe.name;
   for (char& c : name) {
@@ -52,7 +52,7 @@ std::string FileNameOf(const vision::Keyframe& keyframe) {
   return kExtensions.contains(fs::path(name).extension().string()) ? name : name + ".png";
 }
 
-// Of each keyframe, unique: frames of two sessions often share a name.
+// [keyframes]: Unique file names; frames of two sessions often have the same name.
 std::vector<std::string> FileNames(const vision::SceneDatabase& database) {
   std::vector<std::string> names;
   std::set<std::string> taken;
@@ -68,7 +68,7 @@ std::vector<std::string> FileNames(const vision::SceneDatabase& database) {
   return names;
 }
 
-// Mean error of each point, as COLMAP's ERROR; sights from behind do not count.
+// Fills in COLMAP's ERROR, the mean error of each point, without observations behind the camera.
 void FillErrors(const vision::SceneDatabase& database, ColmapModel& model) {
   std::vector<double> sums(database.points.size(), 0.0);
   std::vector<int> counts(database.points.size(), 0);
@@ -85,7 +85,7 @@ void FillErrors(const vision::SceneDatabase& database, ColmapModel& model) {
   }
 }
 
-// A folder that is removed with all in it unless it was moved away.
+// A temporary folder that is removed with its content unless it was moved away.
 class HalfWrittenFolder {
  public:
   static Result<HalfWrittenFolder> Beside(const fs::path& folder) {
@@ -135,11 +135,11 @@ Status WriteImage(const fs::path& file, const cv::Mat& grey) {
 
 // ------------------------------------------------------------------- import
 
-// An image of the model on its way into the database.
+// An image of the model that is being imported.
 struct Import {
   const ColmapImage* image = nullptr;
   int64_t frame_index = -1;
-  const CameraModel* own_camera = nullptr;  // set where it must be resampled
+  const CameraModel* own_camera = nullptr;  // Set if the image must be resampled.
 };
 
 bool ProjectAlike(const CameraModel& a, const CameraModel& b) {
@@ -159,7 +159,7 @@ bool ProjectAlike(const CameraModel& a, const CameraModel& b) {
   return true;
 }
 
-// The image that camera to would have taken in place of camera from.
+// Resamples an image of camera `from` to that which camera `to` would have taken.
 cv::Mat Resample(const cv::Mat& image, const CameraModel& from, const CameraModel& to) {
   cv::Mat resampled;
   cv::remap(image, resampled, geometry::PixelsSeenBy(from, to), cv::noArray(), cv::INTER_CUBIC);
@@ -186,7 +186,7 @@ Result<cv::Mat> ReadImage(const fs::path& file, const ColmapCamera& camera) {
   return bgr;
 }
 
-// The features of an image by place, for the nearest one.
+// Finds the feature of an image that is nearest to a position, by a grid.
 class FeatureGrid {
  public:
   FeatureGrid(const vision::Features& features, double radius_px)
@@ -198,7 +198,8 @@ class FeatureGrid {
     std::sort(order_.begin(), order_.end());
   }
 
-  // The nearest within the radius; of equals (one place, several orientations) the first.
+  // The nearest feature within the radius; the first one if several are equally near (one position
+  // with several orientations).
   std::optional<uint32_t> Nearest(const Eigen::Vector2d& pixel) const {
     std::optional<uint32_t> nearest;
     double best = radius_ * radius_;
@@ -254,7 +255,7 @@ class Importer {
   }
 
  private:
-  // The camera of most images, the first of equals.
+  // Chooses the camera of most images; the first one if several have equally many.
   Status ChooseCamera() {
     std::map<uint32_t, size_t> uses;
     for (const ColmapImage& image : model_.images) {
@@ -325,7 +326,7 @@ class Importer {
     return Status();
   }
 
-  // Images and their features, a few at a time.
+  // Reads images and extracts their features, a few at a time.
   Status ReadImages() {
     images_.resize(imports_.size());
     std::vector<Status> problems(imports_.size());
@@ -359,7 +360,7 @@ class Importer {
     }
     cv::cvtColor(image.bgr, image.grey, cv::COLOR_BGR2GRAY);
     vision::FeatureOptions options;
-    options.contrast_threshold = 0.02f;  // as training does
+    options.contrast_threshold = 0.02f;  // The same as in training.
     options.max_features = options_.max_features;
     auto features = vision::ExtractFeatures(image.grey, options);
     if (!features.ok()) {
@@ -369,7 +370,7 @@ class Importer {
     return Status();
   }
 
-  // Our pixel of a feature of the model.
+  // Converts the position of a model feature to our pixel convention and camera.
   Eigen::Vector2d PixelOf(const Import& import, const ColmapFeature& feature) const {
     const Eigen::Vector2d pixel(feature.x - 0.5, feature.y - 0.5);
     return import.own_camera == nullptr
@@ -377,8 +378,8 @@ class Importer {
                : camera_.PixelFromPlane(import.own_camera->PlaneFromPixel(pixel));
   }
 
-  // For each point of the model, our features that show it, in order of images. A
-  // feature shows one point; where the model has several that near, the nearest.
+  // For each point of the model, our features that show it, in order of images. If several points
+  // are near a feature, it shows the nearest.
   Tracks FindTracks() const {
     struct Tie {
       double distance;
@@ -414,15 +415,15 @@ class Importer {
         return false;
       });
     });
-    std::map<uint64_t, std::vector<TrackElement>> sights;
+    std::map<uint64_t, std::vector<TrackElement>> observations;
     for (uint32_t i = 0; i < ties.size(); ++i) {
       for (const Tie& tie : ties[i]) {
-        sights[tie.point].push_back({i, tie.feature});
+        observations[tie.point].push_back({i, tie.feature});
       }
     }
     Tracks tracks;
     for (const ColmapPoint& point : model_.points) {
-      if (const auto found = sights.find(point.id); found != sights.end()) {
+      if (const auto found = observations.find(point.id); found != observations.end()) {
         tracks.elements.insert(tracks.elements.end(), found->second.begin(), found->second.end());
       }
       tracks.begin.push_back(static_cast<uint32_t>(tracks.elements.size()));
@@ -430,7 +431,7 @@ class Importer {
     return tracks;
   }
 
-  // The model's poses and points, with our features as their sights.
+  // Builds a reconstruction from the model's poses and points, with our features as observations.
   Result<Reconstruction> Tie() {
     progress_.Report("points", 0.0);
     std::vector<std::vector<Eigen::Vector2d>> pixels(images_.size());
@@ -443,7 +444,7 @@ class Importer {
     for (uint32_t i = 0; i < imports_.size(); ++i) {
       reconstruction.Locate(i, imports_[i].image->camera_from_map);
     }
-    // The model vouches for its points: narrow angles are as good as it found them.
+    // The model's points are trusted, so narrow angles are accepted.
     TriangulationOptions triangulation;
     triangulation.min_angle = 1e-4;
     for (uint32_t track = 0; track < model_.points.size(); ++track) {
@@ -456,7 +457,7 @@ class Importer {
     const size_t found = reconstruction.PointCount();
     log_.info("{} of the model's {} points were found again in its images", found,
               model_.points.size());
-    constexpr size_t kMinPoints = 30;  // fewer locate no image
+    constexpr size_t kMinPoints = 30;  // Fewer points are not enough to locate an image.
     if (found < kMinPoints) {
       return Status::Error(kImport,
                            "only " + std::to_string(found) + " of the model's " +
@@ -473,9 +474,9 @@ class Importer {
   Progress& progress_;
   Log& log_;
   CameraModel camera_;
-  std::map<uint32_t, CameraModel> cameras_;  // by id
+  std::map<uint32_t, CameraModel> cameras_;  // Key: camera id.
   std::vector<Import> imports_;
-  std::vector<TrainingImage> images_;  // of the same index
+  std::vector<TrainingImage> images_;  // Parallel to imports_.
 };
 
 }  // namespace
@@ -503,7 +504,7 @@ ColmapModel ColmapFromDatabase(const vision::SceneDatabase& database) {
   }
   for (const vision::Observation& o : database.observations) {
     std::vector<ColmapFeature>& features = model.images[o.keyframe].features;
-    model.points[o.point].sights.push_back(
+    model.points[o.point].observations.push_back(
         {o.keyframe + 1, static_cast<uint32_t>(features.size())});
     features.push_back({o.x + 0.5, o.y + 0.5, uint64_t{o.point} + 1});
   }
@@ -574,7 +575,7 @@ Result<ColmapFolders> FindColmapFolders(const fs::path& model, const fs::path& i
     if (fs::is_directory(at / "images", ignored)) {
       folders.images = at / "images";
     }
-    // Projects keep models two folders deep at most.
+    // In a project, the model is at most two folders deep.
     if (at == base.parent_path().parent_path()) {
       break;
     }

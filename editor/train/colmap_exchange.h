@@ -1,6 +1,6 @@
 #pragma once
 
-// Places to and from COLMAP: train there and track here, or the other way round.
+// Exchanges maps with COLMAP: train there and track here, or the other way round.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,51 +13,50 @@
 
 namespace lararium::train {
 
-// The map as a model: one camera, keyframes as images 1, 2, ... under names that
-// are unique and fit a folder, points as 1, 2, ... with their colours (black
-// where the map has none), observations as features that show them.
+// Converts a map to a model: one camera, keyframes as images 1, 2, ... with unique names that are
+// valid in a folder, points as 1, 2, ... with their colours (black if the map has none), and
+// observations as features.
 ColmapModel ColmapFromDatabase(const vision::SceneDatabase& database);
 
-// Writes that model into a new folder, which appears as a whole or not at all.
-// with_images: also the keyframes' grey images, into images/ below it; those that
-// the budget left out are missing there.
+// Writes that model into a new folder, completely or not at all. with_images also writes the
+// keyframes' grey images into its subfolder images/; keyframes without an image are missing there.
 Status ExportColmap(const vision::SceneDatabase& database,
                     const std::filesystem::path& folder,
                     ColmapFormat format,
                     bool with_images);
 
 struct ColmapImportOptions {
-  // How far from where the model sees a point our feature of it may lie.
+  // Largest distance between the model's feature of a point and our feature of it.
   double radius_px = 1.0;
-  int max_features = 8192;  // of each image, those of strongest response
-  int max_points = 60'000;  // of the database
+  int max_features = 8192;  // Number of strongest features per image.
+  int max_points = 60'000;  // Maximum number of points of the database.
   uint64_t seed = 1;
 
   Status Validate() const;
 };
 
-// Where a COLMAP project keeps its parts.
+// The folders of a COLMAP project.
 struct ColmapFolders {
   std::filesystem::path model;
   std::filesystem::path images;
 };
 
-// model: a folder with a model, or a project with one in sparse/0 or sparse.
-// images: empty to look for images/ in and beside them.
+// Finds the folders. model is a folder with a model, or a project with a model in sparse/0 or
+// sparse. If images is empty, a folder images/ is searched for in and beside these folders.
 Result<ColmapFolders> FindColmapFolders(const std::filesystem::path& model,
                                         const std::filesystem::path& images);
 
-// A model and its images as a place that can be tracked. Poses and points stay as
-// they are, in the model's axes and unit; our features are found in the images and
-// tied to the points that the model sees within radius_px of them. Points that
-// keep fewer than two sights are left out.
+// Imports a model and its images as a place that can be tracked. Poses and points stay unchanged,
+// in the model's axes and unit. Our features are extracted from the images and assigned to the
+// points whose model features lie within radius_px. Points with fewer than two such observations
+// are left out.
 //
-// The database has one camera: the one that takes most images. Images of a camera
-// that projects otherwise are resampled to it; the log says how many.
+// The database has one camera: the one with the most images. Images of a camera with another
+// projection are resampled to it; the log says how many.
 //
-// Keyframes count as OpenImageFolder counts the image folder, or in order of
-// names where an image lies outside it or in a folder below. Errors name images
-// that are missing, unreadable or of another size than their camera's.
+// Frame indices of keyframes are those of OpenImageFolder for the image folder. If an image lies
+// elsewhere or in a subfolder, frames are numbered in the order of their names. Errors name images
+// that are missing, unreadable, or whose size differs from that of their camera.
 Result<vision::SceneDatabase> ImportColmap(const std::filesystem::path& model,
                                            const std::filesystem::path& images,
                                            const ColmapImportOptions& options,

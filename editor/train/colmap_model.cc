@@ -37,8 +37,8 @@ std::string Called(std::string_view kind, uint64_t id) {
   return std::string(kind) + " " + std::to_string(id);
 }
 
-// Our maps bound coordinates alike.
-bool Plausible(double value) { return std::abs(value) < 1e9; }  // false for NaN
+// The same limit as in our maps. Returns false for NaN, too.
+bool Plausible(double value) { return std::abs(value) < 1e9; }
 
 bool Plausible(const Eigen::Vector3d& v) {
   return Plausible(v.x()) && Plausible(v.y()) && Plausible(v.z());
@@ -75,7 +75,7 @@ Status CheckCamera(const ColmapCamera& camera) {
   }
   if (!std::all_of(camera.parameters.begin(), camera.parameters.end(),
                    [](double p) { return std::isfinite(p); })) {
-    return Status::Error(place, "has a parameter that is no finite number", kRemedy);
+    return Status::Error(place, "has a parameter that is not a finite number", kRemedy);
   }
   return Status();
 }
@@ -83,12 +83,12 @@ Status CheckCamera(const ColmapCamera& camera) {
 Status CheckImage(const ColmapModel& model, const ColmapImage& image) {
   const std::string place = Called("image", image.id);
   if (Find(model.cameras, image.camera) == nullptr) {
-    return Status::Error(place, "names " + Called("camera", image.camera) + ", which is missing",
-                         kRemedy);
+    return Status::Error(
+        place, "refers to " + Called("camera", image.camera) + ", which is missing", kRemedy);
   }
   if (!(std::abs(image.camera_from_map.rotation.squaredNorm() - 1.0) < 1e-9) ||
       !Plausible(image.camera_from_map.translation)) {
-    return Status::Error(place, "has a pose that is no rigid motion", kRemedy);
+    return Status::Error(place, "has a pose that is not a rigid motion", kRemedy);
   }
   const bool has_control = std::any_of(image.name.begin(), image.name.end(),
                                        [](char c) { return static_cast<unsigned char>(c) < ' '; });
@@ -97,7 +97,7 @@ Status CheckImage(const ColmapModel& model, const ColmapImage& image) {
   }
   for (const ColmapFeature& feature : image.features) {
     if (!Plausible(feature.x) || !Plausible(feature.y)) {
-      return Status::Error(place, "has a feature at an impossible place", kRemedy);
+      return Status::Error(place, "has a feature at an invalid position", kRemedy);
     }
     if (feature.point != ColmapFeature::kNoPoint && Find(model.points, feature.point) == nullptr) {
       return Status::Error(place, "shows " + Called("point", feature.point) + ", which is missing",
@@ -110,40 +110,43 @@ Status CheckImage(const ColmapModel& model, const ColmapImage& image) {
 Status CheckPoint(const ColmapModel& model, const ColmapPoint& point) {
   const std::string place = Called("point", point.id);
   if (point.id == ColmapFeature::kNoPoint) {
-    return Status::Error(place, "has the number that stands for no point", kRemedy);
+    return Status::Error(place, "has the id that is reserved for features without a point",
+                         kRemedy);
   }
   if (!Plausible(point.position)) {
-    return Status::Error(place, "lies at an impossible place", kRemedy);
+    return Status::Error(place, "lies at an invalid position", kRemedy);
   }
   if (!std::isfinite(point.error)) {
-    return Status::Error(place, "has an error that is no finite number", kRemedy);
+    return Status::Error(place, "has an error that is not a finite number", kRemedy);
   }
-  for (const ColmapSight& sight : point.sights) {
-    const ColmapImage* image = Find(model.images, sight.image);
-    if (image == nullptr || sight.feature >= image->features.size() ||
-        image->features[sight.feature].point != point.id) {
+  for (const ColmapObservation& observation : point.observations) {
+    const ColmapImage* image = Find(model.images, observation.image);
+    if (image == nullptr || observation.feature >= image->features.size() ||
+        image->features[observation.feature].point != point.id) {
       return Status::Error(place,
-                           "is not what feature " + std::to_string(sight.feature) + " of " +
-                               Called("image", sight.image) + " shows",
+                           "is not what feature " + std::to_string(observation.feature) + " of " +
+                               Called("image", observation.image) + " shows",
                            kRemedy);
     }
   }
   return Status();
 }
 
-// With every sight found in its image: none is missing, none counts twice.
-Status CheckSightsAreAll(const ColmapModel& model) {
-  std::vector<ColmapSight> sights;
+// Checks that the observations of the points and the features that show points correspond one to
+// one. CheckPoint has found every observation in its image already.
+Status CheckObservationsAreAll(const ColmapModel& model) {
+  std::vector<ColmapObservation> observations;
   for (const ColmapPoint& point : model.points) {
-    sights.insert(sights.end(), point.sights.begin(), point.sights.end());
+    observations.insert(observations.end(), point.observations.begin(), point.observations.end());
   }
-  const auto key = [](const ColmapSight& s) { return uint64_t{s.image} << 32 | s.feature; };
-  std::sort(sights.begin(), sights.end(),
-            [&](const ColmapSight& a, const ColmapSight& b) { return key(a) < key(b); });
-  for (size_t i = 1; i < sights.size(); ++i) {
-    if (key(sights[i]) == key(sights[i - 1])) {
-      return Status::Error(Called("image", sights[i].image),
-                           "has a feature that a point counts twice", kRemedy);
+  const auto key = [](const ColmapObservation& s) { return uint64_t{s.image} << 32 | s.feature; };
+  std::sort(
+      observations.begin(), observations.end(),
+      [&](const ColmapObservation& a, const ColmapObservation& b) { return key(a) < key(b); });
+  for (size_t i = 1; i < observations.size(); ++i) {
+    if (key(observations[i]) == key(observations[i - 1])) {
+      return Status::Error(Called("image", observations[i].image),
+                           "has a feature that a point lists twice", kRemedy);
     }
   }
   size_t next = 0;
@@ -152,10 +155,11 @@ Status CheckSightsAreAll(const ColmapModel& model) {
       if (image.features[f].point == ColmapFeature::kNoPoint) {
         continue;
       }
-      if (next == sights.size() || sights[next].image != image.id || sights[next].feature != f) {
+      if (next == observations.size() || observations[next].image != image.id ||
+          observations[next].feature != f) {
         return Status::Error(
             Called("point", image.features[f].point),
-            "does not know of feature " + std::to_string(f) + " of " + Called("image", image.id),
+            "does not list feature " + std::to_string(f) + " of " + Called("image", image.id),
             kRemedy);
       }
       ++next;
@@ -171,7 +175,8 @@ void SortById(ColmapModel& model) {
   std::stable_sort(model.points.begin(), model.points.end(), by_id);
 }
 
-// What rounding left of unit length; anything else is no rotation and stays.
+// Normalises rotations whose length differs from 1 by rounding only. Others are not rotations; they
+// stay unchanged, so that Validate() rejects them.
 void NormaliseRotations(ColmapModel& model) {
   for (ColmapImage& image : model.images) {
     Eigen::Quaterniond& rotation = image.camera_from_map.rotation;
@@ -204,20 +209,20 @@ Status ColmapModel::Validate() const {
   for (const ColmapPoint& point : points) {
     LARARIUM_RETURN_IF_ERROR(CheckPoint(*this, point));
   }
-  return CheckSightsAreAll(*this);
+  return CheckObservationsAreAll(*this);
 }
 
 Result<CameraModel> CameraFromColmap(const ColmapCamera& camera) {
   const std::string place = Called("camera", camera.id);
   constexpr uint64_t kMaxSide = 16384;
   if (camera.width > kMaxSide || camera.height > kMaxSide) {
-    return Status::Error(place, "has images of an impossible size", kRemedy);
+    return Status::Error(place, "has images of an invalid size", kRemedy);
   }
   const std::vector<double>& p = camera.parameters;
   CameraModel ours;
   ours.width = static_cast<int>(camera.width);
   ours.height = static_cast<int>(camera.height);
-  size_t center = 1;  // where cx stands
+  size_t center = 1;  // Index of the parameter cx.
   switch (camera.model) {
     case ColmapCameraModel::kSimplePinhole:
     case ColmapCameraModel::kSimpleRadial:

@@ -1,11 +1,10 @@
 #pragma once
 
-// A sparse model as COLMAP stores it (Schoenberger & Frahm, "Structure-from-
-// Motion Revisited", CVPR 2016): a folder with cameras, images and points3D, as
-// text (.txt) or binary (.bin).
+// A sparse model in COLMAP's format (Schoenberger & Frahm, "Structure-from-Motion Revisited", CVPR
+// 2016): a folder with the files cameras, images and points3D, as text (.txt) or binary (.bin).
 //
-// Pixels here are COLMAP's: the centre of the top-left pixel is (0.5, 0.5), half
-// a pixel more than everywhere else in Lararium. Camera axes are ours.
+// Pixels here follow COLMAP's convention: the centre of the top-left pixel is (0.5, 0.5), half a
+// pixel more than everywhere else in Lararium. The camera axes are the same as ours.
 
 #include <Eigen/Core>
 #include <array>
@@ -24,7 +23,7 @@ namespace lararium::train {
 
 enum class ColmapFormat { kText, kBinary };
 
-// COLMAP's camera models, by its numbers.
+// COLMAP's camera models with their ids in COLMAP. Comments list the parameters.
 enum class ColmapCameraModel : int32_t {
   kSimplePinhole = 0,  // f, cx, cy
   kPinhole = 1,        // fx, fy, cx, cy
@@ -40,7 +39,7 @@ enum class ColmapCameraModel : int32_t {
 };
 inline constexpr int kColmapCameraModels = 11;
 
-// As text files call it, "SIMPLE_PINHOLE".
+// The name in text files, such as "SIMPLE_PINHOLE".
 std::string_view Name(ColmapCameraModel model);
 size_t ParameterCount(ColmapCameraModel model);
 
@@ -57,45 +56,46 @@ struct ColmapFeature {
   static constexpr uint64_t kNoPoint = std::numeric_limits<uint64_t>::max();
   double x = 0.0;
   double y = 0.0;
-  uint64_t point = kNoPoint;  // id of the point that it shows
+  uint64_t point = kNoPoint;  // Id of the point that the feature shows.
 };
 
 struct ColmapImage {
   uint32_t id = 0;
   geometry::Rigid3 camera_from_map;
-  uint32_t camera = 0;  // id
-  std::string name;     // path relative to the image folder
+  uint32_t camera = 0;  // Id of the camera.
+  std::string name;     // Path relative to the image folder.
   std::vector<ColmapFeature> features;
 };
 
 // A feature that shows a point.
-struct ColmapSight {
-  uint32_t image = 0;    // id
-  uint32_t feature = 0;  // index in ColmapImage::features
+struct ColmapObservation {
+  uint32_t image = 0;    // Id of the image.
+  uint32_t feature = 0;  // Index into ColmapImage::features.
 };
 
 struct ColmapPoint {
   uint64_t id = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  std::array<uint8_t, 3> colour = {0, 0, 0};  // sRGB; black where it was not extracted
-  double error = 0.0;                         // mean over its sights, pixels; negative: unknown
-  std::vector<ColmapSight> sights;
+  std::array<uint8_t, 3> colour = {0, 0, 0};  // sRGB; black if it was not extracted.
+  double error = 0.0;  // Mean reprojection error, pixels; negative if unknown.
+  std::vector<ColmapObservation> observations;
 };
 
-// Sorted by id.
+// A model. All three lists are sorted by id.
 struct ColmapModel {
   std::vector<ColmapCamera> cameras;
   std::vector<ColmapImage> images;
   std::vector<ColmapPoint> points;
 
-  // Ids are sorted and unique, references exist, features and points refer to
-  // each other, numbers are finite, rotations have unit length; says what is not so.
+  // Checks that ids are sorted and unique, references exist, features and points refer to each
+  // other, numbers are finite, and rotations have unit length. The error says what is wrong.
   Status Validate() const;
 };
 
-// Our camera model. An error names a model that it cannot express, and the way out.
+// Converts to our camera model. If that cannot express the camera, the error names the model and
+// says what to do.
 Result<geometry::CameraModel> CameraFromColmap(const ColmapCamera& camera);
-// The simplest model that holds all of camera.
+// Converts to the simplest COLMAP model that can express the camera.
 ColmapCamera ColmapFromCamera(const geometry::CameraModel& camera, uint32_t id);
 
 // The contents of the three files of a model.
@@ -105,15 +105,15 @@ struct ColmapFiles {
   std::string points;
 };
 
-// Never a partial model: everything that Validate() says holds. Rotations that
-// are off unit length by rounding are normalised. place: what errors call the folder.
+// Parses a model that passes Validate(), or fails. Rotations whose length differs from 1 by
+// rounding are normalised. place names the folder in errors.
 Result<ColmapModel> ParseColmapModel(const ColmapFiles& files,
                                      ColmapFormat format,
                                      const std::string& place);
-// The same model gives the same bytes; parsing them gives the same model.
+// Deterministic: the same model gives the same bytes, and parsing them gives the same model.
 ColmapFiles SerializeColmapModel(const ColmapModel& model, ColmapFormat format);
 
-// Binary files are preferred where a folder has both.
+// Loads the binary files if the folder has both forms.
 Result<ColmapModel> LoadColmapModel(const std::filesystem::path& folder);
 
 }  // namespace lararium::train

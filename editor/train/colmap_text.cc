@@ -22,7 +22,7 @@ class LineReader {
  public:
   LineReader(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
-  // The next line, blank or not; nullopt at the end.
+  // The next line, which may be blank; nullopt at the end.
   std::optional<std::string_view> Next() {
     if (at_ >= text_.size()) {
       return std::nullopt;
@@ -34,7 +34,7 @@ class LineReader {
     return Trimmed(line);
   }
 
-  // The next that is neither blank nor a comment.
+  // The next line that is neither blank nor a comment.
   std::optional<std::string_view> NextRecord() {
     while (const std::optional<std::string_view> line = Next()) {
       if (!line->empty() && line->front() != '#') {
@@ -56,7 +56,7 @@ class LineReader {
   size_t number_ = 0;
 };
 
-// Takes fields from the front of a line; remembers when one was missing or no number.
+// Takes fields from the front of a line. Remembers if one was missing or not a number.
 class FieldReader {
  public:
   explicit FieldReader(std::string_view line) : rest_(Trimmed(line)) {}
@@ -81,7 +81,7 @@ class FieldReader {
     return value;
   }
 
-  // -1 stands for none.
+  // Takes a point id; -1 means that there is no point.
   uint64_t TakePoint() {
     const std::string_view before = rest_;
     if (TakeWord() == "-1") {
@@ -91,7 +91,7 @@ class FieldReader {
     return Take<uint64_t>();
   }
 
-  // All that is left: names may hold blanks.
+  // Takes the rest of the line, because names may contain blanks.
   std::string TakeRest() {
     failed_ = failed_ || rest_.empty();
     return std::string(std::exchange(rest_, {}));
@@ -167,7 +167,7 @@ Status ParseImages(std::string_view text, const std::string& file, ColmapModel& 
       return lines.Problem(
           "is not IMAGE_ID, a quaternion (4), a translation (3), CAMERA_ID and NAME");
     }
-    // The line after an image holds its features, and is blank where it has none.
+    // The line after an image holds its features; it is blank if there are none.
     if (const auto features = lines.Next()) {
       LARARIUM_RETURN_IF_ERROR(ParseFeatures(lines, *features, image));
     }
@@ -190,21 +190,21 @@ Status ParsePoints(std::string_view text, const std::string& file, ColmapModel& 
     }
     point.error = fields.Take<double>();
     while (!fields.at_end() && !fields.failed()) {
-      ColmapSight& sight = point.sights.emplace_back();
-      sight.image = fields.Take<uint32_t>();
-      sight.feature = fields.Take<uint32_t>();
+      ColmapObservation& observation = point.observations.emplace_back();
+      observation.image = fields.Take<uint32_t>();
+      observation.feature = fields.Take<uint32_t>();
     }
     if (fields.failed()) {
       return lines.Problem(
           "is not POINT3D_ID, X, Y, Z, R, G, B, ERROR, and IMAGE_ID and POINT2D_IDX for each "
-          "sight");
+          "observation");
     }
     model.points.push_back(std::move(point));
   }
   return Status();
 }
 
-// Appends a number in the fewest digits that read back the same.
+// Appends a number with the fewest digits from which it can be read back unchanged.
 template <typename T>
 void Put(std::string& text, T value) {
   char digits[32];
@@ -283,9 +283,9 @@ ColmapFiles SerializeColmapText(const ColmapModel& model) {
       PutField(files.points, static_cast<unsigned>(channel));
     }
     PutField(files.points, point.error);
-    for (const ColmapSight& sight : point.sights) {
-      PutField(files.points, sight.image);
-      PutField(files.points, sight.feature);
+    for (const ColmapObservation& observation : point.observations) {
+      PutField(files.points, observation.image);
+      PutField(files.points, observation.feature);
     }
     files.points += '\n';
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-// The text form of COLMAP models: one record a line (two for an image), fields
-// apart by blanks, comments after #.
+// The text form of COLMAP models: one record per line (two lines for an image), fields separated by
+// blanks, comments after #.
 
 #include <string>
 
@@ -9,9 +9,10 @@
 
 namespace lararium::train {
 
-// Errors name file and line. References and the range of numbers are Validate()'s to check.
+// Errors name file and line. References and the range of numbers are checked by
+// ColmapModel::Validate() only.
 Status ParseColmapText(const ColmapFiles& files, const std::string& place, ColmapModel& model);
-// Numbers are written so that they read back as they are.
+// Numbers are written with enough digits to be read back unchanged.
 ColmapFiles SerializeColmapText(const ColmapModel& model);
 
 }  // namespace lararium::train

@@ -9,13 +9,13 @@ namespace lararium::train {
 
 namespace {
 
-constexpr double kWidth = 320.0;  // of the images that are worked on
+constexpr double kTrackedWidth = 320.0;  // Width of the tracked images, pixels.
 constexpr int kMostCorners = 220;
-constexpr double kApart = 9.0;  // pixels of these
+constexpr double kApart = 9.0;  // Minimum distance between corners, pixels of these images.
 constexpr int kWhite = 250;
 constexpr int kBlack = 5;
 
-// Shares of pixels.
+// Share of the pixels that are white or black.
 double ShareClipped(const cv::Mat& grey) {
   const int white = cv::countNonZero(grey >= kWhite);
   const int black = cv::countNonZero(grey <= kBlack);
@@ -26,11 +26,11 @@ double ShareClipped(const cv::Mat& grey) {
 
 CoverageFrame CornerTracker::Measure(const cv::Mat& grey, double time) {
   cv::Mat small = grey;
-  const double factor = std::min(kWidth / grey.cols, 1.0);
+  const double factor = std::min(kTrackedWidth / grey.cols, 1.0);
   if (factor < 1.0) {
     cv::resize(grey, small, cv::Size(), factor, factor, cv::INTER_AREA);
   } else {
-    small = grey.clone();  // the caller's pixels may change
+    small = grey.clone();  // The caller's pixels may change.
   }
   const FrameMotion motion = meter_.Measure(small);
   CoverageFrame frame;
@@ -49,7 +49,7 @@ CoverageFrame CornerTracker::Measure(const cv::Mat& grey, double time) {
   return frame;
 }
 
-// Of a pixel of the small image.
+// Converts a pixel of the small image to the plane z = 1.
 Eigen::Vector2d CornerTracker::OnPlane(double x, double y, double factor) const {
   // c' = s (c + 0.5) - 0.5
   return camera_.PlaneFromPixel({(x + 0.5) / factor - 0.5, (y + 0.5) / factor - 0.5});
@@ -60,7 +60,7 @@ CoverageFeatures CornerTracker::Describe(const cv::Mat& small, double factor) {
   const vision::FeatureOptions options{.first_octave = 0, .max_features = kMostFeatures};
   CoverageFeatures described;
   if (!extractor_.Extract(small, options, features_).ok()) {
-    return described;  // nothing is recognised by it
+    return described;  // Empty features are never recognised.
   }
   for (const vision::Keypoint& keypoint : features_.keypoints) {
     described.on_plane.push_back(OnPlane(keypoint.x, keypoint.y, factor));
@@ -70,7 +70,7 @@ CoverageFeatures CornerTracker::Describe(const cv::Mat& small, double factor) {
 }
 
 void CornerTracker::Follow(const cv::Mat& small) {
-  constexpr float kSame = 0.7f;  // pixels, there and back
+  constexpr float kSame = 0.7f;  // Largest error after tracking forwards and backwards, pixels.
   if (corners_.empty() || previous_.size() != small.size()) {
     corners_.clear();
     ids_.clear();
@@ -120,7 +120,7 @@ geometry::CameraModel TypicalCamera(int width, int height) {
   geometry::CameraModel camera;
   camera.width = width;
   camera.height = height;
-  camera.fx = camera.fy = 0.9 * std::max(width, height);  // about 58 degrees wide
+  camera.fx = camera.fy = 0.9 * std::max(width, height);  // About 58 degrees wide.
   camera.cx = 0.5 * (width - 1);
   camera.cy = 0.5 * (height - 1);
   return camera;

@@ -1,6 +1,6 @@
 #pragma once
 
-// From the images of a camera that films a place to what CoverageGuide judges it by.
+// Converts the images of a camera that films a place into the input of CoverageGuide.
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -12,15 +12,15 @@
 
 namespace lararium::train {
 
-// Follows corners from frame to frame, on images of about 320 pixels width (Lucas & Kanade's
-// tracker on pyramids, checked backwards), and finds new ones where none are. Describes features of
-// these images, too, by which views are recognised.
+// Tracks corners from frame to frame on images of about 320 pixels width (pyramidal Lucas-Kanade
+// tracker with a backward check), and detects new ones in empty areas. Also extracts the features
+// of these images by which views are recognised.
 class CornerTracker {
  public:
-  // Of the images; nothing needs to be exact.
+  // camera describes the images; approximate intrinsics are sufficient.
   explicit CornerTracker(const geometry::CameraModel& camera) : camera_(camera) {}
 
-  // time: seconds.
+  // time is in seconds.
   CoverageFrame Measure(const cv::Mat& grey, double time);
 
  private:
@@ -34,15 +34,15 @@ class CornerTracker {
   vision::FeatureExtractor extractor_;
   vision::Features features_;
   cv::Mat previous_;
-  std::vector<cv::Point2f> corners_;  // in previous_
-  std::vector<uint32_t> ids_;         // of the same index
+  std::vector<cv::Point2f> corners_;  // Pixel positions in previous_.
+  std::vector<uint32_t> ids_;         // Parallel to corners_.
   uint32_t next_id_ = 0;
 };
 
-// A camera of these images whose intrinsics nobody knows: as most are.
+// A typical camera for images of this size, for use if the intrinsics are unknown.
 geometry::CameraModel TypicalCamera(int width, int height);
 
-// Half of what a camera sees to either side and up and down, on the plane z = 1.
+// Half the width and half the height of a camera's image on the plane z = 1.
 Eigen::Vector2d HalfView(const geometry::CameraModel& camera);
 
 }  // namespace lararium::train

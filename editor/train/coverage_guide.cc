@@ -9,6 +9,7 @@
 #include "editor/train/keyframes.h"
 #include "editor/train/matching.h"
 #include "shared/core/median.h"
+#include "shared/core/units.h"
 
 namespace lararium::train {
 
@@ -18,22 +19,20 @@ using Eigen::Quaterniond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+// Parallax of a covered track; the capture report asks for the same.
+constexpr double kParallax = 5.0 * kRadiansPerDegree;
+constexpr size_t kTracksOfCell = 6;  // Tracks with parallax that cover a cell; with fewer, bare.
+constexpr int kLook = 30;            // Frames in view after which a cell may count as bare.
 
-// Seen from places as far apart as the capture report asks for.
-constexpr double kParallax = 5.0 * kDegree;
-constexpr size_t kTracksOfCell = 6;  // that have to be seen so, or at all
-constexpr int kLook = 30;            // frames after which a cell without corners is bare
-
-// What is needed.
-constexpr double kAhead = 45.0 * kDegree;
-constexpr double kFloor = 30.0 * kDegree;
-constexpr double kSideways = 0.5;  // of the median distance
+// The coverage that is needed: angles to either side, and distances as shares of the median one.
+constexpr double kAhead = 45.0 * kRadiansPerDegree;
+constexpr double kFloor = 30.0 * kRadiansPerDegree;
+constexpr double kSideways = 0.5;
 constexpr double kDepth = 0.3;
 
-constexpr size_t kFewestPairs = 15;  // that connect two frames
-constexpr double kSampson = 0.004;   // on the plane z = 1: about a pixel of 320
-// What besides turning is noise, and what a wrong focal length makes of the turn.
+constexpr size_t kFewestPairs = 15;  // Minimum number of tracks that connect two frames.
+constexpr double kSampson = 0.004;   // Plane z = 1; about a pixel at 320 pixels width.
+// Residual of a pure rotation by noise (radians) and by a wrong focal length (share of the turn).
 constexpr double kNoise = 0.004;
 constexpr double kShareOfTurn = 0.05;
 
@@ -43,7 +42,7 @@ double AngleBetween(const Vector3d& a, const Vector3d& b) {
 
 double Wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
-// Of the world's axes: those of the first camera.
+// Yaw and pitch of a ray in world axes, which are those of the first camera.
 double YawOf(const Vector3d& ray) { return std::atan2(ray.x(), ray.z()); }
 double PitchOf(const Vector3d& ray) { return std::atan2(-ray.y(), std::hypot(ray.x(), ray.z())); }
 
@@ -57,10 +56,12 @@ double YawOfColumn(size_t column) {
          std::numbers::pi;
 }
 
-double PitchOfRow(size_t row) { return (30.0 * static_cast<double>(row) - 30.0) * kDegree; }
+double PitchOfRow(size_t row) {
+  return (30.0 * static_cast<double>(row) - 30.0) * kRadiansPerDegree;
+}
 
 std::optional<CellIndex> CellOf(const Vector3d& ray) {
-  const double row = std::floor((PitchOf(ray) / kDegree + 45.0) / 30.0);
+  const double row = std::floor((PitchOf(ray) / kRadiansPerDegree + 45.0) / 30.0);
   const double column =
       std::floor((YawOf(ray) / std::numbers::pi + 1.0) * 0.5 * CoverageGuide::kColumns);
   if (row < 0.0 || row >= CoverageGuide::kRows) {
@@ -82,7 +83,7 @@ double ShareOfRow(const CoverageGuide::Cells& cells, size_t row, double reach) {
   return wanted == 0 ? 0.0 : static_cast<double>(covered) / wanted;
 }
 
-// The direction of a row that is missing yet and nearest to a heading.
+// The yaw of the uncovered cell of a row that is nearest to a heading.
 std::optional<double> NearestMissing(const CoverageGuide::Cells& cells,
                                      size_t row,
                                      double reach,
@@ -100,11 +101,12 @@ std::optional<double> NearestMissing(const CoverageGuide::Cells& cells,
   return nearest;
 }
 
-// Of a short way the essential matrix is mostly noise, and may turn the camera by degrees that it
-// did not turn: the parallax that it claims has to show in what turning alone leaves.
+// Returns whether the relative pose is credible. After a short motion the essential matrix is
+// mostly noise and may contain a rotation by degrees that did not happen. Its parallax must
+// therefore also show in the residual of a pure rotation.
 bool Explains(const RelativePose& pose, const Turning& turning, const PointPairs& pairs) {
-  constexpr double kMostTimes = 8.0;   // a wall seen straight on shows an eighth
-  constexpr double kMostOfWay = 16.0;  // of a way that is not short: somebody may go round a wall
+  constexpr double kMostTimes = 8.0;   // A wall seen head-on leaves an eighth of the parallax.
+  constexpr double kMostOfWay = 16.0;  // After a longer motion, such as a walk around a wall.
   constexpr double kLeastShare = 0.6;
   const double times = turning.median_angle > 3.0 * kNoise ? kMostOfWay : kMostTimes;
   const bool shows = pose.median_angle < times * turning.median_angle;
@@ -112,13 +114,13 @@ bool Explains(const RelativePose& pose, const Turning& turning, const PointPairs
   return shows && inliers > kLeastShare * static_cast<double>(pairs.size());
 }
 
-// Right and ahead. The baseline follows from the angle under which it is seen (law of sines, of
-// small angles).
+// The camera's motion to the right and ahead, as shares of the median distance. The baseline
+// follows from the parallax angle by the law of sines for small angles.
 Vector2d MovedBy(const Quaterniond& world_from_view,
                  const PointPairs& pairs,
                  const RelativePose& pose) {
   constexpr double kLeastSine = 0.1;
-  const Vector3d centre = pose.b_from_a.Center();  // of the camera, in the view; length 1
+  const Vector3d centre = pose.b_from_a.Center();  // The camera in the view's frame; length 1.
   std::vector<double> sines;
   for (const uint32_t i : pose.inliers) {
     const Vector3d ray = pairs.a[i].homogeneous();
@@ -129,7 +131,7 @@ Vector2d MovedBy(const Quaterniond& world_from_view,
   return {moved.x(), moved.z()};
 }
 
-// Whether a camera that is off a mere turn by this angle, in the median, moved as well.
+// Returns whether the residual of a pure rotation shows that the camera also moved.
 bool HasMoved(const Turning& turning) {
   const double turn = Quaterniond::Identity().angularDistance(turning.b_from_a);
   return turning.median_angle > kNoise + kShareOfTurn * turn;
@@ -146,7 +148,7 @@ CoverageState CoverageGuide::Add(const CoverageFrame& frame) {
   const Way way = Follow(frame);
   moved_ = way.moved;
   const double turn = before.angularDistance(world_from_camera_);
-  NoteSights(frame, way.moved);
+  NoteObservations(frame, way.moved);
   if (!way.known || way.far) {
     BeginView(frame, !way.known);
   }
@@ -171,9 +173,9 @@ CoverageFault CoverageGuide::FindFault(const CoverageFrame& frame) {
   constexpr size_t kRemembered = 60;  // frames
   constexpr size_t kEnoughToCompare = 10;
   constexpr double kStill = 2.0;        // seconds
-  constexpr double kStillShift = 0.01;  // of the diagonal, in all
+  constexpr double kStillShift = 0.01;  // Total shift within kStill, as a share of the diagonal.
   constexpr double kTurnFor = 3.0;      // seconds
-  constexpr double kTurned = 12.0 * kDegree;
+  constexpr double kTurned = 12.0 * kRadiansPerDegree;
   constexpr double kNoMove = 0.02;
   const double sharpness_around =
       sharpness_.empty() ? 0.0 : Median(std::vector<double>(sharpness_.begin(), sharpness_.end()));
@@ -215,8 +217,8 @@ CoverageFault CoverageGuide::FindFault(const CoverageFrame& frame) {
 }
 
 CoverageGuide::Way CoverageGuide::Follow(const CoverageFrame& frame) {
-  constexpr double kFarTurn = 15.0 * kDegree;
-  constexpr double kKeptShare = 0.6;  // of the view's tracks
+  constexpr double kFarTurn = 15.0 * kRadiansPerDegree;
+  constexpr double kKeptShare = 0.6;  // Share of the view's tracks below which a new view begins.
   PointPairs pairs;
   for (const CoverageTrack& track : frame.tracks) {
     if (const auto known = view_.find(track.id); known != view_.end()) {
@@ -250,23 +252,23 @@ CoverageGuide::Way CoverageGuide::Follow(const CoverageFrame& frame) {
   return way;
 }
 
-// Whether a turn from the view is further from the frame before than corners moved in between: of
-// a flat scene there are two poses, and noise chooses.
+// Returns whether the rotation differs from that of the frame before by more than the shift of the
+// corners allows. A flat scene has two possible poses, and noise decides between them.
 bool CoverageGuide::Leaps(const Quaterniond& camera_from_view, double shift) const {
-  constexpr double kSteady = 2.0 * kDegree;
-  constexpr double kBegin =
-      10.0 * kDegree;  // what was taken for turning before may have been a step
+  constexpr double kSteady = 2.0 * kRadiansPerDegree;
+  // Before the first measured motion, a step may have been mistaken for a rotation.
+  constexpr double kBegin = 10.0 * kRadiansPerDegree;
   constexpr double kTimes = 3.0;
-  const double diagonal = 2.0 * half_view_.norm();  // about an angle
+  const double diagonal = 2.0 * half_view_.norm();  // Approximately an angle.
   const Quaterniond world_from_camera = world_from_view_ * camera_from_view.conjugate();
   return world_from_camera.angularDistance(world_from_camera_) >
          (moved_ ? kSteady : kBegin) + kTimes * shift * diagonal;
 }
 
-// Those that share something with what the camera sees, by where it believes to look: the nearest
-// to the beginning first. Who is lost may be anywhere.
+// The known views that probably overlap with the current image, judged by the estimated direction;
+// those with the fewest links come first. If tracking is lost, any view may overlap.
 std::vector<const CoverageGuide::KnownView*> CoverageGuide::ViewsToRecognise(bool lost) const {
-  constexpr double kShare = 40.0 * kDegree;
+  constexpr double kShare = 40.0 * kRadiansPerDegree;
   constexpr size_t kMost = 6;
   std::vector<const KnownView*> views;
   for (const KnownView& view : known_views_) {
@@ -281,8 +283,8 @@ std::vector<const CoverageGuide::KnownView*> CoverageGuide::ViewsToRecognise(boo
   return views;
 }
 
-std::optional<CoverageGuide::Sighting> CoverageGuide::SightingFrom(const KnownView& view,
-                                                                   const CoverageFeatures& seen) {
+std::optional<CoverageGuide::Sighting> CoverageGuide::ViewFrom(const KnownView& view,
+                                                               const CoverageFeatures& seen) {
   constexpr float kRatio = 0.8f;
   constexpr size_t kFewest = 25;
   constexpr double kLeastShare = 0.5;
@@ -318,12 +320,13 @@ std::optional<CoverageGuide::Sighting> CoverageGuide::SightingFrom(const KnownVi
   return sighting;
 }
 
-// One view may mislead: of a flat scene there are two poses. Two that agree do not.
+// Recognises earlier views and corrects the pose. A single view may mislead, because a flat scene
+// has two possible poses, so two views must agree.
 bool CoverageGuide::Recognise(const CoverageFeatures& seen, bool lost) {
-  constexpr double kAgree = 4.0 * kDegree;
+  constexpr double kAgree = 4.0 * kRadiansPerDegree;
   std::vector<Sighting> sightings;
   for (const KnownView* view : ViewsToRecognise(lost)) {
-    if (const auto sighting = SightingFrom(*view, seen)) {
+    if (const auto sighting = ViewFrom(*view, seen)) {
       sightings.push_back(*sighting);
     }
   }
@@ -334,10 +337,10 @@ bool CoverageGuide::Recognise(const CoverageFeatures& seen, bool lost) {
     if (agree < 2) {
       continue;
     }
-    // What was seen keeps its angles to what is seen.
+    // The first rays are rotated along, so that their angles to the current rays stay the same.
     const Quaterniond corrected = sighting.world_from_camera * world_from_camera_.conjugate();
-    for (auto& [id, sight] : sights_) {
-      sight.first = corrected * sight.first;
+    for (auto& [id, observation] : observations_) {
+      observation.first = corrected * observation.first;
     }
     world_from_camera_ = sighting.world_from_camera;
     at_ = sighting.at;
@@ -362,30 +365,30 @@ void CoverageGuide::BeginView(const CoverageFrame& frame, bool lost) {
   if (known_views_.size() < kMostViews) {
     known_views_.push_back({std::move(seen), world_from_view_, view_at_, links_});
   }
-  // Only here is the way known well: the parallax is wide.
+  // The position is accurate only at a new view, where the parallax is wide.
   lowest_ = lowest_.cwiseMin(at_);
   highest_ = highest_.cwiseMax(at_);
 }
 
-void CoverageGuide::NoteSights(const CoverageFrame& frame, bool moved) {
-  std::map<uint32_t, Sight> sights;  // of what is still seen
+void CoverageGuide::NoteObservations(const CoverageFrame& frame, bool moved) {
+  std::map<uint32_t, Observation> observations;  // Tracks that are still visible.
   for (const CoverageTrack& track : frame.tracks) {
     const Vector3d ray = (world_from_camera_ * track.on_plane.homogeneous()).normalized();
-    const auto known = sights_.find(track.id);
-    Sight sight = known == sights_.end() ? Sight{ray, 0.0} : known->second;
-    if (moved) {  // what turning leaves is an error of the focal length
-      sight.parallax = std::max(sight.parallax, AngleBetween(sight.first, ray));
+    const auto known = observations_.find(track.id);
+    Observation observation = known == observations_.end() ? Observation{ray, 0.0} : known->second;
+    if (moved) {  // After a pure rotation the angle only shows the error of the focal length.
+      observation.parallax = std::max(observation.parallax, AngleBetween(observation.first, ray));
     }
-    sights[track.id] = sight;
+    observations[track.id] = observation;
     if (const std::optional<CellIndex> cell = CellOf(ray)) {
       CellCount& count = counts_[cell->row][cell->column];
       count.seen.insert(track.id);
-      if (sight.parallax > kParallax) {
+      if (observation.parallax > kParallax) {
         count.parallax.insert(track.id);
       }
     }
   }
-  sights_ = std::move(sights);
+  observations_ = std::move(observations);
 }
 
 void CoverageGuide::JudgeCells() {
@@ -417,7 +420,7 @@ CoverageShares CoverageGuide::Shares() const {
           std::min(range.x() / kSideways, 1.0), std::min(range.y() / kDepth, 1.0)};
 }
 
-// To the side that is asked for, until that is done.
+// Advises steps to one side until enough is covered there, then to the other side.
 CoverageAdvice CoverageGuide::StepAside() {
   const double right = highest_.x();
   const double left = -lowest_.x();
@@ -429,8 +432,8 @@ CoverageAdvice CoverageGuide::StepAside() {
 }
 
 CoverageAdvice CoverageGuide::Advise(const CoverageShares& shares) {
-  constexpr double kInView = 20.0 * kDegree;
-  constexpr double kLookingDown = -8.0 * kDegree;
+  constexpr double kInView = 20.0 * kRadiansPerDegree;
+  constexpr double kLookingDown = -8.0 * kRadiansPerDegree;
   const auto look = [&](size_t row, double reach) {
     const std::optional<double> missing = NearestMissing(cells_, row, reach, Heading());
     const double aside = missing ? Wrapped(*missing - Heading()) : 0.0;

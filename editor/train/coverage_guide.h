@@ -1,10 +1,9 @@
 #pragma once
 
-// What of a place has been filmed as training needs it, while it is being filmed, and what to do
-// next. Judged by tracked corners alone: there is no map yet, and none is made up. Directions are
-// those of the camera's turning since the beginning; distances are shares of the median distance of
-// what is seen. Both add up errors along a walk, until something is recognised that was seen nearer
-// to its beginning.
+// Guides the person who films a place: reports while filming what has been covered well enough for
+// training, and what to do next. Works on tracked corners alone; there is no map yet and none is
+// built. Directions are relative to the first camera; distances are shares of the median distance
+// of the scene. Both drift along a walk until an earlier view is recognised.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -22,13 +21,14 @@
 
 namespace lararium::train {
 
-// A corner that is followed from frame to frame, where it is now.
+// The current position of a corner that is tracked from frame to frame.
 struct CoverageTrack {
-  uint32_t id = 0;                                     // the same in each frame that sees it
-  Eigen::Vector2d on_plane = Eigen::Vector2d::Zero();  // z = 1, x right, y down
+  uint32_t id = 0;  // The same in every frame that shows the corner.
+  // Position on the camera's plane z = 1, x right, y down.
+  Eigen::Vector2d on_plane = Eigen::Vector2d::Zero();
 };
 
-// What is recognised when it is seen again: on the plane z = 1, and as many descriptors.
+// The features by which a view is recognised; positions are on the plane z = 1.
 struct CoverageFeatures {
   std::vector<Eigen::Vector2d> on_plane;
   std::vector<vision::Descriptor> descriptors;
@@ -36,26 +36,26 @@ struct CoverageFeatures {
 
 struct CoverageFrame {
   double time = 0.0;        // seconds
-  double shift = 0.0;       // see FrameMotion
-  double sharpness = 0.0;   // likewise
-  double brightness = 0.5;  // mean of the image, 0 to 1
-  double clipped = 0.0;     // share of its pixels that are white or black
+  double shift = 0.0;       // See FrameMotion.
+  double sharpness = 0.0;   // See FrameMotion.
+  double brightness = 0.5;  // Mean of the image, 0 to 1.
+  double clipped = 0.0;     // Share of the pixels that are white or black.
   std::vector<CoverageTrack> tracks;
-  // Of some frames only, for it takes milliseconds; while what the frame is from lives. None:
-  // nothing is recognised.
+  // Extracts the frame's features. It takes milliseconds, so it is called for some frames only. It
+  // is valid as long as the source of the frame lives. Without it no view is recognised.
   std::function<CoverageFeatures()> describe;
 };
 
-// What is wrong now, the most urgent first.
+// Problems of the current frame, the most urgent first.
 enum class CoverageFault {
   kNone,
   kDark,
   kBright,
   kBlurred,
   kFast,
-  kBare,  // too few corners
+  kBare,  // Too few corners.
   kStanding,
-  kTurning,  // on the spot
+  kTurning,  // The camera only turns on the spot.
 };
 
 enum class CoverageAdvice {
@@ -69,12 +69,12 @@ enum class CoverageAdvice {
   kEnough,
 };
 
-// What visitors need, each as the share of it that is there, 0 to 1.
+// How much of the coverage that visitors need has been reached; each share is 0 to 1.
 struct CoverageShares {
-  double ahead = 0.0;     // what is ahead of the beginning and 45 degrees to either side
-  double floor = 0.0;     // what is below that
-  double sideways = 0.0;  // steps to either side
-  double depth = 0.0;     // nearer and farther
+  double ahead = 0.0;     // Level directions up to 45 degrees to either side of the first view.
+  double floor = 0.0;     // Directions below these, up to 30 degrees to either side.
+  double sideways = 0.0;  // Steps to the left and right.
+  double depth = 0.0;     // Steps nearer and farther.
 
   double all() const { return (ahead + floor + sideways + depth) / 4.0; }
 };
@@ -83,78 +83,80 @@ struct CoverageState {
   CoverageFault fault = CoverageFault::kNone;
   CoverageAdvice advice = CoverageAdvice::kStepRight;
   CoverageShares shares;
-  double heading = 0.0;  // radians to the right of where the camera looked first
-  double pitch = 0.0;    // radians above that
-  Eigen::Vector2d moved = Eigen::Vector2d::Zero();  // right and ahead, of the median distance
+  double heading = 0.0;  // Radians to the right of the first view.
+  double pitch = 0.0;    // Radians above the first view.
+  // Position relative to the first camera, right and ahead, as shares of the median distance.
+  Eigen::Vector2d moved = Eigen::Vector2d::Zero();
 };
 
 class CoverageGuide {
  public:
-  // Directions around the beginning.
-  static constexpr int kColumns = 24;  // of 15 degrees; the first begins 180 degrees to the left
-  static constexpr int kRows = 3;      // from 45 to 15 degrees below it, level with it, and above
+  // Grid of directions relative to the first view. A column spans 15 degrees of yaw; column 0
+  // begins 180 degrees to the left. A row spans 30 degrees of pitch; row 0 begins 45 degrees below.
+  static constexpr int kColumns = 24;
+  static constexpr int kRows = 3;
   enum class Cell : uint8_t {
     kUnseen,
-    kSeen,     // but from one place only
-    kCovered,  // from places well apart
-    kBare,     // there is nothing to hold on to
+    kSeen,     // Seen from one position only.
+    kCovered,  // Seen from positions far enough apart.
+    kBare,     // Has too few corners.
   };
   using Cells = std::array<std::array<Cell, kColumns>, kRows>;
 
-  // half_view: of the image's width and height, on the plane z = 1.
+  // half_view is half the image's width and height on the plane z = 1.
   explicit CoverageGuide(const Eigen::Vector2d& half_view) : half_view_(half_view) {}
 
   CoverageState Add(const CoverageFrame& frame);
   const Cells& cells() const { return cells_; }
 
  private:
-  // What is known of a track: the ray of its first frame in world axes (those of the first camera),
-  // and the widest angle that later ones had to it.
-  struct Sight {
+  // A track's first ray in world axes (those of the first camera), and the widest angle between
+  // that ray and later ones.
+  struct Observation {
     Eigen::Vector3d first = Eigen::Vector3d::UnitZ();
     double parallax = 0.0;  // radians
   };
   struct CellCount {
-    int frames = 0;               // that looked at it
-    std::set<uint32_t> seen;      // tracks
-    std::set<uint32_t> parallax;  // those from places well apart
+    int frames = 0;               // Number of frames with the cell's centre in view.
+    std::set<uint32_t> seen;      // Ids of tracks in the cell.
+    std::set<uint32_t> parallax;  // Ids of tracks seen from positions far enough apart.
   };
   struct Step {
     double time = 0.0;
     double shift = 0.0;
-    double turn = 0.0;  // radians, since the frame before
+    double turn = 0.0;  // Radians since the frame before.
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
   };
 
-  // A frame that motion was measured from.
+  // A reference frame from which motion was measured.
   struct KnownView {
     CoverageFeatures features;
     Eigen::Quaterniond world_from_view = Eigen::Quaterniond::Identity();
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
-    int links = 0;  // motions that were measured between the beginning and it
+    int links = 0;  // Number of measured motions that lead from the first frame to the view.
   };
-  // Where the camera is by one of them.
+  // The camera's pose according to one recognised view.
   struct Sighting {
     Eigen::Quaterniond world_from_camera = Eigen::Quaterniond::Identity();
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
-    int links = 0;  // to the camera
+    int links = 0;  // See KnownView::links.
   };
 
-  // How the camera comes to be where it is from the view.
+  // The motion from the current view to the camera.
   struct Way {
-    bool known = false;  // enough tracks connect the two
-    bool moved = false;  // it did not only turn
-    bool far = false;    // time for a new view
+    bool known = false;  // Enough tracks connect the view and the camera.
+    bool moved = false;  // The camera also changed its position.
+    bool far = false;    // The camera is far enough away for a new view.
   };
 
   CoverageFault FindFault(const CoverageFrame& frame);
   Way Follow(const CoverageFrame& frame);
   bool Leaps(const Eigen::Quaterniond& camera_from_view, double shift) const;
   std::vector<const KnownView*> ViewsToRecognise(bool lost) const;
-  static std::optional<Sighting> SightingFrom(const KnownView& view, const CoverageFeatures& seen);
+  static std::optional<Sighting> ViewFrom(const KnownView& view, const CoverageFeatures& seen);
   bool Recognise(const CoverageFeatures& seen, bool lost);
   void BeginView(const CoverageFrame& frame, bool lost);
-  void NoteSights(const CoverageFrame& frame, bool moved);
+  void NoteObservations(const CoverageFrame& frame, bool moved);
   void JudgeCells();
   CoverageShares Shares() const;
   CoverageAdvice Advise(const CoverageShares& shares);
@@ -166,18 +168,18 @@ class CoverageGuide {
   int64_t frames_ = 0;
   std::deque<double> sharpness_;
   std::deque<Step> steps_;
-  std::map<uint32_t, Eigen::Vector2d> view_;  // tracks of the frame that motion is measured from
+  std::map<uint32_t, Eigen::Vector2d> view_;  // Track positions in the current view, by id.
   std::vector<KnownView> known_views_;
-  int links_ = 0;  // of the view
+  int links_ = 0;  // KnownView::links of the current view.
   Eigen::Quaterniond world_from_view_ = Eigen::Quaterniond::Identity();
   Eigen::Quaterniond world_from_camera_ = Eigen::Quaterniond::Identity();
   Eigen::Vector2d view_at_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d at_ = Eigen::Vector2d::Zero();      // right and ahead
-  Eigen::Vector2d lowest_ = Eigen::Vector2d::Zero();  // of at_
+  Eigen::Vector2d at_ = Eigen::Vector2d::Zero();      // Right and ahead.
+  Eigen::Vector2d lowest_ = Eigen::Vector2d::Zero();  // Range of at_ in the views so far.
   Eigen::Vector2d highest_ = Eigen::Vector2d::Zero();
-  bool moved_ = false;  // the last frame had, from the view
-  double side_ = 1.0;   // that is asked for: 1 right, -1 left
-  std::map<uint32_t, Sight> sights_;
+  bool moved_ = false;  // Way::moved of the last frame.
+  double side_ = 1.0;   // Side to which steps are advised: 1 right, -1 left.
+  std::map<uint32_t, Observation> observations_;
   std::array<std::array<CellCount, kColumns>, kRows> counts_;
   Cells cells_ = {};
 };

@@ -13,8 +13,8 @@ namespace {
 
 using vision::Descriptor;
 
-// Tracks with points, in order of index.
-std::vector<uint32_t> TracksWithPoints(const Reconstruction& reconstruction) {
+// Tracks that have a point, in order of index.
+std::vector<uint32_t> TracksToStore(const Reconstruction& reconstruction) {
   std::vector<uint32_t> tracks;
   for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
     if (reconstruction.HasPoint(track)) {
@@ -24,7 +24,7 @@ std::vector<uint32_t> TracksWithPoints(const Reconstruction& reconstruction) {
   return tracks;
 }
 
-// The candidate of least summed distance to the others.
+// The candidate with the smallest sum of distances to the others.
 size_t MostCentral(std::span<const Descriptor> candidates) {
   std::vector<uint64_t> sums(candidates.size(), 0);
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -49,7 +49,7 @@ class Builder {
     AddKeyframes();
     database_.descriptor_begin.push_back(0);
     double error_sum = 0.0;
-    for (const uint32_t track : TracksWithPoints(reconstruction_)) {
+    for (const uint32_t track : TracksToStore(reconstruction_)) {
       error_sum += AddPoint(track);
     }
     std::sort(database_.observations.begin(), database_.observations.end(),
@@ -88,7 +88,7 @@ class Builder {
     }
   }
 
-  // Returns the sum of its reprojection errors.
+  // Adds the point of a track. Returns the sum of its reprojection errors.
   double AddPoint(uint32_t track) {
     const Eigen::Vector3d point = reconstruction_.Point(track);
     const auto index = static_cast<uint32_t>(database_.points.size());
@@ -111,7 +111,7 @@ class Builder {
     }
     CHECK(candidates.size() >= 2);
     if (towards_viewers.norm() < 1e-9) {
-      towards_viewers = Eigen::Vector3d::UnitZ();  // seen from opposite sides
+      towards_viewers = Eigen::Vector3d::UnitZ();  // The point was seen from opposite sides.
     }
     database_.points.push_back(point.cast<float>());
     database_.normals.push_back(towards_viewers.normalized().cast<float>());
@@ -140,7 +140,7 @@ class Builder {
 
 namespace {
 
-constexpr uint32_t kNear = 110 * 110;  // squared; descriptors have length 512
+constexpr uint32_t kNear = 110 * 110;  // Squared distance; descriptors have length 512.
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// From a finished reconstruction to the scene database.
+// Builds the scene database from a finished reconstruction.
 
 #include <cstdint>
 #include <span>
@@ -17,8 +17,8 @@ namespace lararium::train {
 struct TrainingImage {
   int64_t frame_index = -1;
   std::string name;
-  cv::Mat bgr;   // CV_8UC3, as geometry::Frame
-  cv::Mat grey;  // CV_8UC1, the same image
+  cv::Mat bgr;   // CV_8UC3, see geometry::Frame.
+  cv::Mat grey;  // CV_8UC1, the same image.
   vision::Features features;
 };
 
@@ -29,18 +29,18 @@ struct DatabaseOptions {
   uint64_t seed = 1;
 };
 
-// So near to one another that a map needs but one of them.
+// Returns whether two descriptors are so similar that a map needs only one of them.
 bool LookAlike(const vision::Descriptor& a, const vision::Descriptor& b);
 
-// Adds candidates to chosen until it has max_count: the most central one where it
-// was empty, then always the one farthest from those chosen, until the rest is
-// near to one of them. max_count > 0.
+// Adds candidates to chosen until it has max_count, or until every other candidate is similar to a
+// chosen one. Begins with the most central candidate if chosen is empty, then always takes the one
+// farthest from those chosen. max_count > 0.
 void AddDistinctDescriptors(std::span<const vision::Descriptor> candidates,
                             size_t max_count,
                             std::vector<vision::Descriptor>& chosen);
 
-// images[i] is image i of the reconstruction. Where there are more points than
-// max_points, budget.h's ChoosePoints says which stay.
+// images[i] is image i of the reconstruction. If there are more than max_points points,
+// ChoosePoints (budget.h) selects those that stay.
 vision::SceneDatabase BuildDatabase(const Reconstruction& reconstruction,
                                     std::span<const TrainingImage> images,
                                     const DatabaseOptions& options);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <span>
 #include <tuple>
@@ -13,6 +12,7 @@
 
 #include "shared/core/median.h"
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 
 namespace lararium::train {
 namespace {
@@ -22,19 +22,17 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using vision::Keyframe;
 using vision::SceneDatabase;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMaxFromCameraUp = 35.0 * kDegree;
-constexpr double kMaxBetweenLevels = 3.0 * kDegree;  // level surfaces are parallel up to this
+constexpr double kMaxFromCameraUp = 35.0 * kRadiansPerDegree;
+constexpr double kMaxBetweenLevels = 3.0 * kRadiansPerDegree;  // Tolerance of parallel surfaces.
 // Lengths are relative to the median distance of points from the cameras.
-constexpr double kPatch = 0.015;      // points in a cube of this size count once
-constexpr double kTolerance = 0.008;  // of a level surface
-constexpr double kNeighbours = 0.2;   // RANSAC picks its three points this close together
-constexpr double kBlock = 0.15;       // points err together within a cube of this size
+constexpr double kPatch = 0.015;      // Points in a cube of this size count once.
+constexpr double kTolerance = 0.008;  // Largest distance of a surface's points from its plane.
+constexpr double kNeighbours = 0.2;   // Largest distance between the three points of a sample.
+constexpr double kBlock = 0.15;       // Errors within a cube of this size are correlated.
 constexpr int kHypotheses = 400;
-constexpr size_t kMinPatches = 40;    // of a level surface
-constexpr double kMinShare = 0.2;     // of the largest level surface's area
-constexpr double kMinContrast = 3.0;  // of a surface's density to what is above and below it
+constexpr size_t kMinPatches = 40;    // Minimum number of patches of a horizontal surface.
+constexpr double kMinShare = 0.2;     // Minimum area, relative to the largest horizontal surface.
+constexpr double kMinContrast = 3.0;  // Minimum density, relative to the layers above and below.
 
 struct Plane {
   Vector3d normal;
@@ -43,17 +41,17 @@ struct Plane {
   double Height(const Vector3d& x) const { return normal.dot(x) - offset; }
 };
 
-// ------------------------------------------------------------ what is given
+// ------------------------------------------------------------ input
 
 struct Scene {
-  std::vector<Vector3d> centers;  // of the cameras
-  Vector3d up;                    // roughly
-  double distance = 0.0;          // median, of points from the cameras
-  std::vector<Vector3d> patches;  // the mean of the points in each cube
+  std::vector<Vector3d> centers;  // Camera centres.
+  Vector3d up;                    // Approximate up direction.
+  double distance = 0.0;          // Median distance of points from the cameras.
+  std::vector<Vector3d> patches;  // Mean of the points in each cube.
 };
 
-// Cameras are held upright: their x axes are level. Where they all look the same
-// way, that leaves a circle of directions; the mean of their upward axes decides.
+// The up direction, assuming that cameras are held upright, so that their x axes are horizontal. If
+// all of them look the same way, a circle of directions remains; the mean of their up axes decides.
 Vector3d UpOfCameras(std::span<const Keyframe> keyframes) {
   Matrix3d level = Matrix3d::Zero();
   Vector3d mean_up = Vector3d::Zero();
@@ -71,7 +69,7 @@ Vector3d UpOfCameras(std::span<const Keyframe> keyframes) {
   return up.dot(mean_up) >= 0.0 ? up : Vector3d(-up);
 }
 
-// The middle of what the keyframes see, from the first 1000 points at even steps.
+// The median distance between about 1000 evenly chosen points and the cameras.
 double MedianDistance(const SceneDatabase& database, std::span<const Vector3d> centers) {
   std::vector<double> distances;
   const size_t step = database.points.size() / 1000 + 1;
@@ -110,13 +108,13 @@ Scene DescribeScene(const SceneDatabase& database) {
     scene.centers.push_back(keyframe.camera_from_map.Center());
   }
   scene.up = UpOfCameras(database.keyframes);
-  // Not less: cubes are counted in integers.
+  // The lower limit keeps the integer indices of the cubes in range.
   scene.distance = std::max(MedianDistance(database, scene.centers), 1e-6);
   scene.patches = MakePatches(database, kPatch * scene.distance);
   return scene;
 }
 
-// ------------------------------------------------------------ the level direction
+// ------------------------------------------------------------ horizontal surfaces
 
 std::optional<Plane> LeastSquaresPlane(std::span<const Vector3d> points, const Vector3d& up) {
   if (points.size() < 3) {
@@ -133,7 +131,7 @@ std::optional<Plane> LeastSquaresPlane(std::span<const Vector3d> points, const V
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(scatter);
   if (!(solver.eigenvalues()[1] > 4.0 * solver.eigenvalues()[0])) {
-    return std::nullopt;  // a line or a cloud
+    return std::nullopt;  // The points form a line or a cloud.
   }
   const Vector3d normal = solver.eigenvectors().col(0);
   const Vector3d upwards = normal.dot(up) >= 0.0 ? normal : Vector3d(-normal);
@@ -156,14 +154,14 @@ bool IsLevel(const Plane& plane, const Vector3d& up) {
   return plane.normal.dot(up) >= std::cos(kMaxFromCameraUp);
 }
 
-// All but a few of the cameras look down on it: poses may be wrong.
+// Returns whether at least 95 % of the cameras are above the plane; a few poses may be wrong.
 bool CamerasAbove(const Plane& plane, std::span<const Vector3d> centers) {
   const auto above = std::count_if(centers.begin(), centers.end(),
                                    [&](const Vector3d& c) { return plane.Height(c) > 0.0; });
   return static_cast<double>(above) >= 0.95 * static_cast<double>(centers.size());
 }
 
-// Through three points close together, and what lies about it there.
+// A plane through three neighbouring points, refined with the points near it.
 std::optional<Plane> LocalPlane(const Scene& scene, Random& random) {
   const std::vector<Vector3d>& patches = scene.patches;
   const auto draw = [&](const std::vector<Vector3d>& from) {
@@ -188,8 +186,8 @@ std::optional<Plane> LocalPlane(const Scene& scene, Random& random) {
   return LeastSquaresPlane(PointsNear(rough, kTolerance * scene.distance, around), scene.up);
 }
 
-// The largest level surface that the cameras look down on, by RANSAC with local
-// optimisation (Chum, Matas & Kittler, "Locally Optimized RANSAC", DAGM 2003).
+// The largest horizontal surface below the cameras, by RANSAC with local optimisation (Chum, Matas
+// & Kittler, "Locally Optimized RANSAC", DAGM 2003).
 std::optional<Plane> LargestLevelPlane(const Scene& scene, uint64_t seed) {
   Random random(seed);
   const double tolerance = kTolerance * scene.distance;
@@ -203,7 +201,7 @@ std::optional<Plane> LargestLevelPlane(const Scene& scene, uint64_t seed) {
         best = plane;
         best_support = support.size();
       } else if (2 * support.size() < best_support) {
-        break;  // refining will not make up for that
+        break;  // Refinement cannot make up for so little support.
       }
       plane = LeastSquaresPlane(support, scene.up);
     }
@@ -211,16 +209,16 @@ std::optional<Plane> LargestLevelPlane(const Scene& scene, uint64_t seed) {
   return best_support >= kMinPatches ? best : std::nullopt;
 }
 
-// ------------------------------------------------------------ the lowest level
+// ------------------------------------------------------------ the lowest surface
 
-// Sorted heights within [from, to).
+// Number of sorted heights within [from, to).
 size_t CountBetween(std::span<const double> sorted, double from, double to) {
   return static_cast<size_t>(std::lower_bound(sorted.begin(), sorted.end(), to) -
                              std::lower_bound(sorted.begin(), sorted.end(), from));
 }
 
-// The height, above the given plane, of the lowest level that is peopled like a
-// surface; nullopt where not even the given one is.
+// The height, relative to the given plane, of the lowest layer that is as densely filled as a
+// surface; nullopt if not even the given plane is.
 std::optional<double> LowestLevel(const Plane& largest, const Scene& scene) {
   const double tolerance = kTolerance * scene.distance;
   std::vector<double> heights;
@@ -236,7 +234,7 @@ std::optional<double> LowestLevel(const Plane& largest, const Scene& scene) {
       break;
     }
     const size_t here = CountBetween(heights, height, height + 2.0 * tolerance);
-    // Walls and clutter people all heights alike; a surface stands out from them.
+    // Walls and clutter fill all heights evenly; a surface stands out from them.
     const size_t below = CountBetween(heights, height - 4.0 * tolerance, height);
     const size_t above = CountBetween(heights, height + 2.0 * tolerance, height + 6.0 * tolerance);
     const double background = 0.5 * static_cast<double>(std::max(below, above));
@@ -250,10 +248,10 @@ std::optional<double> LowestLevel(const Plane& largest, const Scene& scene) {
 
 // ------------------------------------------------------------ the final fit
 
-// Points by their place on a plane and their height above it.
+// Points in the axes of a plane: position on the plane and height above it.
 struct Heights {
   Vector3d origin;
-  Matrix3d axes;  // columns: along the plane, along the plane, normal
+  Matrix3d axes;  // Columns: two axes along the plane, and the normal.
   std::vector<Vector3d> points;
 
   Heights(const Plane& plane, std::span<const Vector3d> near) {
@@ -270,7 +268,7 @@ struct Heights {
   }
 };
 
-struct Fit {
+struct FloorFit {
   Vector3d slope = Vector3d::Zero();  // height = slope . (u, v, 1)
   double spread = 0.0;
   std::vector<double> weights;
@@ -280,13 +278,13 @@ struct Fit {
   }
 };
 
-// Iteratively reweighted least squares with Tukey's biweight; the scale is the
-// median absolute residual. Sharper than usual (4.685): what stands on the floor
-// lies on one side.
-Fit FitRobustly(const Heights& heights) {
+// Iteratively reweighted least squares with Tukey's biweight; the scale comes from the median
+// absolute residual. The constant is smaller than the usual 4.685, because objects on the floor
+// produce outliers on one side only.
+FloorFit FitRobustly(const Heights& heights) {
   constexpr double kTukey = 3.0;
   constexpr int kRounds = 20;
-  Fit fit;
+  FloorFit fit;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> residuals;
     for (const Vector3d& point : heights.points) {
@@ -309,10 +307,10 @@ Fit FitRobustly(const Heights& heights) {
   return fit;
 }
 
-// Of the slope about its worst axis: the sandwich estimate over blocks of points
-// (Liang & Zeger, "Longitudinal data analysis using generalized linear models",
+// Standard deviation of the slope about its least certain axis: the sandwich estimate over blocks
+// of points (Liang & Zeger, "Longitudinal data analysis using generalized linear models",
 // Biometrika 1986).
-double SlopeDeviation(const Heights& heights, const Fit& fit, double block) {
+double SlopeDeviation(const Heights& heights, const FloorFit& fit, double block) {
   Matrix3d normal = Matrix3d::Zero();
   std::map<std::pair<int64_t, int64_t>, Vector3d> scores;
   for (size_t i = 0; i < heights.points.size(); ++i) {
@@ -334,7 +332,7 @@ double SlopeDeviation(const Heights& heights, const Fit& fit, double block) {
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(slopes).eigenvalues()[1]);
 }
 
-// Without what lies at the foot of walls and things: columns of the plane in
+// The points without those at the foot of walls and objects: removes the cells of the plane above
 // which something stands, and their neighbours.
 std::vector<Vector3d> WithoutFeet(const Plane& level,
                                   std::span<const Vector3d> near,
@@ -366,7 +364,7 @@ std::vector<Vector3d> WithoutFeet(const Plane& level,
   return free;
 }
 
-// nullopt when the points about the level are no surface by themselves.
+// Fits the floor to the points near the level. nullopt if they do not form a surface by themselves.
 std::optional<FloorPlane> FitFloor(const Plane& level, const Scene& scene) {
   const double tolerance = kTolerance * scene.distance;
   std::vector<Vector3d> near = PointsNear(level, 2.0 * tolerance, scene.patches);
@@ -377,7 +375,7 @@ std::optional<FloorPlane> FitFloor(const Plane& level, const Scene& scene) {
     near = std::move(free);
   }
   const Heights heights(level, near);
-  const Fit fit = FitRobustly(heights);
+  const FloorFit fit = FitRobustly(heights);
   const double tilt = std::atan(fit.slope.head<2>().norm());
   if (!(tilt < kMaxBetweenLevels)) {
     return std::nullopt;

@@ -12,7 +12,7 @@ namespace lararium::train {
 namespace {
 
 constexpr size_t kWorkers = 8;
-constexpr double kLargestErrorPx = 2.0;  // of a sight that counts
+constexpr double kLargestErrorPx = 2.0;  // Largest error of an observation.
 
 }  // namespace
 
@@ -34,7 +34,7 @@ LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image) 
   return view;
 }
 
-// Memory for one image at a time.
+// Locates one image at a time and reuses its memory.
 class FrameLocator::Worker {
  public:
   explicit Worker(const vision::SceneDatabase& database)
@@ -51,7 +51,7 @@ class FrameLocator::Worker {
     view.features = static_cast<int>(features_.size());
     view.camera_from_map = localizer_.Locate(features_, database_.camera).camera_from_map;
     if (view.camera_from_map) {
-      std::vector<double> errors = ErrorsOfSights(*view.camera_from_map);
+      std::vector<double> errors = ErrorsOfObservations(*view.camera_from_map);
       view.observations = static_cast<int>(errors.size());
       view.median_error_px = Median(std::move(errors));
     }
@@ -59,7 +59,7 @@ class FrameLocator::Worker {
   }
 
  private:
-  std::vector<double> ErrorsOfSights(const geometry::Rigid3& camera_from_map) {
+  std::vector<double> ErrorsOfObservations(const geometry::Rigid3& camera_from_map) {
     matcher_.Match(database_.camera, camera_from_map, features_, kLargestErrorPx, matches_);
     std::vector<double> errors;
     for (const vision::FeatureMatch& match : matches_) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the finished map knows of the source's frames: of those that shaped it,
-// and of the others, which are located in it.
+// Describes how the frames of the source relate to the finished map: both the keyframes, and the
+// other frames, which are located in it.
 
 #include <cstdint>
 #include <memory>
@@ -15,27 +15,27 @@
 
 namespace lararium::train {
 
-// A view of the map by one image.
+// The map as seen by one image.
 struct LocatedView {
   std::optional<geometry::Rigid3> camera_from_map;
   int features = 0;
-  int observations = 0;  // of points of the map
+  int observations = 0;  // Number of observed map points.
   double median_error_px = 0.0;
 };
 
-// What the reconstruction knows of its own image; features is left 0.
+// Describes an image of the reconstruction; leaves LocatedView::features 0.
 LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image);
 
-// Locates images in a map by vision::Localizer: the time that an image takes
-// hardly grows with the map or with the number of its keyframes.
+// Locates images in a map by vision::Localizer. The time per image hardly depends on the size of
+// the map or the number of its keyframes.
 class FrameLocator {
  public:
-  // Borrows the database; the images are its camera's.
+  // The database must outlive this. The images must come from the database's camera.
   explicit FrameLocator(const vision::SceneDatabase& database);
   ~FrameLocator();
 
-  // views[i] of frames[i]. On all cores; the same frame gives the same view,
-  // whatever came before.
+  // Result i describes frames[i]. Uses all cores. Deterministic: the same frame gives the same
+  // view, independent of earlier calls.
   std::vector<LocatedView> Locate(std::span<const geometry::Frame> frames);
 
  private:

@@ -9,11 +9,11 @@
 namespace lararium::train {
 namespace {
 
-constexpr double kPerCell = 3.0;    // features, on average
-constexpr float kMaxTurn = 0.8f;    // radians off the images' turn; a match beyond is no match
-constexpr float kMaxGrowth = 1.0f;  // octaves off the images' growth
-// Squared; descriptors have length 512. So few candidates compete that the ratio
-// alone would let random ones through.
+constexpr double kPerCell = 3.0;    // Mean number of features per cell.
+constexpr float kMaxTurn = 0.8f;    // Largest difference from GuidedOptions::turn, radians.
+constexpr float kMaxGrowth = 1.0f;  // Largest difference from GuidedOptions::growth, octaves.
+// Largest squared distance of a match; descriptors have length 512. With so few candidates, the
+// ratio test alone would accept random matches.
 constexpr uint32_t kFarthest = 270 * 270;
 
 struct Nearest {
@@ -36,7 +36,7 @@ struct Nearest {
   }
 };
 
-// Into [-pi, pi).
+// Wraps an angle into [-pi, pi).
 float Wrap(float angle) {
   constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
   return angle - kTurn * std::floor(angle / kTurn + 0.5f);
@@ -66,7 +66,7 @@ FeatureGrid::FeatureGrid(const vision::Features& features, std::span<const Eigen
   }
   const Eigen::Vector2d extent = (high - low).cwiseMax(1e-9);
   corner_ = low;
-  // Long thin clouds must not make endless rows of cells.
+  // Limits the number of cells for long thin point clouds.
   cell_ = std::max(std::sqrt(extent.prod() * kPerCell / static_cast<double>(points.size())),
                    extent.maxCoeff() / 1000.0);
   columns_ = static_cast<int>(extent.x() / cell_) + 1;
@@ -100,7 +100,8 @@ void FeatureGrid::VisitNearLine(const Eigen::Vector3d& line, double band, Visit 
   const double nx = line.x();
   const double ny = line.y();
   const double d = line.z();
-  // Walks rows where the line is steep, so that each visits few cells.
+  // Goes row by row if the line is steep, otherwise column by column, so that each step visits few
+  // cells.
   const auto visit_cells = [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       if (std::abs(nx * x_[i] + ny * y_[i] + d) < band) {
@@ -153,7 +154,7 @@ std::vector<FeatureMatch> MatchGuided(const FeatureGrid& a,
     Eigen::Vector3d line = options.fundamental * a.point(i).homogeneous();
     const double length = line.head<2>().norm();
     if (!(length > 1e-12)) {
-      continue;  // the epipole: no line
+      continue;  // The point is the epipole, which has no line.
     }
     line /= length;
     const float angle = a.angle(i) + options.turn;

@@ -1,8 +1,7 @@
 #pragma once
 
-// Matches between two images whose two-view geometry is known: each feature is
-// only compared with those near its epipolar line that are turned and scaled as
-// the images are.
+// Guided matching of two images with a known two-view geometry: each feature is compared only with
+// features near its epipolar line whose rotation and scale agree with those between the images.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -14,17 +13,17 @@
 
 namespace lararium::train {
 
-// The features of an image in cells of its plane; parallel arrays, cell by cell.
+// The features of an image, grouped by the cells of a grid; parallel arrays, cell by cell.
 class FeatureGrid {
  public:
-  // points: of the features, pixels or undistorted on the plane z = 1. Borrows
-  // the descriptors.
+  // points[i] is the position of feature i, in pixels or undistorted on the plane z = 1. features
+  // must outlive the grid.
   FeatureGrid(const vision::Features& features, std::span<const Eigen::Vector2d> points);
 
   size_t size() const { return index_.size(); }
 
-  // Calls visit(position) for the positions of all features nearer than band to
-  // the line (n_x, n_y, d), n of length 1.
+  // Calls visit(position) for all features nearer than band to the line (n_x, n_y, d), where n has
+  // length 1. `position` is an index into the grid's arrays.
   template <typename Visit>
   void VisitNearLine(const Eigen::Vector3d& line, double band, Visit visit) const;
 
@@ -41,30 +40,29 @@ class FeatureGrid {
   int rows_ = 0;
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
   double cell_ = 1.0;
-  std::vector<uint32_t> begin_;  // [row * columns_ + column], and the end
+  std::vector<uint32_t> begin_;  // [rows_ * columns_ + 1]: Ranges of positions per cell.
   std::vector<double> x_;
   std::vector<double> y_;
   std::vector<float> angle_;
-  std::vector<float> log_scale_;  // to base 2
-  std::vector<uint32_t> index_;   // of the feature
+  std::vector<float> log_scale_;  // Logarithm to base 2.
+  std::vector<uint32_t> index_;   // Index of the feature.
   std::span<const vision::Descriptor> descriptors_;
 };
 
 struct GuidedOptions {
-  Eigen::Matrix3d fundamental;  // b' F a = 0 for the grids' points
-  double band = 0.0;            // largest distance from the epipolar line, as the points
-  float turn = 0.0f;            // radians, angle in b less angle in a
-  float growth = 0.0f;          // log2 of the scale in b over that in a
-  float ratio = 0.8f;           // as MatchDescriptors, among the candidates
+  Eigen::Matrix3d fundamental;  // F with b' F a = 0 for the grids' points.
+  double band = 0.0;            // Largest distance from the epipolar line, unit of the points.
+  float turn = 0.0f;            // Angle in b minus angle in a, radians.
+  float growth = 0.0f;          // log2 of the scale in b over that in a.
+  float ratio = 0.8f;           // Ratio test among the candidates; see MatchDescriptors.
 };
 
-// Pairs of features that are each other's nearest among the candidates. In order of a.
+// Pairs of features that are mutual nearest neighbours among the candidates. Ordered by a.
 std::vector<FeatureMatch> MatchGuided(const FeatureGrid& a,
                                       const FeatureGrid& b,
                                       const GuidedOptions& options);
 
-// How the features of b are turned and scaled against their matches in a:
-// median growth, mean turn.
+// Fills in options.turn and options.growth from matches: the mean turn and the median growth.
 void MeasureTurnAndGrowth(const vision::Features& a,
                           const vision::Features& b,
                           std::span<const FeatureMatch> matches,

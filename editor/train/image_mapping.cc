@@ -7,6 +7,7 @@
 #include "editor/train/pair_selection.h"
 #include "editor/train/survey.h"
 #include "editor/train/tracks.h"
+#include "editor/train/training_status.h"
 #include "editor/train/two_view.h"
 
 namespace lararium::train {
@@ -14,11 +15,7 @@ namespace {
 
 using vision::Features;
 
-constexpr std::string_view kPlace = "training";
-
-Status CancelledStatus() { return Status::Error(kPlace, "cancelled"); }
-
-// How far matches moved besides what a turn of the camera explains, in pixels.
+// Motion of the matches in pixels that a pure rotation of the camera does not explain.
 double ParallaxPx(std::span<const TrainingImage> images,
                   const VerifiedPair& pair,
                   const geometry::CameraModel& camera) {
@@ -47,32 +44,32 @@ Status WhyNoMap(std::span<const TrainingImage> images, const VerifiedPairs& veri
   const std::string b = images[widest->images.b].name;
   if (most < kNoParallaxPx) {
     return Status::Error(
-        kPlace,
+        kTraining,
         "too little parallax: from " + images.front().name + " to " + images.back().name +
             " the camera turned or stood still (most between " + a + " and " + b + ")",
         "film while walking sideways past the place; do not pan on the spot");
   }
   return Status::Error(
-      kPlace, "no two images fix enough points to start a map (best " + a + " and " + b + ")",
-      "film textured things that do not move, from a camera that does");
+      kTraining, "no two images fix enough points to start a map (best " + a + " and " + b + ")",
+      "film textured objects that do not move, while you move the camera");
 }
 
-// A scrap of the images is no map of the place.
+// Fails if too few of the images are part of the map.
 Status CheckShare(std::span<const TrainingImage> images, const Reconstruction& reconstruction) {
   const std::vector<uint32_t> located = reconstruction.LocatedImages();
   if (5 * located.size() >= images.size()) {
     return Status();
   }
-  return Status::Error(kPlace,
+  return Status::Error(kTraining,
                        "only " + std::to_string(located.size()) + " of " +
                            std::to_string(images.size()) + " images fit one map (" +
                            images[located.front()].name + " to " + images[located.back()].name +
                            ")",
-                       "film things that do not move, from a camera that does: slowly, sideways, "
+                       "film objects that do not move, while you move the camera slowly sideways, "
                        "with neighbouring images that overlap");
 }
 
-// The first image's camera becomes the frame, the median depth the unit.
+// Makes the camera frame of the first located image the map frame, and the median depth the unit.
 void Normalise(Reconstruction& reconstruction) {
   const std::vector<uint32_t> located = reconstruction.LocatedImages();
   std::vector<double> depths;
@@ -92,7 +89,7 @@ void Normalise(Reconstruction& reconstruction) {
   reconstruction.Transform({1.0 / *middle, first.rotation, first.translation / *middle});
 }
 
-// Says which stretches of images have no pose, and why.
+// Logs which stretches of images have no pose, and why.
 void WarnOfGaps(std::span<const TrainingImage> images,
                 std::span<const VerifiedPair> pairs,
                 const Reconstruction& reconstruction,
@@ -116,7 +113,7 @@ void WarnOfGaps(std::span<const TrainingImage> images,
     }
     const char* reason =
         most_features < kFewFeatures
-            ? "too few features; film textured things in good light, without motion blur"
+            ? "too few features; film textured objects in good light, without motion blur"
         : any_linked ? "their matches fix no pose; film this part again, more slowly"
                      : "they do not overlap with the rest of the map; move more slowly between";
     log.warn("no pose for {} to {}: {}", images[begin].name, images[end - 1].name, reason);
@@ -144,7 +141,7 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
                                   const ImageMappingOptions& options,
                                   Progress& progress,
                                   Log& log) {
-  std::vector<Features> features;  // moved here and back, so that spans see them
+  std::vector<Features> features;  // Moved here and back, because a contiguous span is needed.
   for (TrainingImage& image : images) {
     features.push_back(std::move(image.features));
   }
@@ -166,21 +163,21 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
   if (!options.intrinsics) {
     log.info("starting with a focal length of {:.0f} pixels", verified.camera.fx);
   }
-  log.info("{} of {} image pairs show the same things", verified.pairs.size(), candidates.size());
+  log.info("{} of {} image pairs show the same objects", verified.pairs.size(), candidates.size());
   if (verified.pairs.empty()) {
-    return Status::Error(kPlace,
-                         "no two images show the same things (" + images.front().name + " to " +
+    return Status::Error(kTraining,
+                         "no two images show the same objects (" + images.front().name + " to " +
                              images.back().name + ")",
                          "move more slowly, so that neighbouring images overlap by two thirds");
   }
   return verified;
 }
 
-Result<ImageMap> MapImages(std::span<const TrainingImage> images,
-                           const VerifiedPairs& verified,
-                           const ImageMappingOptions& options,
-                           Progress& progress,
-                           Log& log) {
+Result<SparseMap> MapImages(std::span<const TrainingImage> images,
+                            const VerifiedPairs& verified,
+                            const ImageMappingOptions& options,
+                            Progress& progress,
+                            Log& log) {
   std::vector<uint32_t> feature_counts;
   std::vector<std::vector<Eigen::Vector2d>> pixels;
   for (const TrainingImage& image : images) {
@@ -190,7 +187,7 @@ Result<ImageMap> MapImages(std::span<const TrainingImage> images,
       of_image.emplace_back(keypoint.x, keypoint.y);
     }
   }
-  ImageMap map;
+  SparseMap map;
   map.reconstruction = std::make_unique<Reconstruction>(
       verified.camera, std::move(pixels), BuildTracks(feature_counts, verified.pairs));
   MapperOptions mapper;

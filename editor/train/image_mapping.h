@@ -1,6 +1,6 @@
 #pragma once
 
-// From images with features to a map of them: pairs, tracks, reconstruction.
+// Builds a sparse map from images with features: pairs, tracks, reconstruction.
 
 #include <memory>
 #include <optional>
@@ -18,30 +18,30 @@
 namespace lararium::train {
 
 struct ImageMappingOptions {
-  // Given intrinsics are kept; otherwise they are estimated from focal_prior_px on.
+  // Given intrinsics are kept. Otherwise they are estimated, starting from focal_prior_px.
   std::optional<geometry::CameraModel> intrinsics;
   std::optional<double> focal_prior_px;
   uint64_t seed = 1;
 };
 
-// Pairs of images that show the same things, with the camera to start from. An
-// error where there is none, or when cancelled. All images have one size.
+// Finds pairs of images that show the same part of the scene, and the camera to start from. All
+// images must have the same size. Fails if there is no such pair, or if cancelled.
 Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
                                   const ImageMappingOptions& options,
                                   Progress& progress,
                                   Log& log);
 
-struct ImageMap {
-  std::unique_ptr<Reconstruction> reconstruction;  // image i of it is images[i]
-  InitialPair anchors = {0, 0};                    // the images that it started from
+struct SparseMap {
+  std::unique_ptr<Reconstruction> reconstruction;  // Image i is images[i].
+  InitialPair anchors = {0, 0};                    // The images from which it started.
 };
 
-// Structure from motion over verified pairs, in the axes of the first located
-// image's camera; the median depth is the unit. Errors say what to film instead.
-Result<ImageMap> MapImages(std::span<const TrainingImage> images,
-                           const VerifiedPairs& verified,
-                           const ImageMappingOptions& options,
-                           Progress& progress,
-                           Log& log);
+// Structure from motion over verified pairs. The map frame is the camera frame of the first located
+// image; the unit is the median depth. Errors say what to film instead.
+Result<SparseMap> MapImages(std::span<const TrainingImage> images,
+                            const VerifiedPairs& verified,
+                            const ImageMappingOptions& options,
+                            Progress& progress,
+                            Log& log);
 
 }  // namespace lararium::train

@@ -12,7 +12,7 @@
 namespace lararium::train {
 namespace {
 
-constexpr double kWidth = 320.0;
+constexpr double kComparedWidth = 320.0;
 
 double Sharpness(const cv::Mat& grey) {
   cv::Mat laplacian;
@@ -52,11 +52,11 @@ double MedianShift(const cv::Mat& from, const cv::Mat& to) {
 
 FrameMotion MotionMeter::Measure(const cv::Mat& grey) {
   cv::Mat small = grey;
-  const double factor = kWidth / grey.cols;
+  const double factor = kComparedWidth / grey.cols;
   if (factor < 1.0) {
     cv::resize(grey, small, cv::Size(), factor, factor, cv::INTER_AREA);
   } else {
-    small = grey.clone();  // the caller's pixels may change
+    small = grey.clone();  // The caller's pixels may change.
   }
   FrameMotion motion;
   motion.sharpness = Sharpness(small);
@@ -75,7 +75,7 @@ std::vector<size_t> ChooseKeyframes(std::span<const FrameMotion> frames, size_t 
     std::iota(chosen.begin(), chosen.end(), size_t{0});
     return chosen;
   }
-  // Closer than this there is no parallax to gain.
+  // A smaller spacing adds no parallax.
   constexpr double kLeastSpacing = 0.005;
   double total = 0.0;
   for (const FrameMotion& frame : frames) {

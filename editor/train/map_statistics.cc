@@ -17,7 +17,7 @@ std::optional<double> ErrorPx(const SceneDatabase& db, const Observation& o) {
   return pixel ? std::optional((*pixel - Eigen::Vector2d(o.x, o.y)).norm()) : std::nullopt;
 }
 
-// A mean, as far as it is known.
+// An incremental mean.
 struct Mean {
   double sum = 0.0;
   uint32_t count = 0;
@@ -38,18 +38,19 @@ std::vector<float> Values(std::span<const Mean> means) {
   return values;
 }
 
-void GroupSights(const SceneDatabase& db, MapStatistics& statistics) {
-  statistics.sight_begin.assign(db.points.size() + 1, 0);
+void GroupObservations(const SceneDatabase& db, MapStatistics& statistics) {
+  statistics.first_observation.assign(db.points.size() + 1, 0);
   for (const Observation& o : db.observations) {
-    ++statistics.sight_begin[o.point + 1];
+    ++statistics.first_observation[o.point + 1];
   }
-  for (size_t i = 1; i < statistics.sight_begin.size(); ++i) {
-    statistics.sight_begin[i] += statistics.sight_begin[i - 1];
+  for (size_t i = 1; i < statistics.first_observation.size(); ++i) {
+    statistics.first_observation[i] += statistics.first_observation[i - 1];
   }
-  std::vector<uint32_t> next(statistics.sight_begin.begin(), statistics.sight_begin.end() - 1);
-  statistics.sights.resize(db.observations.size());
+  std::vector<uint32_t> next(statistics.first_observation.begin(),
+                             statistics.first_observation.end() - 1);
+  statistics.observations.resize(db.observations.size());
   for (uint32_t i = 0; i < db.observations.size(); ++i) {
-    statistics.sights[next[db.observations[i].point]++] = i;
+    statistics.observations[next[db.observations[i].point]++] = i;
   }
 }
 
@@ -113,7 +114,7 @@ std::vector<uint8_t> PointShades(const SceneDatabase& db) {
   return shades;
 }
 
-// Of the pixel when the point moves, map units: central differences.
+// Derivative of the pixel by the point in map units, by central differences.
 std::optional<Eigen::Matrix<double, 2, 3>> PixelJacobian(const SceneDatabase& db,
                                                          const Observation& o) {
   const Eigen::Vector3d in_camera =
@@ -136,7 +137,7 @@ std::optional<Eigen::Matrix<double, 2, 3>> PixelJacobian(const SceneDatabase& db
 
 MapStatistics MeasureStatistics(const SceneDatabase& database) {
   MapStatistics statistics;
-  GroupSights(database, statistics);
+  GroupObservations(database, statistics);
   MeasureErrors(database, statistics);
   CountSessions(database, statistics);
   statistics.point_session = SingleSessions(database.session_masks);
@@ -171,13 +172,14 @@ std::optional<Eigen::Matrix3d> PointCovariance(const SceneDatabase& database,
                                                const MapStatistics& statistics,
                                                uint32_t point) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  for (const uint32_t sight : statistics.SightsOf(point)) {
-    if (const auto jacobian = PixelJacobian(database, database.observations[sight])) {
+  for (const uint32_t observation : statistics.ObservationsOf(point)) {
+    if (const auto jacobian = PixelJacobian(database, database.observations[observation])) {
       information += jacobian->transpose() * *jacobian;
     }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information);
-  constexpr double kLeast = 1e-9;  // of the largest eigenvalue: what one sight alone leaves open
+  // Minimum ratio of the smallest to the largest eigenvalue. A single observation stays below it.
+  constexpr double kLeast = 1e-9;
   if (!(solver.eigenvalues()(0) > kLeast * solver.eigenvalues()(2))) {
     return std::nullopt;
   }

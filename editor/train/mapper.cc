@@ -63,8 +63,8 @@ class Mapper {
   }
 
  private:
-  // Indices of pairs that could start a map, best first: many matches at a good
-  // angle. Beyond 10 degrees more parallax is no longer worth fewer matches.
+  // Indices of pairs that could start a map, best first: many matches at a good angle. Beyond 10
+  // degrees a wider angle does not make up for fewer matches.
   std::vector<size_t> RankInitialPairs() const {
     constexpr double kGoodAngle = 0.175;
     std::vector<std::pair<double, size_t>> ranked;
@@ -88,7 +88,7 @@ class Mapper {
     return best_ && best_->Located(images.a) && best_->Located(images.b);
   }
 
-  // Whether what grew is a map, not a pair with a few stray points.
+  // Returns whether the result is a map and not only a pair with a few stray points.
   bool Sound() const {
     return reconstruction_.LocatedImages().size() >=
                std::min<size_t>(3, reconstruction_.image_count()) &&
@@ -111,7 +111,7 @@ class Mapper {
     }
   }
 
-  // Two views of a plane allow two maps; further images show which is true.
+  // Two views of a plane allow two maps. Further images decide which one is right.
   bool StartFromBestPose(const VerifiedPair& pair) {
     const std::vector<Rigid3> poses = PossiblePoses(pair);
     if (poses.size() == 1) {
@@ -149,9 +149,9 @@ class Mapper {
     return poses;
   }
 
-  // What tracks both images of a pair see, on the plane z = 1.
+  // The points of the tracks that both images of a pair observe, on the plane z = 1.
   PointPairs CommonPoints(const VerifiedPair& pair) const {
-    std::map<uint32_t, uint32_t> element_in_a;  // by track
+    std::map<uint32_t, uint32_t> element_in_a;  // Key: track.
     for (const uint32_t element : reconstruction_.ElementsOf(pair.images.a)) {
       element_in_a[reconstruction_.TrackOf(element)] = element;
     }
@@ -166,7 +166,7 @@ class Mapper {
     return points;
   }
 
-  // How many observations speak for the map; those of large error hardly do.
+  // Number of observations that support the map; those with a large error hardly count.
   double Support() const {
     double support = 0.0;
     for (uint32_t track = 0; track < reconstruction_.tracks().size(); ++track) {
@@ -193,7 +193,7 @@ class Mapper {
   }
 
   void Grow() {
-    bool refreshed = true;  // since the last image was located
+    bool refreshed = true;  // Refresh() ran since the last image was located.
     while (!progress_.Cancelled()) {
       const size_t located = reconstruction_.LocatedImages().size();
       progress_.Report("mapping", static_cast<double>(located) /
@@ -213,7 +213,7 @@ class Mapper {
     }
   }
 
-  // Global adjustment with all that follows from it.
+  // Global adjustment with filtering and completion of the tracks.
   void Refresh() {
     last_global_ = reconstruction_.LocatedImages().size();
     AdjustAll(reconstruction_, anchors_, Growing());
@@ -249,11 +249,12 @@ class Mapper {
     }
   }
 
-  // The principal point last: many recordings hardly determine it, and then the
-  // centre of the image is the better guess.
+  // Estimates the principal point last. Many recordings hardly determine it; then the image's
+  // centre is the better estimate.
   void FreeCentre(BundleOptions bundle, const TriangulationOptions& limits) {
-    constexpr double kMaxDeviation = 0.002;  // of the longer side
-    constexpr double kMaxShift = 0.1;        // likewise, from where it was assumed
+    // Largest standard deviation and largest shift, as shares of the longer side.
+    constexpr double kMaxDeviation = 0.002;
+    constexpr double kMaxShift = 0.1;
     const geometry::CameraModel before = reconstruction_.camera();
     const double side = std::max(before.width, before.height);
     Reconstruction centred = reconstruction_;
@@ -287,8 +288,8 @@ class Mapper {
     return bundle;
   }
 
-  // Points that an image sees, weighed by how evenly they fill it: occupied
-  // cells of grids from 2x2 to 16x16 (Schoenberger & Frahm, section 4.2).
+  // Number of points that an image observes, weighted by how evenly they fill it: occupied cells of
+  // grids from 2x2 to 16x16 (Schoenberger & Frahm, CVPR 2016, section 4.2).
   size_t VisibilityScore(uint32_t image) const {
     constexpr int kLevels = 4;
     const geometry::CameraModel& camera = reconstruction_.camera();
@@ -312,7 +313,7 @@ class Mapper {
     return score;
   }
 
-  // Locates the best of the images not yet located. False when none can be.
+  // Locates the best of the images that have no pose yet. Returns false if none can be located.
   bool LocateNext() {
     std::vector<std::pair<size_t, uint32_t>> candidates;
     for (uint32_t image = 0; image < reconstruction_.image_count(); ++image) {
@@ -357,7 +358,7 @@ class Mapper {
     return true;
   }
 
-  // Adds what a new image sees: observations of known points, then new points.
+  // Adds observations of known points in a new image, then new points.
   void ExtendBy(uint32_t image) {
     for (const uint32_t element : reconstruction_.ElementsOf(image)) {
       const uint32_t track = reconstruction_.TrackOf(element);
@@ -369,10 +370,10 @@ class Mapper {
     }
   }
 
-  // The new image and those that share most points with it.
+  // Adjusts the new image and the images that share most points with it.
   void AdjustAround(uint32_t image) {
     constexpr size_t kNeighbours = 5;
-    constexpr size_t kMinShared = 10;  // points; fewer do not hold a pose
+    constexpr size_t kMinShared = 10;  // Fewer shared points do not constrain a pose.
     std::vector<size_t> shared(reconstruction_.image_count(), 0);
     for (const uint32_t element : reconstruction_.ElementsOf(image)) {
       if (!reconstruction_.Observed(element)) {
@@ -383,7 +384,7 @@ class Mapper {
       }
     }
     shared[image] = 0;
-    shared[anchors_[0]] = 0;  // holds the axes
+    shared[anchors_[0]] = 0;  // The first anchor stays fixed; it defines the axes.
     std::vector<uint32_t> order(shared.size());
     for (uint32_t i = 0; i < order.size(); ++i) {
       order[i] = i;
@@ -431,7 +432,7 @@ class Mapper {
         false, [&](uint32_t track) { reconstruction_.Triangulate(track, options_.triangulation); });
   }
 
-  // Images that filtering left with hardly any observation are not trusted.
+  // Removes images that have hardly any observation left after filtering.
   void DropWeakImages() {
     for (const uint32_t image : reconstruction_.LocatedImages()) {
       const auto elements = reconstruction_.ElementsOf(image);
@@ -445,7 +446,7 @@ class Mapper {
     }
   }
 
-  // Images by which a map grows from one global adjustment to the next.
+  // Factor by which the number of images grows between global adjustments.
   static constexpr double kGrowth = 1.25;
 
   Reconstruction& reconstruction_;

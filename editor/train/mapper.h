@@ -17,18 +17,18 @@ namespace lararium::train {
 
 struct MapperOptions {
   bool refine_intrinsics = false;
-  TriangulationOptions triangulation;  // while the map grows
-  double final_max_error_px = 2.5;     // of the finished map's observations
+  TriangulationOptions triangulation;  // Limits while the map grows.
+  double final_max_error_px = 2.5;     // Largest observation error in the finished map.
   ResectionOptions resection;
-  double min_initial_angle = 0.035;  // radians (2 degrees), median over the initial pair's points
+  double min_initial_angle = 0.035;  // Median over the initial pair's points, radians (2 degrees).
   size_t min_initial_points = 40;
 };
 
-// The two images that a map started from.
+// The two images from which a map started.
 using InitialPair = std::array<uint32_t, 2>;
 
-// Locates as many images as it can, from scratch: the largest of the maps that
-// the best pairs grow into. nullopt when no pair can start a map, or when cancelled.
+// Grows maps from the best pairs and keeps the one with the most located images. nullopt if no pair
+// can start a map, or if cancelled.
 std::optional<InitialPair> MapIncrementally(Reconstruction& reconstruction,
                                             std::span<const VerifiedPair> pairs,
                                             const MapperOptions& options,

@@ -10,13 +10,13 @@ namespace {
 using vision::Descriptor;
 using vision::kDescriptorSize;
 
-constexpr size_t kRows = 2;     // of a, held in registers against
-constexpr size_t kColumns = 4;  // descriptors of b
-constexpr size_t kTile = 64;    // descriptors of b that stay in the first-level cache
+constexpr size_t kRows = 2;     // Descriptors of a in a block that is held in registers.
+constexpr size_t kColumns = 4;  // Descriptors of b in this block.
+constexpr size_t kTile = 64;    // Descriptors of b that fit into the first-level cache.
 constexpr uint32_t kFar = std::numeric_limits<uint32_t>::max();
 
-// Descriptors widened to 16 bits, so that the compiler multiplies and adds pairs
-// of them in one instruction; padded with zeros to a multiple of a block.
+// Descriptors widened to 16 bits, so that the compiler can multiply and add pairs of values in one
+// instruction. Padded with zero descriptors to a multiple of the block size.
 struct WideDescriptors {
   std::vector<int16_t> values;
   std::vector<uint32_t> squared_norms;

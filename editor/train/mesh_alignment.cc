@@ -23,18 +23,19 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using geometry::Similarity3;
 
-constexpr double kThin = 0.03;      // breadth over length: thinner is a line
-constexpr double kNarrowest = 0.1;  // of the search distance, in the end
-// Of it, where looking begins. Whatever stands on a model draws it away from far; a model that lies
-// well already is found again from near.
+constexpr double kThin = 0.03;      // Points with a smaller ratio of breadth to length are a line.
+constexpr double kNarrowest = 0.1;  // Final search distance, as a share of search_m.
+// Initial search distances, as shares of search_m. With a large one, objects that stand on the
+// model draw it away; a model that already lies well is refined better with a small one.
 constexpr double kBeginnings[] = {1.0, 0.4, 0.15};
 constexpr double kShrink = 0.8;
-constexpr int kRounds = 6;             // at each distance
-constexpr size_t kMaxPoints = 20'000;  // that are moved to; more say no more
-// A least-squares mean below this, where a metre of motion counts as one, is no information.
+constexpr int kRounds = 6;             // Maximum number of steps at each search distance.
+constexpr size_t kMaxPoints = 20'000;  // Maximum number of points used; more add no information.
+// A direction is undetermined if its eigenvalue of the mean normal matrix, with motion in metres,
+// is smaller.
 constexpr double kUndetermined = 3e-3;
 
-// Breadth over length of where points lie.
+// Ratio of breadth to length of a set of points.
 double Thinness(std::span<const Vector3d> points) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& point : points) {
@@ -54,7 +55,7 @@ std::string Metres(double length) {
   return text;
 }
 
-// What of the map may come to lie on the model, and the model to look it up in.
+// Refines the alignment of a model with the map points near it.
 class Refiner {
  public:
   Refiner(const geometry::TriangleMesh& mesh,
@@ -62,7 +63,7 @@ class Refiner {
           std::span<const Vector3d> points,
           const RefineOptions& options)
       : mesh_(mesh), tree_(vision::Placed(mesh, {})), start_(stage_from_mesh), options_(options) {
-    // Nothing moves farther than the search distance, so nothing beyond twice that comes near.
+    // The model moves by at most search_m, so points beyond twice that distance never come near.
     std::vector<char> near(points.size());
     ForChunks(points.size(), [&](size_t i) {
       near[i] = FindPair(points[i], start_, 2.0 * options_.search_m).has_value() ? 1 : 0;
@@ -79,7 +80,7 @@ class Refiner {
     points_.resize(std::min(points_.size(), kMaxPoints));
   }
 
-  // Where most points lie on the surface in the end, wherever looking began.
+  // Refines from each initial search distance and keeps the result with most points on the surface.
   Result<RefineReport> Run(Progress& progress) {
     std::optional<Fit> best;
     double most = 0.0;
@@ -107,10 +108,10 @@ class Refiner {
   }
 
  private:
-  // How the model lies now.
+  // The current alignment.
   struct Fit {
     Similarity3 stage_from_mesh;
-    std::vector<SurfacePair> pairs = {};  // of the points that are near
+    std::vector<SurfacePair> pairs = {};  // One for each point near the surface.
     int undetermined = 0;
   };
 
@@ -124,7 +125,7 @@ class Refiner {
     });
   }
 
-  // By points that are nearer and nearer.
+  // Refines the alignment with a shrinking search distance.
   Status Settle(double search, Progress& progress) {
     LARARIUM_RETURN_IF_ERROR(Match(search));
     while (true) {
@@ -143,13 +144,13 @@ class Refiner {
     }
   }
 
-  // Tukey's.
+  // Tukey's weight.
   static double WeightOf(double distance, double search) {
     const double share = 1.0 - std::pow(distance / search, 2);
     return share > 0.0 ? share * share : 0.0;
   }
 
-  // Of all points that lie on the surface.
+  // Sum of the weights of all near points, by their distance from the surface.
   double Weights(double search) const {
     double weights = 0.0;
     for (const SurfacePair& pair : fit_.pairs) {
@@ -171,10 +172,11 @@ class Refiner {
                        stage_from_mesh.rotation * nearest->normal.cast<double>()};
   }
 
-  // What lies beside an edge of an open surface would draw the edge towards itself. What lies on
-  // the surface has no direction from it.
+  // Returns whether the point lies in front of or behind the surface. Points beside an edge of an
+  // open surface would draw the edge towards them. Points on the surface always count, because
+  // their direction from it is undefined.
   bool LiesBefore(const SurfacePair& pair) const {
-    constexpr double kFacing = 0.7;  // cosine
+    constexpr double kFacing = 0.7;  // Cosine of the largest angle to the normal.
     const Vector3d way = pair.point - pair.on_surface;
     return std::abs(way.dot(pair.normal)) >= kFacing * way.norm() ||
            way.norm() < 0.02 * options_.search_m;
@@ -204,7 +206,7 @@ class Refiner {
     return Status();
   }
 
-  // Moves the model by one step of least squares. How far a point of its surface moved, metres.
+  // Moves the model by one least-squares step. Returns how far its surface moved, metres.
   double Move(double search) {
     Vector3d center = Vector3d::Zero();
     for (const SurfacePair& pair : fit_.pairs) {
@@ -215,7 +217,8 @@ class Refiner {
       reach += (pair.on_surface - center).squaredNorm() / static_cast<double>(fit_.pairs.size());
     }
     reach = std::max(std::sqrt(reach), 1e-9);
-    // Turns and scale as far as they move what is at that reach: all are metres then.
+    // Expresses rotation and scale by the motion of points at distance reach, so that all
+    // components are in metres.
     SurfaceMotion unit = SurfaceMotion::Constant(1.0 / reach);
     unit.segment<3>(3).setOnes();
     Eigen::Matrix<double, 7, 7> squares = Eigen::Matrix<double, 7, 7>::Zero();
@@ -237,7 +240,7 @@ class Refiner {
     return motion.segment<3>(3).norm() + reach * (motion.head<3>().norm() + std::abs(motion[6]));
   }
 
-  // Of squares x = -slope, in the directions that are determined.
+  // Solves squares x = -slope in the directions that are determined.
   SurfaceMotion Solve(const Eigen::Matrix<double, 7, 7>& squares, const SurfaceMotion& slope) {
     const Eigen::Index size = options_.keep_scale ? 6 : 7;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
@@ -284,7 +287,7 @@ class Refiner {
     return report;
   }
 
-  // Share of the surface that has points within the search distance, by points strewn over it.
+  // Share of the surface that has map points within search_m, estimated from sample points.
   double Covered() const {
     const double cell = options_.search_m;
     const auto key = [&](const Vector3d& at, int dx, int dy, int dz) {
@@ -313,13 +316,13 @@ class Refiner {
     return static_cast<double>(count) / static_cast<double>(strewn.size());
   }
 
-  // Points of the surface, as many everywhere; stage metres.
+  // Sample points of the surface, distributed evenly by area; stage metres.
   std::vector<Vector3d> Strew() const {
     constexpr size_t kCount = 2000;
     const auto corner = [&](size_t i) {
       return geometry::ToEigen(mesh_.positions[mesh_.indices[i]]);
     };
-    std::vector<double> areas;  // of all triangles up to each
+    std::vector<double> areas;  // Cumulative (double) areas of the triangles.
     double area = 0.0;
     for (size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
       area += (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i)).norm();
@@ -343,10 +346,10 @@ class Refiner {
   }
 
   const geometry::TriangleMesh& mesh_;
-  vision::OccluderTree tree_;  // in the mesh's coordinates
+  vision::OccluderTree tree_;  // Mesh coordinates.
   Similarity3 start_;
   RefineOptions options_;
-  std::vector<Vector3d> points_;  // of the map that may come near
+  std::vector<Vector3d> points_;  // Map points that may come near the model, stage metres.
   Fit fit_;
 };
 
@@ -372,7 +375,7 @@ Result<Similarity3> AlignByPairs(std::span<const MeshPair> pairs, std::optional<
   LARARIUM_ASSIGN_OR_RETURN(Similarity3 stage_from_mesh,
                             geometry::EstimateSimilarity(on_stage, on_mesh));
   if (scale) {
-    // The rotation that fits best does not depend on the scale.
+    // The best rotation does not depend on the scale.
     stage_from_mesh.scale = *scale;
     stage_from_mesh.translation.setZero();
     Vector3d shift = Vector3d::Zero();
@@ -410,7 +413,7 @@ Status RefineOptions::Validate() const {
     return Status::Error("search distance", "must be more than 0 m");
   }
   if (min_points < 6) {
-    return Status::Error("points", "fewer than six say nothing of how a model lies");
+    return Status::Error("points", "at least six are needed to align a model");
   }
   return Status();
 }

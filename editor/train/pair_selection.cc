@@ -17,9 +17,9 @@ using vision::Features;
 using vision::kDescriptorSize;
 
 constexpr size_t kCenters = 64;
-constexpr size_t kSampleSize = 30'000;  // descriptors that the centers are learnt from
-constexpr int kIterations = 8;
-constexpr size_t kPerImage = 1000;  // strongest features that describe an image
+constexpr size_t kSampleSize = 30'000;  // Descriptors from which the centers are learnt.
+constexpr int kVladIterations = 8;
+constexpr size_t kPerImage = 1000;  // Number of strongest features that describe an image.
 
 std::vector<Descriptor> Gather(const Features& features, size_t count) {
   std::vector<Descriptor> chosen;
@@ -29,14 +29,14 @@ std::vector<Descriptor> Gather(const Features& features, size_t count) {
   return chosen;
 }
 
-// k-means by Lloyd's algorithm from random members.
+// k-means by Lloyd's algorithm, starting from random descriptors.
 std::vector<Descriptor> LearnCenters(std::span<const Descriptor> sample, uint64_t seed) {
   Random random(seed);
   std::vector<Descriptor> centers;
   for (size_t k = 0; k < kCenters; ++k) {
     centers.push_back(sample[random.Below(static_cast<uint32_t>(sample.size()))]);
   }
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < kVladIterations; ++iteration) {
     const std::vector<uint32_t> nearest = NearestCenters(sample, centers);
     std::vector<std::array<uint32_t, kDescriptorSize>> sums(kCenters);
     std::vector<uint32_t> counts(kCenters);
@@ -55,7 +55,7 @@ std::vector<Descriptor> LearnCenters(std::span<const Descriptor> sample, uint64_
   return centers;
 }
 
-// Residuals to the centers, each center's sum and then the whole normalised.
+// VLAD vector: the sum of the residuals to each center is normalised, then the whole vector.
 Eigen::VectorXf Aggregate(std::span<const Descriptor> descriptors,
                           std::span<const Descriptor> centers) {
   const std::vector<uint32_t> nearest = NearestCenters(descriptors, centers);
@@ -100,7 +100,7 @@ std::vector<Eigen::VectorXf> DescribeImages(std::span<const Features> images, ui
   return vectors;
 }
 
-// [i]: the other images, most alike first.
+// [i]: The other images, the most similar to image i first.
 using Rankings = std::vector<std::vector<uint32_t>>;
 
 Rankings RankByAppearance(std::span<const Features> images, uint64_t seed) {
@@ -124,7 +124,7 @@ Rankings RankByAppearance(std::span<const Features> images, uint64_t seed) {
 
 uint32_t Gap(uint32_t i, uint32_t j) { return i > j ? i - j : j - i; }
 
-// Whether images mostly look like the next one: a video, not a heap of photographs.
+// Returns whether most images look like the next one, as in a video, unlike unordered photographs.
 bool Ordered(const Rankings& rankings) {
   size_t alike = 0;
   for (uint32_t i = 0; i + 1 < rankings.size(); ++i) {
@@ -135,8 +135,8 @@ bool Ordered(const Rankings& rankings) {
   return 3 * alike >= 2 * rankings.size();
 }
 
-// The first of the ranking that are further away than beyond, and from each other
-// no less than apart.
+// The first `count` images of the ranking whose index differs from that of image by more than
+// beyond and from each other by at least apart.
 std::vector<uint32_t> ChooseSimilar(uint32_t image,
                                     std::span<const uint32_t> ranking,
                                     uint32_t beyond,

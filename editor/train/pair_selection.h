@@ -1,6 +1,6 @@
 #pragma once
 
-// Which image pairs are worth matching.
+// Selects the image pairs that are worth matching.
 
 #include <cstdint>
 #include <span>
@@ -18,20 +18,19 @@ struct ImagePair {
 };
 
 struct PairOptions {
-  uint32_t exhaustive_up_to = 50;  // images; so few are all matched with one another
-  // Of an ordered source:
-  std::vector<uint32_t> gaps = {1, 2, 4, 7};  // to following images, ascending
-  uint32_t apart = 5;    // images, between any two that are taken as similar to a third
-  uint32_t similar = 5;  // images that look most alike, further away than the gaps
-  // Of an unordered one:
+  uint32_t exhaustive_up_to = 50;  // Up to this many images, all pairs are matched.
+  // The following three apply to a source in which neighbouring images look alike, such as a video.
+  std::vector<uint32_t> gaps = {1, 2, 4, 7};  // Index differences of matched pairs, ascending.
+  uint32_t apart = 5;    // Minimum index difference between two images similar to a third one.
+  uint32_t similar = 5;  // Number of most similar images per image, beyond the largest gap.
+  // Number of most similar images per image of an unordered source.
   uint32_t similar_unordered = 20;
   uint64_t seed = 1;
 };
 
-// Neighbours in the source, where neighbours look alike, and pairs of similar
-// appearance by vectors of locally aggregated descriptors (Jegou et al.,
-// "Aggregating local descriptors into a compact image representation", CVPR
-// 2010). Sorted, without duplicates.
+// Selects neighbours in the source, if neighbours look alike, and pairs of similar appearance by
+// vectors of locally aggregated descriptors (Jegou et al., "Aggregating local descriptors into a
+// compact image representation", CVPR 2010). The result is sorted, without duplicates.
 std::vector<ImagePair> SelectPairs(std::span<const vision::Features> images,
                                    const PairOptions& options);
 

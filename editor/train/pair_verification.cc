@@ -15,7 +15,7 @@ using geometry::CameraModel;
 using vision::Descriptor;
 using vision::Features;
 
-// Features of an image on the plane z = 1.
+// Undistorted positions of an image's features on the plane z = 1.
 std::vector<Eigen::Vector2d> Undistort(const Features& features, const CameraModel& camera) {
   std::vector<Eigen::Vector2d> points;
   points.reserve(features.size());
@@ -64,19 +64,20 @@ std::vector<FeatureMatch> Keep(std::span<const FeatureMatch> matches,
 }
 
 struct TwoViewGeometry {
-  Eigen::Matrix3d fundamental;    // b' F a = 0, for the points that were given
-  std::vector<uint32_t> inliers;  // indices of the points
-  geometry::Rigid3 b_from_a;      // where the points are on the plane z = 1
-  double median_angle = 0.0;      // likewise
+  Eigen::Matrix3d fundamental;    // F with b' F a = 0 in the unit of the points.
+  std::vector<uint32_t> inliers;  // Indices of the points.
+  // The following two are set only if the points are on the plane z = 1.
+  geometry::Rigid3 b_from_a;
+  double median_angle = 0.0;
 };
 using EstimateGeometry = std::function<std::optional<TwoViewGeometry>(const PointPairs&)>;
 
-// Matches pairs of images: the strongest features first. Where these fix the
-// two-view geometry, the others are searched along their epipolar lines only.
+// Matches pairs of images, beginning with the strongest features. If these determine the two-view
+// geometry, the other features are searched along their epipolar lines only.
 class PairMatcher {
  public:
-  // points: of the images' features, as estimate takes them. band: of the search
-  // about the epipolar lines, in the same unit.
+  // points[i] are the positions of image i's features, in the unit that estimate expects. band is
+  // the half width of the search along epipolar lines, in the same unit.
   PairMatcher(std::span<const Features> images,
               std::span<const std::vector<Eigen::Vector2d>> points,
               double band,
@@ -95,7 +96,7 @@ class PairMatcher {
     });
   }
 
-  // Matches that one two-view geometry explains, and it; nullopt where there are too few.
+  // Matches and the two-view geometry that explains them.
   struct Found {
     std::vector<FeatureMatch> matches;
     TwoViewGeometry geometry;
@@ -121,13 +122,13 @@ class PairMatcher {
 
  private:
   static constexpr size_t kPreviewFeatures = 700;
-  // What most pairs without overlap are told by, at a fraction of the work.
+  // Pairs with fewer matches of the preview features do not overlap. This test is cheap.
   static constexpr size_t kPreviewMatches = 10;
-  static constexpr size_t kFirmMatches = 40;  // fix a two-view geometry
+  static constexpr size_t kFirmMatches = 40;  // Enough to determine a two-view geometry.
 
   struct PreviewFeatures {
     std::vector<uint32_t> features;
-    std::vector<Descriptor> descriptors;  // of these
+    std::vector<Descriptor> descriptors;  // Parallel to features.
   };
 
   static PreviewFeatures ChoosePreview(const Features& features) {
@@ -182,7 +183,7 @@ class PairMatcher {
   std::vector<std::optional<FeatureGrid>> grids_;  // [image]
 };
 
-// Calls visit(i) for each candidate on all cores.
+// Calls visit(i) for each of count candidates on all cores, until cancelled.
 void ForCandidates(size_t count, Progress& progress, const std::function<void(size_t)>& visit) {
   constexpr size_t kBatch = 32;
   for (size_t begin = 0; begin < count && !progress.Cancelled(); begin += kBatch) {
@@ -284,7 +285,7 @@ VerifiedPairs VerifyPairsUncalibrated(std::span<const Features> images,
     if (!found[i]) {
       return;
     }
-    // Wide enough for what a wrong focal length and distortion do to true matches.
+    // The threshold allows for the effect of a wrong focal length and distortion on true matches.
     const std::optional<RelativePose> pose =
         EstimateRelativePose(PairUp(plane_points, found[i]->images, found[i]->matches),
                              2.0 * options.threshold_px / camera.Focal());

@@ -1,6 +1,6 @@
 #pragma once
 
-// Matches image pairs and keeps those with one two-view geometry.
+// Matches image pairs and keeps those whose matches agree with one two-view geometry.
 
 #include <optional>
 #include <span>
@@ -16,29 +16,28 @@ namespace lararium::train {
 
 struct VerificationOptions {
   float ratio = 0.8f;
-  double threshold_px = 2.0;  // of the epipolar distance
-  double band_px = 4.0;       // of the search along epipolar lines that few matches gave
+  double threshold_px = 2.0;  // Largest epipolar distance of an inlier.
+  double band_px = 4.0;       // Half width of the guided search along epipolar lines.
   size_t min_matches = 20;
-  // Pairs further apart in the source than this are tried on their strongest
-  // features first.
+  // Pairs with a larger index difference are first tried with their strongest features only.
   uint32_t trusted_gap = 8;
 };
 
 struct VerifiedPairs {
-  std::vector<VerifiedPair> pairs;  // in the order of the candidates
+  std::vector<VerifiedPair> pairs;  // Ordered as the candidates.
   geometry::CameraModel camera;
 };
 
-// camera: the known intrinsics.
+// Verifies pairs with known intrinsics.
 std::vector<VerifiedPair> VerifyPairs(std::span<const vision::Features> images,
                                       std::span<const ImagePair> candidates,
                                       const geometry::CameraModel& camera,
                                       const VerificationOptions& options,
                                       Progress& progress);
 
-// Without intrinsics: fundamental matrices decide about the matches. The focal
-// length is the prior, else what the matrices agree on, else 1.2 times the longer
-// side; poses come from there.
+// Verifies pairs without intrinsics, by fundamental matrices. The focal length is the prior if
+// given, otherwise the one that the matrices agree on, otherwise 1.2 times the longer side. The
+// poses are computed with it.
 VerifiedPairs VerifyPairsUncalibrated(std::span<const vision::Features> images,
                                       std::span<const ImagePair> candidates,
                                       int width,

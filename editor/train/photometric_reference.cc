@@ -11,27 +11,29 @@ namespace lararium::train {
 namespace {
 
 constexpr int kIterations = 12;
-// Of the loss: a sight at so many robust deviations counts half.
+// Scale of the loss: an observation with a residual of this many robust deviations gets half
+// weight.
 constexpr double kLossDeviations = 2.0;
-constexpr double kLeastDeviation = 0.01;  // quantisation alone gives so much
-// Sum of a point's trusted weights from which its colour is worth keeping.
+constexpr double kLeastDeviation = 0.01;  // Deviation by quantisation alone.
+// Minimum sum of a point's weights for a usable colour.
 constexpr double kLeastWeight = 0.3;
-// Pulls gains that nothing else holds towards 1, in units of one sight's weight.
+// Weight of the prior that pulls undetermined gains towards 1, in units of one observation's
+// weight.
 constexpr double kPriorWeight = 1e-3;
 
-// One channel of one sight.
-struct Sight {
+// One channel of one observation.
+struct LogObservation {
   uint32_t point;
   uint32_t keyframe;
-  double log;     // of its linear value
-  double weight;  // as sampled
-  double robust;  // weight times the loss's, of this iteration
+  double log;     // Logarithm of the linear value.
+  double weight;  // Weight of the sample; see LinearColour.
+  double robust;  // `weight` times the weight by the loss in this iteration.
 };
 
-// One channel's least squares.
+// Solves the least squares of one channel.
 class ChannelSolver {
  public:
-  ChannelSolver(std::span<const ColourSight> sights,
+  ChannelSolver(std::span<const ColourObservation> observations,
                 size_t keyframe_count,
                 std::span<const Eigen::Vector3f> known,
                 int channel)
@@ -45,20 +47,21 @@ class ChannelSolver {
         any_known_ = true;
       }
     }
-    for (const ColourSight& sight : sights) {
-      const double weight = sight.colour.weight[channel];
+    for (const ColourObservation& observation : observations) {
+      const double weight = observation.colour.weight[channel];
       if (weight > 0.0) {
-        sights_.push_back({sight.point, sight.keyframe,
-                           std::log(static_cast<double>(sight.colour.rgb[channel])), weight,
-                           weight});
+        observations_.push_back({observation.point, observation.keyframe,
+                                 std::log(static_cast<double>(observation.colour.rgb[channel])),
+                                 weight, weight});
       }
     }
-    std::stable_sort(sights_.begin(), sights_.end(),
-                     [](const Sight& a, const Sight& b) { return a.point < b.point; });
+    std::stable_sort(
+        observations_.begin(), observations_.end(),
+        [](const LogObservation& a, const LogObservation& b) { return a.point < b.point; });
   }
 
   void Solve() {
-    for (int i = 0; i < kIterations && !sights_.empty(); ++i) {
+    for (int i = 0; i < kIterations && !observations_.empty(); ++i) {
       SolveGains();
       SolveColours();
       Reweigh();
@@ -72,13 +75,13 @@ class ChannelSolver {
     return std::exp(log_gains_[static_cast<Eigen::Index>(keyframe)]);
   }
 
-  // [points], negative where no sight tells.
+  // [points]: The colours; negative if the observations do not determine one.
   std::vector<float> Colours() const {
     std::vector<float> colours(log_colours_.size(), -1.0f);
-    ForEachPoint([&](size_t point, std::span<const Sight> sights) {
+    ForEachPoint([&](size_t point, std::span<const LogObservation> observations) {
       double weight = 0.0;
-      for (const Sight& sight : sights) {
-        weight += sight.robust;
+      for (const LogObservation& observation : observations) {
+        weight += observation.robust;
       }
       if (weight >= kLeastWeight) {
         colours[point] = static_cast<float>(std::exp(log_colours_[point]));
@@ -90,22 +93,22 @@ class ChannelSolver {
  private:
   template <typename Visit>
   void ForEachPoint(Visit visit) const {
-    for (size_t begin = 0; begin < sights_.size();) {
+    for (size_t begin = 0; begin < observations_.size();) {
       size_t end = begin;
-      while (end < sights_.size() && sights_[end].point == sights_[begin].point) {
+      while (end < observations_.size() && observations_[end].point == observations_[begin].point) {
         ++end;
       }
-      visit(sights_[begin].point, std::span(sights_).subspan(begin, end - begin));
+      visit(observations_[begin].point, std::span(observations_).subspan(begin, end - begin));
       begin = end;
     }
   }
 
-  static double MeanLog(std::span<const Sight> sights) {
+  static double MeanLog(std::span<const LogObservation> observations) {
     double sum = 0.0;
     double weight = 0.0;
-    for (const Sight& sight : sights) {
-      sum += sight.robust * sight.log;
-      weight += sight.robust;
+    for (const LogObservation& observation : observations) {
+      sum += observation.robust * observation.log;
+      weight += observation.robust;
     }
     return sum / weight;
   }
@@ -114,19 +117,19 @@ class ChannelSolver {
     const Eigen::Index count = log_gains_.size();
     Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(count, count) * kPriorWeight;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-    ForEachPoint([&](size_t point, std::span<const Sight> sights) {
-      const double mean = known_[point] ? log_colours_[point] : MeanLog(sights);
+    ForEachPoint([&](size_t point, std::span<const LogObservation> observations) {
+      const double mean = known_[point] ? log_colours_[point] : MeanLog(observations);
       double total = 0.0;
-      for (const Sight& sight : sights) {
-        normal(sight.keyframe, sight.keyframe) += sight.robust;
-        right[sight.keyframe] += sight.robust * (sight.log - mean);
-        total += sight.robust;
+      for (const LogObservation& observation : observations) {
+        normal(observation.keyframe, observation.keyframe) += observation.robust;
+        right[observation.keyframe] += observation.robust * (observation.log - mean);
+        total += observation.robust;
       }
       if (known_[point]) {
         return;
       }
-      for (const Sight& a : sights) {
-        for (const Sight& b : sights) {
+      for (const LogObservation& a : observations) {
+        for (const LogObservation& b : observations) {
           normal(a.keyframe, b.keyframe) -= a.robust * b.robust / total;
         }
       }
@@ -135,44 +138,45 @@ class ChannelSolver {
   }
 
   void SolveColours() {
-    ForEachPoint([&](size_t point, std::span<const Sight> sights) {
+    ForEachPoint([&](size_t point, std::span<const LogObservation> observations) {
       if (known_[point]) {
         return;
       }
       double sum = 0.0;
       double weight = 0.0;
-      for (const Sight& sight : sights) {
-        sum += sight.robust * (sight.log - log_gains_[sight.keyframe]);
-        weight += sight.robust;
+      for (const LogObservation& observation : observations) {
+        sum += observation.robust * (observation.log - log_gains_[observation.keyframe]);
+        weight += observation.robust;
       }
       log_colours_[point] = sum / weight;
     });
   }
 
-  double Residual(const Sight& sight) const {
-    return sight.log - log_gains_[sight.keyframe] - log_colours_[sight.point];
+  double Residual(const LogObservation& observation) const {
+    return observation.log - log_gains_[observation.keyframe] - log_colours_[observation.point];
   }
 
   void Reweigh() {
     std::vector<double> sizes;
-    sizes.reserve(sights_.size());
-    for (const Sight& sight : sights_) {
-      sizes.push_back(std::abs(Residual(sight)));
+    sizes.reserve(observations_.size());
+    for (const LogObservation& observation : observations_) {
+      sizes.push_back(std::abs(Residual(observation)));
     }
     const auto middle = sizes.begin() + static_cast<ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    constexpr double kDeviationOfMedian = 1.4826;  // of normally distributed residuals
+    // Standard deviation over median absolute residual of a normal distribution.
+    constexpr double kDeviationOfMedian = 1.4826;
     const double scale = kLossDeviations * std::max(kDeviationOfMedian * *middle, kLeastDeviation);
-    for (Sight& sight : sights_) {
-      const double r = Residual(sight) / scale;
-      sight.robust = sight.weight / (1.0 + r * r);
+    for (LogObservation& observation : observations_) {
+      const double r = Residual(observation) / scale;
+      observation.robust = observation.weight / (1.0 + r * r);
     }
   }
 
   void FixGauge() {
     std::vector<bool> seen(static_cast<size_t>(log_gains_.size()), false);
-    for (const Sight& sight : sights_) {
-      seen[sight.keyframe] = true;
+    for (const LogObservation& observation : observations_) {
+      seen[observation.keyframe] = true;
     }
     std::vector<double> logs;
     for (size_t keyframe = 0; keyframe < seen.size(); ++keyframe) {
@@ -196,15 +200,15 @@ class ChannelSolver {
     }
   }
 
-  std::vector<Sight> sights_;  // sorted by point
+  std::vector<LogObservation> observations_;  // Sorted by point.
   Eigen::VectorXd log_gains_;
   std::vector<double> log_colours_;
-  std::vector<bool> known_;  // [points]
+  std::vector<bool> known_;  // [points]: Whether the colour is fixed.
   bool any_known_ = false;
 };
 
-std::vector<ColourSight> SampleSights(const vision::SceneDatabase& database,
-                                      std::span<const cv::Mat> bgr) {
+std::vector<ColourObservation> SampleObservations(const vision::SceneDatabase& database,
+                                                  std::span<const cv::Mat> bgr) {
   const std::vector<vision::Observation>& observations = database.observations;
   std::vector<std::optional<vision::LinearColour>> samples(observations.size());
   ParallelFor(bgr.size(), [&](size_t keyframe) {
@@ -219,28 +223,28 @@ std::vector<ColourSight> SampleSights(const vision::SceneDatabase& database,
           vision::SampleLinear(bgr[keyframe], o->x, o->y);
     }
   });
-  std::vector<ColourSight> sights;
+  std::vector<ColourObservation> coloured;
   for (size_t i = 0; i < samples.size(); ++i) {
     if (samples[i]) {
-      sights.push_back({observations[i].point, observations[i].keyframe, *samples[i]});
+      coloured.push_back({observations[i].point, observations[i].keyframe, *samples[i]});
     }
   }
-  return sights;
+  return coloured;
 }
 
 }  // namespace
 
-PhotometricReference SolvePhotometry(std::span<const ColourSight> sights,
+PhotometricReference SolvePhotometry(std::span<const ColourObservation> observations,
                                      size_t keyframe_count,
                                      std::span<const Eigen::Vector3f> known) {
-  for (const ColourSight& sight : sights) {
-    CHECK(sight.point < known.size() && sight.keyframe < keyframe_count);
+  for (const ColourObservation& observation : observations) {
+    CHECK(observation.point < known.size() && observation.keyframe < keyframe_count);
   }
   PhotometricReference reference;
   reference.colours.assign(known.begin(), known.end());
   reference.gains.resize(keyframe_count);
   ParallelFor(3, [&](size_t channel) {
-    ChannelSolver solver(sights, keyframe_count, known, static_cast<int>(channel));
+    ChannelSolver solver(observations, keyframe_count, known, static_cast<int>(channel));
     solver.Solve();
     const std::vector<float> colours = solver.Colours();
     for (size_t point = 0; point < known.size(); ++point) {
@@ -256,13 +260,13 @@ PhotometricReference SolvePhotometry(std::span<const ColourSight> sights,
 
 void FillPhotometry(vision::SceneDatabase& database, std::span<const cv::Mat> bgr) {
   CHECK(bgr.size() == database.keyframes.size());
-  const std::vector<ColourSight> sights = SampleSights(database, bgr);
-  if (sights.empty()) {
+  const std::vector<ColourObservation> observations = SampleObservations(database, bgr);
+  if (observations.empty()) {
     return;
   }
   std::vector<Eigen::Vector3f> known = database.colours;
   known.resize(database.points.size(), Eigen::Vector3f::Constant(-1.0f));
-  PhotometricReference reference = SolvePhotometry(sights, database.keyframes.size(), known);
+  PhotometricReference reference = SolvePhotometry(observations, database.keyframes.size(), known);
   database.colours = std::move(reference.colours);
   for (size_t k = 0; k < bgr.size(); ++k) {
     if (!bgr[k].empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// The photometric reference of a map: what its points look like, apart from the
-// gains (exposure and white balance) of the images that showed them.
+// The photometric reference of a map: the colours of its points, independent of the gains (exposure
+// and white balance) of the training images.
 
 #include <Eigen/Core>
 #include <array>
@@ -15,32 +15,33 @@
 
 namespace lararium::train {
 
-// What an image shows of a point.
-struct ColourSight {
+// The colour of a point in one image.
+struct ColourObservation {
   uint32_t point = 0;
   uint32_t keyframe = 0;
   vision::LinearColour colour;
 };
 
 struct PhotometricReference {
-  std::vector<Eigen::Vector3f> colours;     // [points], as SceneDatabase::colours
-  std::vector<std::array<float, 3>> gains;  // [keyframes], as Keyframe::gain
+  std::vector<Eigen::Vector3f> colours;     // [points]: See SceneDatabase::colours.
+  std::vector<std::array<float, 3>> gains;  // [keyframes]: See Keyframe::gain.
 };
 
-// The gains and colours with colour * gain = sight, channel by channel: weighted
-// least squares of logarithms under Cauchy's loss, whose width follows the noise.
-// Colours are eliminated from the normal equations (Schur complement), so that
-// gains agree across long chains of images.
-// known: [points] colours that hold still, a channel negative where it is not
-// known. Without any, the median of the logarithms of the gains is 0. Keyframes
-// that nothing ties to others get gain 1.
-PhotometricReference SolvePhotometry(std::span<const ColourSight> sights,
+// Solves colour * gain = observation for gains and colours, channel by channel: weighted least
+// squares of the logarithms with Cauchy's loss, whose width follows the noise. Colours are
+// eliminated from the normal equations (Schur complement), so that gains agree across long chains
+// of images.
+//
+// known: [points] Colours that stay fixed; a channel is negative if it is unknown. Without any
+// known colour, the gains are scaled so that the median of their logarithms is 0. Keyframes that
+// share no points with others get gain 1.
+PhotometricReference SolvePhotometry(std::span<const ColourObservation> observations,
                                      size_t keyframe_count,
                                      std::span<const Eigen::Vector3f> known);
 
-// Solves for database.colours, and for the gains of the keyframes whose image is
-// at hand: bgr[k] is keyframe k, CV_8UC3 of the camera's size, or empty. Colours
-// that the database has already hold still, and with them the reference.
+// Fills in database.colours, and the gains of the keyframes whose colour image is given: bgr[k] is
+// that of keyframe k, CV_8UC3 of the camera's size, or empty. Colours that the database already has
+// stay fixed, so the reference does not change.
 void FillPhotometry(vision::SceneDatabase& database, std::span<const cv::Mat> bgr);
 
 }  // namespace lararium::train

@@ -92,7 +92,7 @@ bool Reconstruction::WideEnough(std::span<const uint32_t> elements,
                                 double min_angle) const {
   for (size_t i = 0; i < elements.size(); ++i) {
     const Eigen::Vector3d center = camera_from_map(ImageOf(elements[i])).Center();
-    // From the far end: neighbours in the source make the narrowest angles.
+    // Begins at the far end, because neighbours in the source have the narrowest angles.
     for (size_t j = elements.size() - 1; j > i; --j) {
       if (geometry::TriangulationAngle(center, camera_from_map(ImageOf(elements[j])).Center(),
                                        point) >= min_angle) {
@@ -130,7 +130,7 @@ std::vector<uint32_t> Reconstruction::BestConsensus(std::span<const uint32_t> el
   constexpr size_t kMaxHypotheses = 30;
   std::vector<uint32_t> best;
   size_t hypotheses = 0;
-  // Pairs far apart in the source first: their rays meet at wider angles.
+  // Tries pairs that are far apart in the source first, because their rays meet at wider angles.
   for (size_t gap = elements.size() - 1; gap > 0 && hypotheses < kMaxHypotheses; --gap) {
     for (size_t i = 0; i + gap < elements.size() && hypotheses < kMaxHypotheses; ++i) {
       ++hypotheses;
@@ -238,7 +238,7 @@ void Reconstruction::Transform(const geometry::Similarity3& new_from_map) {
   const geometry::Similarity3 map_from_new = new_from_map.Inverse();
   for (auto& pose : camera_from_map_) {
     if (pose) {
-      // Rigid in the new unit.
+      // Scales the translation, so that the pose stays rigid in the new unit.
       pose = geometry::CameraFromB(*pose, map_from_new);
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-// The state of structure from motion: tracks, and what is known of their points
-// and of the images' poses.
+// The state of structure from motion: tracks, the points that are triangulated from them, and the
+// poses of the images.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -17,12 +17,12 @@ namespace lararium::train {
 
 struct TriangulationOptions {
   double max_error_px = 4.0;
-  double min_angle = 0.026;  // radians (1.5 degrees), the widest between two rays of a point
+  double min_angle = 0.026;  // Minimum of a point's widest angle, radians (1.5 degrees).
 };
 
 class Reconstruction {
  public:
-  // pixels[image][feature]: raw. tracks must index them.
+  // pixels[image][feature] are raw pixels. The elements of tracks are indices into them.
   Reconstruction(const geometry::CameraModel& camera,
                  std::vector<std::vector<Eigen::Vector2d>> pixels,
                  Tracks tracks);
@@ -36,10 +36,10 @@ class Reconstruction {
   void Locate(uint32_t image, const geometry::Rigid3& camera_from_map) {
     camera_from_map_[image] = camera_from_map;
   }
-  // Images with a pose, in order of index.
+  // Indices of the images with a pose, ascending.
   std::vector<uint32_t> LocatedImages() const;
 
-  // Track elements have ids, their positions in Tracks::elements.
+  // A track element is identified by its index in Tracks::elements.
   const Tracks& tracks() const { return tracks_; }
   std::span<const uint32_t> ElementsOf(uint32_t image) const { return image_elements_[image]; }
   uint32_t TrackOf(uint32_t element) const { return element_track_[element]; }
@@ -47,38 +47,38 @@ class Reconstruction {
   const Eigen::Vector2d& Pixel(uint32_t element) const {
     return pixels_[tracks_.elements[element].image][tracks_.elements[element].feature];
   }
-  // On the plane z = 1, undistorted.
+  // Undistorted position on the plane z = 1.
   const Eigen::Vector2d& PlanePoint(uint32_t element) const { return plane_points_[element]; }
 
   bool HasPoint(uint32_t track) const { return points_[track].has_value(); }
   const Eigen::Vector3d& Point(uint32_t track) const { return *points_[track]; }
   void MovePoint(uint32_t track, const Eigen::Vector3d& point) { points_[track] = point; }
-  // Whether the element is a sight of its track's point, not an outlier.
+  // Returns whether the element is an observation of its track's point and not an outlier.
   bool Observed(uint32_t element) const { return observed_[element] != 0; }
   std::vector<uint32_t> Observations(uint32_t track) const;
   size_t ObservationCount(uint32_t track) const;
   size_t PointCount() const;
 
-  // Squared distance in raw pixels from the point's projection; infinite behind the camera.
+  // Squared reprojection error in raw pixels; infinite behind the camera.
   double SquaredErrorPx(uint32_t element, const Eigen::Vector3d& point) const;
 
-  // Finds the point of a track that has none, by consensus of the located images.
+  // Triangulates the point of a track that has none, by consensus of the located images.
   bool Triangulate(uint32_t track, const TriangulationOptions& options);
-  // Moves the point to where the rays of its observations meet, or drops it.
+  // Triangulates the point again from its observations, or drops it if that fails.
   void Reintersect(uint32_t track);
-  // Makes every element in a located image that fits the point an observation.
+  // Turns every element in a located image that fits the point into an observation.
   void Complete(uint32_t track, double max_error_px);
-  // Drops observations of larger error, then the point if fewer than two are
-  // left or their rays are too parallel. Returns how many were dropped.
+  // Drops observations with too large an error, then the point if fewer than two observations are
+  // left or their rays are too parallel. Returns the number of dropped observations.
   size_t Filter(uint32_t track, const TriangulationOptions& options);
 
-  // Drops the point of a track most of whose sights do not fit it: what some of
-  // them agree on is chance, the thing moved against the scene.
+  // Drops the point of a track if most of the track's elements do not fit it. Such an object moved
+  // in the scene, and the elements that fit agree by chance.
   void DropIfMoving(uint32_t track);
 
-  // Forgets an image's pose and its observations.
+  // Removes an image's pose and observations.
   void Unlocate(uint32_t image);
-  // The map in other axes and another unit.
+  // Changes the axes and the unit of the map.
   void Transform(const geometry::Similarity3& new_from_map);
 
  private:

@@ -16,8 +16,8 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-// Squared distances on the plane z = 1, each cut at the threshold (MSAC: Torr &
-// Zisserman, "MLESAC", CVIU 2000). Gives up beyond limit.
+// Sum of the squared distances on the plane z = 1, each truncated at the threshold (MSAC: Torr &
+// Zisserman, "MLESAC", CVIU 2000). Stops early once the sum exceeds limit.
 double RobustCost(std::span<const Eigen::Vector2d> plane_points,
                   std::span<const Eigen::Vector3d> points,
                   const Rigid3& camera_from_map,
@@ -52,7 +52,7 @@ std::optional<Rigid3> EstimateByRansac(const CameraModel& camera,
   for (int i = 0; i < needed && i < options.max_iterations; ++i) {
     std::array<Eigen::Vector3d, 3> rays;
     std::array<Eigen::Vector3d, 3> sample;
-    for (size_t k = 0; k < 3; ++k) {  // a point drawn twice has no solution
+    for (size_t k = 0; k < 3; ++k) {  // A sample with a repeated point has no solution.
       const uint32_t index = random.Below(static_cast<uint32_t>(points.size()));
       rays[k] = plane_points[index].homogeneous().normalized();
       sample[k] = points[index];
@@ -63,7 +63,7 @@ std::optional<Rigid3> EstimateByRansac(const CameraModel& camera,
       if (cost < best_cost) {
         best_cost = cost;
         best = pose;
-        // The share of inliers is no less than what the cost has left.
+        // The cost gives a lower bound for the share of inliers.
         const double share = std::max(1.0 - cost / all_outliers, 1e-3);
         constexpr double kLogOfFailure = -9.2;  // ln 0.0001
         needed = kLogOfFailure / std::log1p(-std::min(share * share * share, 0.999));
@@ -99,7 +99,7 @@ std::optional<Resection> LocateImage(const CameraModel& camera,
     return std::nullopt;
   }
   std::optional<Rigid3> pose = EstimateByRansac(camera, pixels, points, options);
-  constexpr int kRefinements = 2;  // the second with the inliers that the first brought in
+  constexpr int kRefinements = 2;  // The second one uses the inliers of the first result.
   for (int i = 0; i < kRefinements && pose; ++i) {
     std::vector<Eigen::Vector2d> inlier_pixels;
     std::vector<Eigen::Vector3d> inlier_points;

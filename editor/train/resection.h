@@ -1,6 +1,6 @@
 #pragma once
 
-// The pose of one image from points of the map.
+// Estimates the pose of one image from matches with map points.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace lararium::train {
 
 struct Resection {
   geometry::Rigid3 camera_from_map;
-  std::vector<uint32_t> inliers;  // indices of correspondences
+  std::vector<uint32_t> inliers;  // Indices of correspondences.
 };
 
 struct ResectionOptions {
@@ -26,8 +26,8 @@ struct ResectionOptions {
   uint64_t seed = 1;
 };
 
-// Three-point poses within RANSAC, then robust least squares on the inliers. nullopt when too few
-// correspondences agree.
+// RANSAC with P3P, then robust least squares on the inliers. pixels[i] shows points[i]. nullopt if
+// too few correspondences agree.
 std::optional<Resection> LocateImage(const geometry::CameraModel& camera,
                                      std::span<const Eigen::Vector2d> pixels,
                                      std::span<const Eigen::Vector3d> points,

@@ -12,12 +12,12 @@ namespace {
 
 using geometry::CameraModel;
 using geometry::Rigid3;
-using PoseManifold =
+using SessionPoseManifold =
     ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 
-class SightCost : public ceres::SizedCostFunction<2, 7, 3> {
+class ObservationCost : public ceres::SizedCostFunction<2, 7, 3> {
  public:
-  SightCost(const CameraModel& camera, const vision::Observation& observation)
+  ObservationCost(const CameraModel& camera, const vision::Observation& observation)
       : camera_(camera),
         intrinsics_(ToIntrinsicsBlock(camera)),
         pixel_(observation.x, observation.y) {}
@@ -36,7 +36,7 @@ class SightCost : public ceres::SizedCostFunction<2, 7, 3> {
   Eigen::Vector2d pixel_;
 };
 
-// Points that a free pose observes.
+// [points]: Whether a free pose observes the point.
 std::vector<bool> FreePoints(std::span<const vision::Observation> observations,
                              size_t first_free,
                              size_t count) {
@@ -59,7 +59,7 @@ ceres::Problem::Options BorrowingOptions() {
 ceres::Solver::Options SolverOptions(size_t free_poses) {
   ceres::Solver::Options options;
   options.max_num_iterations = 20;
-  options.num_threads = 1;  // several do not give the same bits twice
+  options.num_threads = 1;  // Several threads would not give reproducible bits.
   options.logging_type = ceres::SILENT;
   constexpr size_t kMaxDensePoses = 250;
   options.linear_solver_type = free_poses == 0                ? ceres::SPARSE_NORMAL_CHOLESKY
@@ -68,7 +68,7 @@ ceres::Solver::Options SolverOptions(size_t free_poses) {
   return options;
 }
 
-// Moves what is free: poses from first_free on, and points.
+// Adjusts the poses from first_free on and the points in free_points.
 bool Solve(const CameraModel& camera,
            std::span<const vision::Observation> observations,
            const std::vector<bool>& free_points,
@@ -77,7 +77,7 @@ bool Solve(const CameraModel& camera,
            std::span<Eigen::Vector3d> points) {
   constexpr double kLossScalePx = 1.5;
   ceres::CauchyLoss loss(kLossScalePx);
-  PoseManifold manifold;
+  SessionPoseManifold manifold;
   std::vector<PoseBlock> poses;
   for (const Rigid3& pose : camera_from_map) {
     poses.push_back(ToPoseBlock(pose));
@@ -88,7 +88,7 @@ bool Solve(const CameraModel& camera,
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (const vision::Observation& o : observations) {
     if (free_points[o.point]) {
-      problem.AddResidualBlock(new SightCost(camera, o), &loss, poses[o.keyframe].data(),
+      problem.AddResidualBlock(new ObservationCost(camera, o), &loss, poses[o.keyframe].data(),
                                moved[o.point].data());
     }
   }
@@ -112,7 +112,7 @@ bool Solve(const CameraModel& camera,
     }
   }
   ceres::Solver::Options options = SolverOptions(free_poses);
-  if (free_poses > 0) {  // else there is nothing to eliminate the points from
+  if (free_poses > 0) {  // Only then points are eliminated first.
     options.linear_solver_ordering = ordering;
   }
   ceres::Solver::Summary summary;

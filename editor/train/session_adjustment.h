@@ -1,6 +1,6 @@
 #pragma once
 
-// Bundle adjustment of a new session beside an old one that holds still.
+// Bundle adjustment of a new session against an existing map that stays fixed.
 
 #include <Eigen/Core>
 #include <span>
@@ -12,20 +12,18 @@
 
 namespace lararium::train {
 
-// Moves the poses from first_free on and the points that they observe to where
-// the reprojection errors of all observations of these points are least, under
-// Cauchy's loss. Poses before first_free, and with them the map's frame and
-// unit, hold still. observations index poses and points. One thread: the same
-// input gives the same bits. False when no solution was found; nothing has
-// changed then.
+// Adjusts the poses from index first_free on, and the points that they observe: minimises Cauchy's
+// loss of the reprojection errors over all observations of these points. Earlier poses, and with
+// them the map's frame and unit, stay fixed. observations index camera_from_map and points. Runs in
+// one thread, so that the same input gives the same bits. Returns false and changes nothing if no
+// solution was found.
 bool AdjustSession(const geometry::CameraModel& camera,
                    std::span<const vision::Observation> observations,
                    size_t first_free,
                    std::span<geometry::Rigid3> camera_from_map,
                    std::span<Eigen::Vector3d> points);
 
-// Moves the points of which moves is true to where the reprojection errors of their observations
-// are least, likewise; all poses hold still.
+// Adjusts only the points i with moves[i], by the same loss; all poses stay fixed.
 bool AdjustPoints(const geometry::CameraModel& camera,
                   std::span<const vision::Observation> observations,
                   std::span<const geometry::Rigid3> camera_from_map,

@@ -30,18 +30,19 @@ using vision::Features;
 using vision::Observation;
 using vision::SceneDatabase;
 
-constexpr std::string_view kPlace = "adding a session";
-constexpr uint32_t kNone = 0xffffffff;
-constexpr size_t kLeastLocated = 3;         // keyframes that agree
-constexpr double kAgreeingAngle = 0.035;    // radians, between keyframes' ideas of the rotation
-constexpr double kAgreeingDistance = 0.03;  // of the median depth, likewise of the place
-constexpr double kPointDistance = 0.02;     // of the median depth, of two positions of one point
-constexpr double kFirstRadiusPx = 6.0;      // of guided matching, before the joint adjustment
-constexpr double kLaterRadiusPx = 3.0;      // and after
-constexpr double kLargestErrorPx = 2.5;     // of a sight that is kept
+constexpr std::string_view kSessionPlace = "adding a session";
+constexpr uint32_t kNoPoint = 0xffffffff;
+constexpr size_t kLeastLocated = 3;       // Minimum number of agreeing keyframes.
+constexpr double kAgreeingAngle = 0.035;  // Largest difference of rotations, radians.
+// Largest distances as shares of the median depth: between positions of a camera and of a point.
+constexpr double kAgreeingDistance = 0.03;
+constexpr double kPointDistance = 0.02;
+constexpr double kFirstRadiusPx = 6.0;        // Guided matching before the joint adjustment.
+constexpr double kLaterRadiusPx = 3.0;        // Guided matching after the joint adjustment.
+constexpr double kLargestMergeErrorPx = 2.5;  // Largest error of a kept observation.
 
 Status NotFound(size_t located, size_t keyframes) {
-  return Status::Error(kPlace,
+  return Status::Error(kSessionPlace,
                        std::to_string(located) + " of " + std::to_string(keyframes) +
                            " images of the new video were found in the map",
                        "film the place from where it was filmed before, so that most of each view "
@@ -54,12 +55,12 @@ Eigen::Vector2d PixelIn(const CameraModel& to, const CameraModel& from, float x,
   return to.PixelFromPlane(from.PlaneFromPixel({x, y}));
 }
 
-// The image that to would have taken in place of from.
+// Resamples an image of camera `from` to that which camera `to` would have taken.
 cv::Mat Resampled(cv::Mat image, CameraModel from, const CameraModel& to) {
   if (image.empty() || from == to) {
     return image;
   }
-  if (from.Focal() > 1.5 * to.Focal()) {  // averages, so that nothing aliases
+  if (from.Focal() > 1.5 * to.Focal()) {  // Averages first, against aliasing.
     from = from.Resized(
         std::max(1, static_cast<int>(std::lround(from.width * to.Focal() / from.Focal()))),
         std::max(1, static_cast<int>(std::lround(from.height * to.Focal() / from.Focal()))));
@@ -112,13 +113,14 @@ double AngleBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return a.angularDistance(b);
 }
 
-// A keyframe of the session that the map knows by sight.
+// A keyframe of the session that was located in the map.
 struct LocatedKeyframe {
-  uint32_t keyframe = 0;  // of the session
+  uint32_t keyframe = 0;  // Index among the session's keyframes.
   Rigid3 camera_from_session;
   Rigid3 camera_from_map;
 
-  Eigen::Quaterniond Rotation() const {  // map_from_session
+  // The rotation map_from_session according to this keyframe.
+  Eigen::Quaterniond Rotation() const {
     return camera_from_map.rotation.conjugate() * camera_from_session.rotation;
   }
 };
@@ -157,7 +159,7 @@ std::vector<LocatedKeyframe> Agreeing(std::span<const LocatedKeyframe> located,
   return agreeing;
 }
 
-// The most keyframes that one similarity explains (RANSAC over pairs of them).
+// The largest set of keyframes that one similarity explains, by RANSAC over pairs of keyframes.
 std::vector<LocatedKeyframe> LargestAgreement(std::span<const LocatedKeyframe> located,
                                               double depth,
                                               uint64_t seed) {
@@ -180,7 +182,7 @@ std::vector<LocatedKeyframe> LargestAgreement(std::span<const LocatedKeyframe> l
   return best;
 }
 
-// Places of one thing in both maps.
+// The positions of one point in both maps.
 struct PointPair {
   Eigen::Vector3d in_map;
   Eigen::Vector3d in_session;
@@ -197,7 +199,7 @@ std::optional<Similarity3> FitSimilarity(std::span<const PointPair> pairs) {
   return fitted.ok() ? std::optional(*fitted) : std::nullopt;
 }
 
-// By consensus over triples, then over all that agree.
+// Estimates a similarity by RANSAC with samples of three pairs, then from all pairs that agree.
 std::optional<Similarity3> RobustSimilarity(std::span<const PointPair> pairs,
                                             double tolerance,
                                             uint64_t seed) {
@@ -263,14 +265,14 @@ class Merger {
     for (const Features& of_keyframe : features) {
       features_.push_back(FeaturesIn(map.camera, session.camera, of_keyframe));
     }
-    sights_ = ObservationsIn(map.camera, session.camera, session.observations);
-    sight_begin_.push_back(0);
+    observations_ = ObservationsIn(map.camera, session.camera, session.observations);
+    first_observation_.push_back(0);
     for (uint32_t k = 0; k < session.keyframes.size(); ++k) {
-      size_t end = sight_begin_.back();
-      while (end < sights_.size() && sights_[end].keyframe == k) {
+      size_t end = first_observation_.back();
+      while (end < observations_.size() && observations_[end].keyframe == k) {
         ++end;
       }
-      sight_begin_.push_back(end);
+      first_observation_.push_back(end);
     }
     report_.keyframes = static_cast<int>(session.keyframes.size());
   }
@@ -281,7 +283,7 @@ class Merger {
     Adjust();
     MatchPoints(kLaterRadiusPx);
     Adjust();
-    DropPoorSights();
+    DropPoorObservations();
     Adjust();
     MergedMap merged;
     merged.database = Build();
@@ -293,9 +295,10 @@ class Merger {
   size_t MapKeyframes() const { return map_.keyframes.size(); }
   size_t MapPoints() const { return map_.points.size(); }
 
-  std::span<const Observation> SightsOf(uint32_t keyframe) const {
-    return std::span(sights_).subspan(sight_begin_[keyframe],
-                                      sight_begin_[keyframe + 1] - sight_begin_[keyframe]);
+  std::span<const Observation> ObservationsOf(uint32_t keyframe) const {
+    return std::span(observations_)
+        .subspan(first_observation_[keyframe],
+                 first_observation_[keyframe + 1] - first_observation_[keyframe]);
   }
 
   std::vector<LocatedKeyframe> LocateKeyframes() const {
@@ -312,8 +315,8 @@ class Merger {
     return located;
   }
 
-  // Finds map_from_session: first by what the keyframes agree on, then by points
-  // that both maps have.
+  // Estimates map_from_session: first from the keyframes located in the map, then from points that
+  // both maps contain.
   Status Align() {
     const double depth = MedianDepth(map_);
     const std::vector<LocatedKeyframe> located = LocateKeyframes();
@@ -333,7 +336,7 @@ class Merger {
     CastVotes(known, kLaterRadiusPx);
     std::vector<PointPair> pairs;
     for (uint32_t q = 0; q < session_.points.size(); ++q) {
-      if (const uint32_t p = Elected(q); p != kNone) {
+      if (const uint32_t p = Elected(q); p != kNoPoint) {
         pairs.push_back({map_.points[p].cast<double>(), session_.points[q].cast<double>()});
       }
     }
@@ -356,24 +359,24 @@ class Merger {
     return Status();
   }
 
-  // Looks for the map's points in keyframes of the session; a session's point
-  // that was seen at the same place gets a vote for being the same.
+  // Searches for the map's points in keyframes of the session. A point of the session that was
+  // observed at the same feature gets a vote for being the same point.
   void CastVotes(const std::vector<bool>& keyframes, double radius_px) {
     votes_.assign(session_.points.size(), {});
-    guided_sights_.clear();
+    guided_observations_.clear();
     std::vector<vision::FeatureMatch> matches;
     for (uint32_t k = 0; k < features_.size(); ++k) {
       if (!keyframes[k]) {
         continue;
       }
       std::map<std::pair<float, float>, uint32_t> point_at;
-      for (const Observation& o : SightsOf(k)) {
+      for (const Observation& o : ObservationsOf(k)) {
         point_at.emplace(std::pair(o.x, o.y), o.point);
       }
       guided_.Match(map_.camera, poses_[k], features_[k], radius_px, matches);
       for (const vision::FeatureMatch& match : matches) {
         const vision::Keypoint& keypoint = features_[k].keypoints[match.feature];
-        guided_sights_.push_back(
+        guided_observations_.push_back(
             {{match.point, k, keypoint.x, keypoint.y, keypoint.scale}, match.feature});
         if (const auto found = point_at.find({keypoint.x, keypoint.y}); found != point_at.end()) {
           votes_[found->second].push_back(match.point);
@@ -382,8 +385,8 @@ class Merger {
     }
   }
 
-  // The map's point that most sights of a session's point show; kNone where
-  // fewer than two do, or no majority.
+  // The map's point that got most votes of a session's point; kNoPoint if it got fewer than two
+  // votes or no majority.
   uint32_t Elected(uint32_t session_point) const {
     std::vector<uint32_t> votes = votes_[session_point];
     std::sort(votes.begin(), votes.end());
@@ -395,31 +398,31 @@ class Merger {
       }
       begin = end;
     }
-    return kNone;
+    return kNoPoint;
   }
 
-  // Which point of the merged map a session's point is.
+  // Index of a session's point in the merged map.
   uint32_t Joined(uint32_t session_point) const {
     const uint32_t elected = joined_[session_point];
-    return elected != kNone ? elected : static_cast<uint32_t>(MapPoints() + session_point);
+    return elected != kNoPoint ? elected : static_cast<uint32_t>(MapPoints() + session_point);
   }
 
-  // All sights of the session: of its own points, joined to the map's where
-  // elected, and of the map's points that guided matching found besides.
+  // Collects all observations of the session: those of its own points, which are joined to the
+  // map's points if elected, and those of the map's points from guided matching.
   void MatchPoints(double radius_px) {
     CastVotes(std::vector<bool>(poses_.size(), true), radius_px);
-    joined_.assign(session_.points.size(), kNone);
+    joined_.assign(session_.points.size(), kNoPoint);
     for (uint32_t q = 0; q < session_.points.size(); ++q) {
       joined_[q] = Elected(q);
     }
     joint_.clear();
-    for (const Observation& o : sights_) {
+    for (const Observation& o : observations_) {
       joint_.push_back({Joined(o.point), o.keyframe, o.x, o.y, o.scale});
     }
-    for (const GuidedSight& sight : guided_sights_) {
-      joint_.push_back(sight.observation);
+    for (const GuidedObservation& guided : guided_observations_) {
+      joint_.push_back(guided.observation);
     }
-    KeepNearestSights();
+    KeepNearestObservations();
   }
 
   double ErrorPx(const Observation& o) const {
@@ -427,9 +430,9 @@ class Merger {
     return pixel ? (*pixel - Eigen::Vector2d(o.x, o.y)).norm() : 1e9;
   }
 
-  // Each keyframe sees each point once, and each feature shows one point: the
-  // nearest ones stay.
-  void KeepNearestSights() {
+  // Keeps at most one observation per keyframe and point and one point per feature: those with the
+  // smallest error.
+  void KeepNearestObservations() {
     const auto keep_first = [&](const auto& key) {
       std::stable_sort(joint_.begin(), joint_.end(), [&](const auto& a, const auto& b) {
         return key(a) != key(b) ? key(a) < key(b) : ErrorPx(a) < ErrorPx(b);
@@ -455,7 +458,7 @@ class Merger {
     std::copy(poses.begin() + static_cast<ptrdiff_t>(MapKeyframes()), poses.end(), poses_.begin());
   }
 
-  // Of the map and then of the session, in the merged map's numbers, sorted.
+  // The observations of the map and the session with the indices of the merged map, sorted.
   std::vector<Observation> AllObservations() const {
     std::vector<Observation> all = map_.observations;
     for (Observation o : joint_) {
@@ -465,8 +468,8 @@ class Merger {
     return all;
   }
 
-  void DropPoorSights() {
-    std::erase_if(joint_, [&](const Observation& o) { return ErrorPx(o) > kLargestErrorPx; });
+  void DropPoorObservations() {
+    std::erase_if(joint_, [&](const Observation& o) { return ErrorPx(o) > kLargestMergeErrorPx; });
     std::vector<int> counts(points_.size(), 0);
     for (const Observation& o : joint_) {
       ++counts[o.point];
@@ -506,15 +509,15 @@ class Merger {
     return db;
   }
 
-  // Light of the session's reference over that of the map's, by the points that
-  // both show: what its gains are multiplied by, and its colours divided by.
+  // Brightness of the session's photometric reference over that of the map, from common points. The
+  // session's gains are multiplied by this ratio, and its colours are divided by it.
   std::array<float, 3> ReferenceRatio() const {
     std::array<float, 3> ratio = {1.0f, 1.0f, 1.0f};
     for (int c = 0; c < 3; ++c) {
       std::vector<float> ratios;
       for (uint32_t q = 0; q < session_.colours.size() && !map_.colours.empty(); ++q) {
         const float of_session = session_.colours[q][c];
-        if (joined_[q] != kNone && of_session > 0.0f && map_.colours[joined_[q]][c] > 0.0f) {
+        if (joined_[q] != kNoPoint && of_session > 0.0f && map_.colours[joined_[q]][c] > 0.0f) {
           ratios.push_back(of_session / map_.colours[joined_[q]][c]);
         }
       }
@@ -537,7 +540,7 @@ class Merger {
     }
     std::vector<std::vector<vision::Descriptor>> fresh = FreshDescriptors();
     const bool coloured = !map_.colours.empty() || !session_.colours.empty();
-    std::vector<uint32_t> new_index(points_.size(), kNone);
+    std::vector<uint32_t> new_index(points_.size(), kNoPoint);
     db.descriptor_begin.push_back(0);
     for (uint32_t i = 0; i < points_.size(); ++i) {
       const bool old = i < MapPoints();
@@ -558,7 +561,7 @@ class Merger {
       const uint32_t bit = counts[i] > 0 ? 1u << session_.keyframes.front().session : 0u;
       db.session_masks.push_back(bit | (old ? map_.session_masks[i] : 0u));
       if (counts[i] == 0) {
-        fresh[i].clear();  // of sights that turned out to be of something else
+        fresh[i].clear();  // The observations turned out to be wrong.
       }
       if (coloured) {
         db.colours.push_back(Colour(i, exposure));
@@ -589,7 +592,7 @@ class Merger {
     return colour;
   }
 
-  // [points]: what the session's light makes of them.
+  // [points]: The session's descriptors of each point.
   std::vector<std::vector<vision::Descriptor>> FreshDescriptors() const {
     std::vector<std::vector<vision::Descriptor>> fresh(points_.size());
     for (uint32_t q = 0; q < session_.points.size(); ++q) {
@@ -597,16 +600,17 @@ class Merger {
         fresh[Joined(q)].push_back(session_.descriptors[d]);
       }
     }
-    for (const GuidedSight& sight : guided_sights_) {
-      if (ErrorPx(sight.observation) < kLargestErrorPx) {
-        fresh[sight.observation.point].push_back(
-            features_[sight.observation.keyframe].descriptors[sight.feature]);
+    for (const GuidedObservation& guided : guided_observations_) {
+      if (ErrorPx(guided.observation) < kLargestMergeErrorPx) {
+        fresh[guided.observation.point].push_back(
+            features_[guided.observation.keyframe].descriptors[guided.feature]);
       }
     }
     return fresh;
   }
 
-  // Those of the map stay, and are the session's too where it saw something like them.
+  // Adds a point's descriptors. Those of the map are kept; they are also marked for the session if
+  // it has a similar one.
   void AddDescriptors(SceneDatabase& db,
                       uint32_t point,
                       const std::vector<vision::Descriptor>& fresh) const {
@@ -632,8 +636,8 @@ class Merger {
     db.descriptor_begin.push_back(static_cast<uint32_t>(db.descriptors.size()));
   }
 
-  struct GuidedSight {
-    Observation observation;  // of a point of the map, in a keyframe of the session
+  struct GuidedObservation {
+    Observation observation;  // A map point in a keyframe of the session.
     uint32_t feature = 0;
   };
 
@@ -642,15 +646,15 @@ class Merger {
   MergeOptions options_;
   Log& log_;
   vision::GuidedMatcher guided_;
-  std::vector<Features> features_;            // of the session's keyframes, in the map's camera
-  std::vector<Observation> sights_;           // of the session, in the map's camera
-  std::vector<size_t> sight_begin_;           // [keyframes + 1], into sights_
-  std::vector<Rigid3> poses_;                 // of the session's keyframes, camera_from_map
-  std::vector<Eigen::Vector3d> points_;       // of the map, then of the session
-  std::vector<std::vector<uint32_t>> votes_;  // [session's points]: points of the map
-  std::vector<GuidedSight> guided_sights_;
-  std::vector<uint32_t> joined_;    // [session's points]: point of the map, or kNone
-  std::vector<Observation> joint_;  // of session keyframes, of points_
+  std::vector<Features> features_;            // [session's keyframes]: In the map's camera.
+  std::vector<Observation> observations_;     // The session's, in the map's camera.
+  std::vector<size_t> first_observation_;     // [keyframes + 1]: Ranges of observations_.
+  std::vector<Rigid3> poses_;                 // [session's keyframes]: camera_from_map.
+  std::vector<Eigen::Vector3d> points_;       // Points of the map, then those of the session.
+  std::vector<std::vector<uint32_t>> votes_;  // [session's points]: Voted points of the map.
+  std::vector<GuidedObservation> guided_observations_;
+  std::vector<uint32_t> joined_;    // [session's points]: Point of the map, or kNoPoint.
+  std::vector<Observation> joint_;  // Indices into poses_ and points_.
   MergeReport report_;
 };
 
@@ -679,7 +683,7 @@ Result<std::vector<Features>> KeyframeFeatures(const SceneDatabase& session,
   return features;
 }
 
-// Poses of the session's frames, moved with the keyframe nearest in the video.
+// Moves the poses of the session's frames along with the nearest keyframe in the video.
 class PoseMover {
  public:
   PoseMover(const SceneDatabase& session, const MergedMap& merged)
@@ -697,7 +701,7 @@ class PoseMover {
     const size_t first = merged_.database.keyframes.size() - session_.keyframes.size();
     const Rigid3& after = merged_.database.keyframes[first + nearest].camera_from_map;
     const double scale = merged_.report.map_from_session.scale;
-    // The motion from the keyframe to the frame, in the map's unit.
+    // The motion from the keyframe to the frame, scaled to the map's unit.
     Rigid3 frame_from_keyframe = camera_from_session * before.Inverse();
     frame_from_keyframe.translation *= scale;
     return frame_from_keyframe * after;
@@ -761,12 +765,13 @@ Result<TrainResult> AddSession(const SceneDatabase& map,
   TrainOptions of_session = options;
   of_session.session = NextSession(map);
   if (of_session.session >= kSessions) {
-    return Status::Error(kPlace, "the map has 32 sessions already", "train the place anew");
+    return Status::Error(kSessionPlace, "the map already has 32 sessions, the maximum",
+                         "remove a session, or train the place again");
   }
   if (const Result<CameraModel> camera = CameraOf(map, source, options); camera.ok()) {
     of_session.intrinsics = *camera;
   } else {
-    log.info("the video has other proportions than the map's; its intrinsics are estimated");
+    log.info("the video's aspect ratio differs from that of the map; its intrinsics are estimated");
   }
   LARARIUM_ASSIGN_OR_RETURN(TrainResult trained, Train(source, of_session, progress, log));
   progress.Report("merging", 0.0);
@@ -779,7 +784,7 @@ Result<TrainResult> AddSession(const SceneDatabase& map,
   LARARIUM_ASSIGN_OR_RETURN(MergedMap merged,
                             MergeSession(map, trained.database, features, merging, log));
   if (progress.Cancelled()) {
-    return Status::Error(kPlace, "cancelled");
+    return Status::Error(kSessionPlace, "cancelled");
   }
   MoveReport(trained.database, merged, trained.report);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

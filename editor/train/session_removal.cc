@@ -13,8 +13,8 @@ namespace {
 using vision::Observation;
 using vision::SceneDatabase;
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-constexpr uint32_t kLeastViews = 2;  // that a point is kept for
+constexpr uint32_t kDropped = std::numeric_limits<uint32_t>::max();
+constexpr uint32_t kLeastViews = 2;  // Minimum number of observations of a kept point.
 
 class Remover {
  public:
@@ -41,7 +41,7 @@ class Remover {
   void TakeKeyframes() {
     db_.camera = map_.camera;
     for (const vision::Keyframe& keyframe : map_.keyframes) {
-      new_keyframe_.push_back(kNone);
+      new_keyframe_.push_back(kDropped);
       if (keyframe.session != session_) {
         new_keyframe_.back() = static_cast<uint32_t>(db_.keyframes.size());
         db_.keyframes.push_back(keyframe);
@@ -50,7 +50,7 @@ class Remover {
     }
   }
 
-  // Without the session, those after it moved up; 0: it was the only one.
+  // Removes the session from a bit mask and shifts later sessions down. 0 if it was the only one.
   uint32_t WithoutSession(uint32_t sessions) const {
     const uint32_t before = sessions & ((1u << session_) - 1u);
     return before | (sessions >> 1 & ~((1u << session_) - 1u));
@@ -67,7 +67,7 @@ class Remover {
     db_.descriptor_begin.push_back(static_cast<uint32_t>(db_.descriptors.size()));
   }
 
-  // Whether anything of its looks was not of the session alone.
+  // Returns whether the point has a descriptor that does not belong to the removed session alone.
   bool LooksLikeSomething(uint32_t point) const {
     for (uint32_t d = map_.descriptor_begin[point]; d < map_.descriptor_begin[point + 1]; ++d) {
       if (WithoutSession(map_.SessionsOf(d)) != 0) {
@@ -80,11 +80,11 @@ class Remover {
   void TakePoints() {
     std::vector<uint32_t> views(map_.points.size(), 0);
     for (const Observation& o : map_.observations) {
-      views[o.point] += new_keyframe_[o.keyframe] != kNone;
+      views[o.point] += new_keyframe_[o.keyframe] != kDropped;
     }
     db_.descriptor_begin.push_back(0);
     for (uint32_t point = 0; point < map_.points.size(); ++point) {
-      new_point_.push_back(kNone);
+      new_point_.push_back(kDropped);
       if (views[point] < kLeastViews || !LooksLikeSomething(point)) {
         continue;
       }
@@ -98,23 +98,23 @@ class Remover {
     }
   }
 
-  // They stay in the order of keyframes and points.
+  // Copies the remaining observations; they stay sorted by keyframe and point.
   void TakeObservations() {
     for (Observation o : map_.observations) {
       o.keyframe = new_keyframe_[o.keyframe];
       o.point = new_point_[o.point];
-      if (o.keyframe != kNone && o.point != kNone) {
+      if (o.keyframe != kDropped && o.point != kDropped) {
         db_.observations.push_back(o);
       }
     }
   }
 
-  // Points that the session saw lie where the sights that stay say. Where that finds nothing they
-  // stay where they were.
+  // Adjusts the points that the session observed to the remaining observations. Without a solution
+  // they keep their position.
   void LocateAgain() {
     std::vector<bool> moves(db_.points.size(), false);
     for (uint32_t point = 0; point < map_.points.size(); ++point) {
-      if (new_point_[point] != kNone) {
+      if (new_point_[point] != kDropped) {
         moves[new_point_[point]] = (map_.session_masks[point] >> session_ & 1u) != 0;
       }
     }
@@ -136,7 +136,7 @@ class Remover {
     }
   }
 
-  // What follows from the observations.
+  // Computes the properties that depend on the observations.
   void Describe() {
     std::vector<Eigen::Vector3d> towards(db_.points.size(), Eigen::Vector3d::Zero());
     db_.observation_counts.assign(db_.points.size(), 0);
@@ -152,7 +152,7 @@ class Remover {
       error_sum += pixel ? (*pixel - Eigen::Vector2d(o.x, o.y)).norm() : 0.0;
     }
     for (size_t i = 0; i < towards.size(); ++i) {
-      if (towards[i].norm() > 1e-9) {  // else it is seen from opposite sides
+      if (towards[i].norm() > 1e-9) {  // Not seen from opposite sides only.
         db_.normals[i] = towards[i].normalized().cast<float>();
       }
     }
@@ -160,7 +160,7 @@ class Remover {
         error_sum / static_cast<double>(std::max<size_t>(1, db_.observations.size()));
   }
 
-  // Where one session is left all descriptors are its own: nothing is to be said.
+  // If only one session is left, all descriptors belong to it and need not be marked.
   void ForgetTheOnlySession() {
     const bool only = std::all_of(
         db_.keyframes.begin(), db_.keyframes.end(),
@@ -174,8 +174,9 @@ class Remover {
   uint32_t session_;
   SceneDatabase db_;
   RemovedSession removed_;
-  std::vector<uint32_t> new_keyframe_;  // [keyframes of the map]
-  std::vector<uint32_t> new_point_;     // [points of the map]
+  // [keyframes of the map] and [points of the map]: New indices, or kDropped.
+  std::vector<uint32_t> new_keyframe_;
+  std::vector<uint32_t> new_point_;
 };
 
 }  // namespace
@@ -183,18 +184,20 @@ class Remover {
 Result<RemovedSession> RemoveSession(const SceneDatabase& map, uint32_t session, uint64_t seed) {
   const std::string place = "session " + std::to_string(session);
   if (session == 0) {
-    return Status::Error(place, "is the training itself, which the map is made of",
-                         "train the place anew from another recording");
+    return Status::Error(
+        place, "is the first recording, from which the map was made, and cannot be removed",
+        "train the place again from another recording");
   }
   const bool known =
       std::any_of(map.keyframes.begin(), map.keyframes.end(),
                   [&](const vision::Keyframe& keyframe) { return keyframe.session == session; });
   if (!known) {
-    return Status::Error(place, "is not in the map", "train the place again");
+    return Status::Error(place, "is not in the map", "choose one of the map's sessions");
   }
   RemovedSession removed = Remover(map, session).Run(seed);
   if (removed.database.points.empty()) {
-    return Status::Error(place, "is all that the map stands on", "train the place anew");
+    return Status::Error(place, "supports the whole map; nothing would be left without it",
+                         "train the place again");
   }
   LARARIUM_RETURN_IF_ERROR(removed.database.Validate());
   return removed;

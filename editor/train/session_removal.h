@@ -1,6 +1,6 @@
 #pragma once
 
-// Takes a session out of a map that several were merged into.
+// Removes a session from a map into which several sessions were merged.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,21 +12,24 @@ namespace lararium::train {
 
 struct RemovedSession {
   vision::SceneDatabase database;
-  size_t keyframes = 0;     // that went
-  size_t observations = 0;  // likewise
-  size_t points = 0;        // likewise
+  // Numbers of removed keyframes, observations and points.
+  size_t keyframes = 0;
+  size_t observations = 0;
+  size_t points = 0;
 };
 
-// The map without the keyframes and observations of a session, without what points look like in
-// it alone, and without the points that fewer than two other observations show or that look like
-// nothing else; later sessions move up by one. Frame and poses stay. Points that the session saw
-// are located anew by the sights that stay; counts, masks, directions and the mean error are those
-// of what is left, and the forest is new. So the map is as it was before the session was added,
-// but for points that the budget took away when it was, and for maps that were merged before
-// descriptors said whose they are (SceneDatabase::descriptor_sessions): what the points that stay
-// look like stays whole in these.
-// An error where the map has no such session, where it is the first, whose camera and frame are
-// the map's, or where nothing would be left.
+// Removes the keyframes and observations of a session, the descriptors that belong to it alone, and
+// the points that are left with fewer than two observations or without descriptors. The numbers of
+// later sessions decrease by one. Frame and poses stay the same. Points that the session observed
+// are triangulated again from the remaining observations. Counts, masks, normals and the mean error
+// are computed again, and the forest is built again.
+//
+// The result equals the map before the session was added, with two exceptions: points that the
+// budget removed at that time stay removed, and maps that were merged without
+// SceneDatabase::descriptor_sessions keep all descriptors of the remaining points.
+//
+// Fails if the map has no such session, if it is the first one, which defines the map's camera and
+// frame, or if nothing would be left.
 Result<RemovedSession> RemoveSession(const vision::SceneDatabase& map,
                                      uint32_t session,
                                      uint64_t seed = 1);

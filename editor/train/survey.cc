@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "editor/train/training_status.h"
 #include "shared/core/parallel.h"
 
 namespace lararium::train {
@@ -11,11 +12,7 @@ namespace {
 
 using geometry::Frame;
 
-constexpr std::string_view kPlace = "training";
-
-Status CancelledStatus() { return Status::Error(kPlace, "cancelled"); }
-
-// Reads frames in order; skips single ones that cannot be read.
+// Reads frames in order and skips single frames that cannot be read.
 class FrameReader {
  public:
   FrameReader(capture::FrameSource& source, Log& log) : source_(source), log_(log) {}
@@ -46,7 +43,7 @@ Status ReadKeyframes(FrameReader& reader,
     do {
       LARARIUM_ASSIGN_OR_RETURN(std::optional<Frame> frame, reader.Next());
       if (!frame) {
-        return Status::Error(image.name, "the source ended early at its second reading",
+        return Status::Error(image.name, "the recording ended early when it was read a second time",
                              "check the file");
       }
       if (frame->index == image.frame_index) {
@@ -69,11 +66,11 @@ Status CheckFeatures(std::span<const TrainingImage> images) {
     }
   }
   if (2 * poor.size() > images.size()) {
-    return Status::Error(kPlace,
+    return Status::Error(kTraining,
                          "too few features in " + std::to_string(poor.size()) + " of " +
                              std::to_string(images.size()) + " images (" + poor.front() + " to " +
                              poor.back() + ")",
-                         "film textured things in good light, in focus, without motion blur");
+                         "film textured objects in good light, in focus, without motion blur");
   }
   return Status();
 }
@@ -89,7 +86,7 @@ Result<Survey> SurveySource(capture::FrameSource& source,
   const auto max_count = static_cast<size_t>(max_keyframes);
   const auto expected = static_cast<double>(source.estimated_frame_count());
   Survey survey;
-  std::vector<Frame> kept;  // while all frames may become keyframes
+  std::vector<Frame> kept;  // Frames so far, as long as all of them may become keyframes.
   std::vector<FrameMotion> motions;
   MotionMeter meter;
   while (true) {
@@ -112,7 +109,7 @@ Result<Survey> SurveySource(capture::FrameSource& source,
     }
   }
   if (survey.frames.size() < 2) {
-    return Status::Error(kPlace, "the source has fewer than two frames",
+    return Status::Error(kTraining, "the source has fewer than two frames",
                          "film the place while walking around it");
   }
   for (const size_t i : ChooseKeyframes(motions, max_count)) {
@@ -132,7 +129,7 @@ Result<Survey> SurveySource(capture::FrameSource& source,
 
 Status ExtractFeatures(std::span<TrainingImage> images, int max_features, Progress& progress) {
   vision::FeatureOptions options;
-  // Faint features too: many views average out what each alone is unsure of.
+  // Also takes faint features; the errors of many views average out.
   options.contrast_threshold = 0.02f;
   options.max_features = max_features;
   std::vector<Status> failures(images.size());
@@ -175,7 +172,7 @@ Status ForOtherFrames(capture::FrameSource& source,
     }
     while (frame && keyframe < survey.keyframes.size() &&
            survey.keyframes[keyframe].frame_index < frame->index) {
-      ++keyframe;  // it was read then, but not now
+      ++keyframe;  // The survey could read this keyframe, but this pass could not.
     }
     if (frame && keyframe < survey.keyframes.size() &&
         survey.keyframes[keyframe].frame_index == frame->index) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// Reads a source for training: which frames it has, how the camera moves, and
-// the images that shape the map.
+// Reads a source for training: lists its frames, measures the motion of the camera, and selects the
+// keyframes.
 
 #include <cstdint>
 #include <functional>
@@ -20,31 +20,30 @@ namespace lararium::train {
 
 struct SurveyedFrame {
   int64_t index = -1;
-  std::string name;  // as FrameSource::FrameName
+  std::string name;  // See FrameSource::FrameName.
   FrameMotion motion;
 };
 
 struct Survey {
-  std::vector<SurveyedFrame> frames;     // all of the source
-  std::vector<TrainingImage> keyframes;  // the chosen ones, without features
+  std::vector<SurveyedFrame> frames;     // All frames of the source.
+  std::vector<TrainingImage> keyframes;  // The selected images, without features.
 };
 
-// Reads source from its start, twice where it has more than max_keyframes
-// frames. Single frames that cannot be read are skipped with a warning.
+// Reads source from its start; twice if it has more than max_keyframes frames. Single frames that
+// cannot be read are skipped with a warning.
 Result<Survey> SurveySource(capture::FrameSource& source,
                             int max_keyframes,
                             Progress& progress,
                             Log& log);
 
-// Fewer features than this rarely locate an image.
+// An image with fewer features than this is rarely located.
 inline constexpr size_t kFewFeatures = 150;
 
-// Fills in the features of images, on all cores. An error where most images
-// have too few.
+// Fills in the features of images, on all cores. Fails if most images have too few features.
 Status ExtractFeatures(std::span<TrainingImage> images, int max_features, Progress& progress);
 
-// Reads source once more and hands over all frames but the keyframes, a batch
-// after another; visit may use all cores.
+// Reads source once more and calls visit with batches of all frames except the keyframes. visit may
+// use all cores.
 Status ForOtherFrames(capture::FrameSource& source,
                       const Survey& survey,
                       Progress& progress,

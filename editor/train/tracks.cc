@@ -10,7 +10,7 @@ namespace {
 
 bool ByImage(const TrackElement& a, const TrackElement& b) { return a.image < b.image; }
 
-// Whether two lists sorted by image share an image.
+// Returns whether two lists, each sorted by image, have an image in common.
 bool Overlap(std::span<const TrackElement> a, std::span<const TrackElement> b) {
   size_t j = 0;
   for (const TrackElement& element : a) {
@@ -24,7 +24,7 @@ bool Overlap(std::span<const TrackElement> a, std::span<const TrackElement> b) {
   return false;
 }
 
-// Disjoint sets of features that know their members.
+// Disjoint sets (union-find) of features with lists of their members.
 class FeatureSets {
  public:
   explicit FeatureSets(std::span<const uint32_t> feature_counts) {
@@ -59,7 +59,7 @@ class FeatureSets {
     parent_[root_b] = root_a;
   }
 
-  // Sets of two or more members, in order of their roots.
+  // The sets with two or more members, in order of their roots.
   Tracks ToTracks() const {
     Tracks tracks;
     for (const auto& members : members_) {
@@ -89,9 +89,9 @@ class FeatureSets {
     return id;
   }
 
-  std::vector<uint32_t> first_;  // id of each image's first feature
+  std::vector<uint32_t> first_;  // [images]: Id of the image's first feature.
   std::vector<uint32_t> parent_;
-  std::vector<std::vector<TrackElement>> members_;  // of roots, sorted by image
+  std::vector<std::vector<TrackElement>> members_;  // [root]: Members sorted by image.
 };
 
 }  // namespace

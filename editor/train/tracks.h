@@ -1,6 +1,6 @@
 #pragma once
 
-// Tracks: the features of several images that show one point.
+// Tracks: sets of features in several images that show the same point.
 
 #include <cstdint>
 #include <span>
@@ -16,8 +16,8 @@ namespace lararium::train {
 struct VerifiedPair {
   ImagePair images;
   std::vector<FeatureMatch> matches;
-  geometry::Rigid3 b_from_a;  // baseline of length 1
-  double median_angle = 0.0;  // radians, between the two rays to a point
+  geometry::Rigid3 b_from_a;  // The baseline has length 1.
+  double median_angle = 0.0;  // Median angle between the two rays to a point, radians.
 };
 
 struct TrackElement {
@@ -25,8 +25,8 @@ struct TrackElement {
   uint32_t feature = 0;
 };
 
-// Track t is elements[begin[t], begin[t + 1]), sorted by image; each image
-// appears once in a track, each feature in one track at most.
+// Track t is elements[begin[t], begin[t + 1]), sorted by image. An image occurs at most once in a
+// track, and a feature belongs to at most one track.
 struct Tracks {
   std::vector<uint32_t> begin = {0};
   std::vector<TrackElement> elements;
@@ -37,9 +37,8 @@ struct Tracks {
   }
 };
 
-// Joins matches into tracks. A match that would put two features of one image
-// into a track is left out; pairs of most matches go first.
-// feature_counts: of each image.
+// Joins matches into tracks, beginning with the pairs that have the most matches. A match that
+// would put two features of one image into a track is left out. feature_counts: [images].
 Tracks BuildTracks(std::span<const uint32_t> feature_counts, std::span<const VerifiedPair> pairs);
 
 }  // namespace lararium::train

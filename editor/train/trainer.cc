@@ -9,11 +9,10 @@
 #include "editor/train/frame_locator.h"
 #include "editor/train/image_mapping.h"
 #include "editor/train/survey.h"
+#include "editor/train/training_status.h"
 
 namespace lararium::train {
 namespace {
-
-constexpr std::string_view kPlace = "training";
 
 class Trainer {
  public:
@@ -45,7 +44,7 @@ class Trainer {
     report_.seconds.emplace_back(name, seconds.count());
     log_.info("{}: {:.1f} s", name, seconds.count());
     if (status.ok() && progress_.Cancelled()) {
-      return Status::Error(kPlace, "cancelled");
+      return Status::Error(kTraining, "cancelled");
     }
     return status;
   }
@@ -104,7 +103,7 @@ class Trainer {
     }
     FrameLocator locator(database);
     std::vector<FrameReport>& reports = report_.frame_reports;
-    size_t next = 0;  // of them
+    size_t next = 0;  // Index into reports.
     return ForOtherFrames(
         source_, survey_, progress_, log_, [&](std::span<const geometry::Frame> batch) {
           const std::vector<LocatedView> views = locator.Locate(batch);
@@ -112,7 +111,7 @@ class Trainer {
             while (next < reports.size() && reports[next].frame_index < batch[i].index) {
               ++next;
             }
-            // The survey may have failed to read it.
+            // The survey may have failed to read the frame.
             if (next < reports.size() && reports[next].frame_index == batch[i].index) {
               Fill(reports[next], views[i]);
             }
@@ -163,9 +162,9 @@ class Trainer {
   Log& log_;
   TrainReport report_;
   Survey survey_;
-  std::vector<size_t> report_of_keyframe_;  // indices of frame_reports
+  std::vector<size_t> report_of_keyframe_;  // [keyframes]: Index into frame_reports.
   VerifiedPairs verified_;
-  ImageMap map_;
+  SparseMap map_;
 };
 
 }  // namespace
@@ -199,12 +198,13 @@ Result<TrainResult> Train(capture::FrameSource& source,
                           Log& log) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
   if (source.live()) {
-    return Status::Error(kPlace, "a live camera has no end", "record a video first");
+    return Status::Error(kTraining, "a live camera has no end", "record a video first");
   }
   if (options.intrinsics && (options.intrinsics->width != source.width() ||
                              options.intrinsics->height != source.height())) {
-    return Status::Error(kPlace, "the intrinsics are for another image size than the source's",
-                         "give those of the images as they are");
+    return Status::Error(kTraining,
+                         "the intrinsics belong to another image size than that of the source",
+                         "give the intrinsics for the size of the source's images");
   }
   return Trainer(source, options, progress, log).Run();
 }

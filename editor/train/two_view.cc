@@ -37,7 +37,7 @@ std::vector<uint32_t> IndicesOf(const cv::Mat& mask) {
   return indices;
 }
 
-// The four poses that an essential matrix leaves open (Hartley & Zisserman,
+// The four poses that an essential matrix allows (Hartley & Zisserman, "Multiple View Geometry",
 // result 9.19).
 std::array<Rigid3, 4> DecomposeEssential(const Eigen::Matrix3d& essential) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(essential, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -54,10 +54,10 @@ std::array<Rigid3, 4> DecomposeEssential(const Eigen::Matrix3d& essential) {
           Rigid3::FromMatrix(rotation_2, baseline), Rigid3::FromMatrix(rotation_2, -baseline)};
 }
 
-// Whether the rays meet in front of both cameras: the signs of the two
-// parameters of the points where they come closest.
+// Returns whether the rays meet in front of both cameras, by the signs of the parameters of their
+// closest points.
 bool InFront(const Eigen::Vector3d& ray_a, const Eigen::Vector3d& ray_b, const Eigen::Vector3d& t) {
-  // Both rays in b's axes; a's camera sits at t. Minimises |t + x a - y b|.
+  // Both rays are in b's axes; camera a is at t. Minimises |t + x a - y b|.
   const double aa = ray_a.squaredNorm();
   const double bb = ray_b.squaredNorm();
   const double ab = ray_a.dot(ray_b);
@@ -66,7 +66,7 @@ bool InFront(const Eigen::Vector3d& ray_a, const Eigen::Vector3d& ray_b, const E
   return ab * bt - bb * at > 0.0 && aa * bt - ab * at > 0.0;
 }
 
-// Keeps of candidates those in front of both cameras.
+// The candidates that lie in front of both cameras.
 std::vector<uint32_t> Cheiral(const PointPairs& points,
                               std::span<const uint32_t> candidates,
                               const Rigid3& b_from_a) {
@@ -81,7 +81,7 @@ std::vector<uint32_t> Cheiral(const PointPairs& points,
   return kept;
 }
 
-// Between the rays of point pairs once those of the first image are turned.
+// Median angle between the rays of point pairs after those of the first image are rotated.
 double MedianAngle(const PointPairs& points,
                    std::span<const uint32_t> indices,
                    const Eigen::Matrix3d& rotation) {
@@ -113,7 +113,7 @@ std::optional<RelativePose> EstimateRelativePose(const PointPairs& plane_points,
                                  cv::Mat::eye(3, 3, CV_64F), cv::RANSAC, kConfidence, threshold,
                                  500, mask);
   } catch (const cv::Exception&) {
-    return std::nullopt;  // no five of the points have a solution
+    return std::nullopt;  // No sample of five points has a solution.
   }
   if (found.rows < 3 || found.cols != 3) {
     return std::nullopt;
@@ -150,7 +150,7 @@ std::optional<Fundamental> EstimateFundamental(const PointPairs& pixels, double 
     found = cv::findFundamentalMat(ToOpenCv(pixels.a), ToOpenCv(pixels.b), cv::FM_RANSAC,
                                    threshold_px, kConfidence, 2000, mask);
   } catch (const cv::Exception&) {
-    return std::nullopt;  // no seven of the points have a solution
+    return std::nullopt;  // No sample of seven points has a solution.
   }
   if (found.rows < 3 || found.cols != 3) {
     return std::nullopt;
@@ -199,7 +199,7 @@ PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double thr
     cv::decomposeHomographyMat(homography, cv::Mat::eye(3, 3, CV_64F), rotations, translations,
                                normals);
   } catch (const cv::Exception&) {
-    return geometry;  // no four of the points have a solution
+    return geometry;  // No sample of four points has a solution.
   }
   const std::vector<uint32_t> inliers = IndicesOf(mask);
   geometry.share = static_cast<double>(inliers.size()) / static_cast<double>(plane_points.size());
@@ -209,7 +209,7 @@ PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double thr
     cv::cv2eigen(rotations[i], rotation);
     cv::cv2eigen(translations[i], translation);
     if (!(translation.norm() > 1e-6) || !rotation.allFinite()) {
-      continue;  // the camera only turned
+      continue;  // The camera only turned.
     }
     const Rigid3 pose = Rigid3::FromMatrix(rotation, translation.normalized());
     if (2 * Cheiral(plane_points, inliers, pose).size() > inliers.size()) {
@@ -240,7 +240,7 @@ std::optional<double> EstimateFocal(std::span<const Fundamental> pairs, int widt
   }
   const auto best = std::min_element(costs.begin(), costs.end());
   const auto worst = std::max_element(costs.begin(), costs.end());
-  // A minimum at the border, or one that hardly differs from the rest, is none.
+  // A minimum at the border of the grid, or one that hardly differs from the rest, does not count.
   if (pairs.empty() || best == costs.begin() || best == costs.end() - 1 || *best > 0.8 * *worst) {
     return std::nullopt;
   }

@@ -15,11 +15,12 @@ namespace {
 
 using geometry::Rigid3;
 
-constexpr size_t kMaxPoints = 8000;
-// SIFT is found again up to about this much away from where it was seen.
+constexpr size_t kMaxPredictedPoints = 8000;
+// A SIFT feature is matched up to about this difference in angle (radians) and in distance (factor)
+// from the views in training.
 constexpr double kMoreAngle = 25.0 * std::numbers::pi / 180.0;
 constexpr double kMoreDistance = 1.8;
-// Below so many matches the localizer gives no pose, or seldom.
+// With fewer matches the localizer rarely gives a pose.
 constexpr double kMinMatches = 15.0;
 
 }  // namespace
@@ -37,7 +38,8 @@ ViewpointQuality QualityOf(const ViewpointPrediction& prediction) {
 
 ViewpointPredictor::ViewpointPredictor(const vision::SceneDatabase& database)
     : camera_(database.camera) {
-  const size_t stride = std::max<size_t>(1, (database.points.size() + kMaxPoints - 1) / kMaxPoints);
+  const size_t stride =
+      std::max<size_t>(1, (database.points.size() + kMaxPredictedPoints - 1) / kMaxPredictedPoints);
   points_each_ = static_cast<double>(stride);
   for (size_t i = 0; i < database.points.size(); i += stride) {
     Point& point = points_.emplace_back();
@@ -84,8 +86,7 @@ void ViewpointPredictor::MeasureKeyframes(const vision::SceneDatabase& database,
       }
     }
   }
-  // The median length of a normally distributed residual is 1.177 of its sigma
-  // along one axis.
+  // The median length of a two-dimensional normal residual is 1.177 times its sigma along one axis.
   noise_px_ = std::max(Median(errors) / 1.177, 0.05);
   std::vector<double> shares;
   std::vector<uint32_t> visible;

@@ -1,7 +1,6 @@
 #pragma once
 
-// How well an image from somewhere in the place would be located in its map,
-// before anybody stands there.
+// Predicts how well an image taken from any position in the place would be located in the map.
 
 #include <Eigen/Core>
 #include <vector>
@@ -13,9 +12,9 @@
 namespace lararium::train {
 
 struct ViewpointPrediction {
-  double matches = 0.0;  // points of the map that the image would likely show again
-  // One sigma, in pixels, of where the pose found from them would put things at
-  // the image's worst corner; infinite where no pose would be found.
+  double matches = 0.0;  // Expected number of map points that the image would match.
+  // Expected registration error of the resulting pose at the image's worst corner, one sigma, in
+  // pixels; infinite if no pose would be found.
   double error_px = 0.0;
 
   friend bool operator==(const ViewpointPrediction&, const ViewpointPrediction&) = default;
@@ -24,30 +23,29 @@ struct ViewpointPrediction {
 enum class ViewpointQuality { kGood, kFair, kPoor, kNone };
 ViewpointQuality QualityOf(const ViewpointPrediction& prediction);
 
-// A point counts as visible where it falls into the image, is seen from a
-// direction not far from those it was trained from, and neither much nearer nor
-// farther. How many of the visible ones are really found again is measured on the
-// keyframes themselves, as is the noise of a sight. The pose's covariance is the
-// inverse of the information of those sights. Walls that hide points are known
-// only through the directions that points were seen from.
+// A point counts as visible if it projects into the image and is seen from a direction and distance
+// similar to those in training. The share of visible points that is really matched, and the noise
+// of an observation, are measured on the keyframes themselves. The pose's covariance is the inverse
+// of the information of the expected observations. Occlusion by walls is considered only through
+// the directions from which points were observed.
 class ViewpointPredictor {
  public:
-  // Copies what it needs; large maps are thinned out evenly.
+  // Copies the data that it needs; large maps are thinned out evenly.
   explicit ViewpointPredictor(const vision::SceneDatabase& database);
 
   ViewpointPrediction Predict(const geometry::Rigid3& camera_from_map) const;
 
-  // Median distance from keyframes to what they see, map units; 0 without any.
+  // Median distance from the keyframes to their points, map units; 0 without points.
   double median_depth() const { return median_depth_; }
-  // Standard deviation of a sight along one axis.
+  // Standard deviation of an observation along one axis, pixels.
   double noise_px() const { return noise_px_; }
 
  private:
   struct Point {
     Eigen::Vector3d position;
     Eigen::Vector3d normal;
-    double min_cosine = 1.0;  // of the angle at the normal within which it is recognised
-    double nearest = 0.0;     // distances between which it is recognised
+    double min_cosine = 1.0;  // Cosine of the largest angle to the normal for recognition.
+    double nearest = 0.0;     // Range of distances for recognition, map units.
     double farthest = 0.0;
   };
 
@@ -56,8 +54,8 @@ class ViewpointPredictor {
 
   geometry::CameraModel camera_;
   std::vector<Point> points_;
-  double points_each_ = 1.0;  // of the map that one of points_ stands for
-  double found_share_ = 1.0;  // of visible points
+  double points_each_ = 1.0;  // Number of map points that each of points_ represents.
+  double found_share_ = 1.0;  // Share of visible points that is matched.
   double noise_px_ = 1.0;
   double median_depth_ = 0.0;
 };

@@ -1,5 +1,5 @@
--- Actors: the people of the cast. Positions are metres on the stage (x to the
--- right, y up, -z forward); headings are degrees, 0 along -z, 90 along -x.
+-- Actors: the people of the cast. Positions are metres on the stage (x to the right, y up, -z
+-- forward). Headings are degrees: 0 looks along -z, 90 along -x.
 
 local host = ...
 
@@ -10,13 +10,13 @@ Actor.__tostring = function(self)
   return "actor '" .. self.name .. "'"
 end
 
-host.actor_class = Actor -- for visitor.lua
+host.actor_class = Actor -- Used by visitor.lua.
 
-local FADE = 0.3 -- seconds from one clip to the next
+local FADE = 0.3 -- Crossfade between clips, seconds.
 
 local known = {}
 
--- The actor of that name in the cast; it is hidden until it is placed or shown.
+-- Returns the actor of this name in the cast. It is hidden until it is placed or shown.
 function actor(name)
   if type(name) ~= "string" then
     error("actor: give the name of a member of the cast", 2)
@@ -31,7 +31,7 @@ function actor(name)
   return known[name]
 end
 
--- The number in options[key], or default; level: whose mistake it would be.
+-- Returns the number in options[key], or the default. Errors blame the caller of the caller.
 local function number(options, key, default, what)
   local value = options[key]
   if value == nil then
@@ -56,8 +56,7 @@ local function check_clip(self, clip, what)
   end
 end
 
--- Puts the actor somewhere at once: {x=, y=, z=, heading=}; what is left out
--- stays. Shows it.
+-- Places the actor at once and shows it: {x=, y=, z=, heading=}. Missing values do not change.
 function Actor:place(target)
   target = options_of(target, "place")
   local x, y, z, heading = host.pose(self.id)
@@ -74,14 +73,14 @@ function Actor:hide()
   host.show(self.id, false)
 end
 
--- Where the actor is: {x=, y=, z=, heading=}.
+-- Returns the position and heading of the actor: {x=, y=, z=, heading=}.
 function Actor:where()
   local x, y, z, heading = host.pose(self.id)
   return { x = x, y = y, z = z, heading = math.deg(heading) }
 end
 
--- Plays a clip of the actor from now on: {fade = seconds, rate = 1}; nothing: the body
--- moves by itself.
+-- Plays a clip of the actor from now on: {fade = seconds, rate = 1}. Without a clip the body moves
+-- by itself.
 function Actor:play(clip, options)
   options = options_of(options, "play")
   if clip ~= nil then
@@ -92,13 +91,13 @@ function Actor:play(clip, options)
   host.play(self.id, clip, fade, rate)
 end
 
--- How long a clip of the actor lasts, in seconds.
+-- Returns the duration of a clip of the actor in seconds.
 function Actor:length(clip)
   check_clip(self, clip, "length")
   return (host.clip(self.id, clip))
 end
 
--- An object, or its name, as its id.
+-- Returns the id of an object, given the object or its name.
 local function object_id(value, what)
   if type(value) == "string" then
     local id = host.object(value)
@@ -113,7 +112,7 @@ local function object_id(value, what)
   return value.id
 end
 
--- Another actor, or its name, as its id.
+-- Returns the id of an actor, given the actor or its name.
 local function actor_id(value, what)
   if type(value) == "string" then
     local id = host.actor(value)
@@ -134,15 +133,15 @@ local stops = {
   end,
 }
 
--- An actor's task: what it is called and, where there is one, the thing it is done with.
+-- Describes a task of an actor: its name and, if there is one, its object.
 local function doing(self, what, thing, action)
   local name = type(thing) == "table" and thing.name or thing
   return { id = self.id, what = what, name = name, action = action and what .. " " .. action or what,
     began = host.time() }
 end
 
--- Waits until a task is over: what was not quite as asked, or "". Whoever stops
--- waiting stops the task. Its errors are blamed on who called the caller.
+-- Waits until a task is over. Returns how the result differs from the request, or "". If the wait
+-- is stopped, the task is stopped too. Errors blame the caller of the caller.
 local function await(does, task, problem)
   if not task then
     host.note_task(does.id, does.action, does.name, does.began, true, problem)
@@ -158,7 +157,7 @@ local function await(does, task, problem)
   return message
 end
 
--- Turns to a heading the shorter way: turn_to(90, {speed = degrees per second}).
+-- Turns to a heading in degrees, the shorter way: turn_to(90, {speed = degrees per second}).
 function Actor:turn_to(degrees, options)
   options = options_of(options, "turn_to")
   local heading = math.rad(number({ degrees = degrees }, "degrees", nil, "turn_to"))
@@ -169,9 +168,9 @@ function Actor:turn_to(degrees, options)
   await(doing(self, "turn_to"), host.turn(self.id, heading, math.rad(speed)))
 end
 
--- Walks to {x=, z=, heading=, speed = metres per second}, around what is in the way
--- and past other people. Where it cannot get there it walks as near as it can, says so
--- to the author and gives false.
+-- Walks to {x=, z=, heading=, speed = metres per second}, around obstacles and other people. If the
+-- place cannot be reached, the actor walks to the nearest place, the author gets a message, and the
+-- result is false.
 function Actor:walk_to(target)
   target = options_of(target, "walk_to")
   local x0, _, z0 = host.pose(self.id)
@@ -192,9 +191,9 @@ function Actor:walk_to(target)
   return true
 end
 
--- Does with an object what it is for: use("jar", "open"), {seconds = at least so long};
--- without an action the first that it has.
--- Walks there, waits for its turn, and goes on when it is done.
+-- Does an action with an object: use("jar", "open", {seconds = minimum duration}). Without an
+-- action, the first one of the object. The actor walks there and waits for its turn. The function
+-- returns when the action is done.
 function Actor:use(thing, action, options)
   options = options_of(options, "use")
   local id = object_id(thing, "use")
@@ -204,13 +203,13 @@ function Actor:use(thing, action, options)
   await(doing(self, "use", thing, action), host.use(self.id, id, action, number(options, "seconds", 0, "use")))
 end
 
--- Takes an object into the hands and carries it from now on.
+-- Takes an object and carries it from now on.
 function Actor:take(thing)
   await(doing(self, "take", thing), host.take(self.id, object_id(thing, "take")))
 end
 
--- Puts down what it carries: put("cup", "table"), put("cup", "table", "top"), or on
--- the floor: put("jar", {x = 1, z = -2, heading = 0}).
+-- Puts down an object that the actor carries: put("cup", "table"), put("cup", "table", "top"), or
+-- on the floor: put("jar", {x = 1, z = -2, heading = 0}).
 function Actor:put(thing, where, surface)
   local id = object_id(thing, "put")
   if type(where) == "table" and not where.is_object then
@@ -225,13 +224,13 @@ function Actor:put(thing, where, surface)
   end
 end
 
--- Hands what it carries to somebody else.
+-- Gives an object that the actor carries to another actor.
 function Actor:give(thing, to)
   await(doing(self, "give", thing), host.give(self.id, object_id(thing, "give"), actor_id(to, "give")))
 end
 
--- Sits down on an object and stays until it has to go elsewhere, or stand(): what it
--- holds it uses sitting, and takes and puts what is in reach.
+-- Sits down on an object and stays until stand() or until the actor has to leave. While it sits, it
+-- can use what it holds, and take and put what is in reach.
 function Actor:sit(thing, action)
   await(doing(self, "sit", thing), host.use(self.id, object_id(thing, "sit"), action or "sit", 0))
 end
@@ -240,8 +239,8 @@ function Actor:stand()
   await(doing(self, "stand"), host.stand_up(self.id))
 end
 
--- Looks at an actor, an object, the name of one, "visitor" or a point {x=, y=, z=}; false:
--- straight ahead; nothing: wherever it likes.
+-- Looks at an actor, an object, the name of one, "visitor" or a point {x=, y=, z=}. With false, the
+-- actor looks straight ahead; without a target, it chooses one itself.
 function Actor:look_at(target)
   local actor_named = type(target) == "string" and host.actor(target)
   local object_named = type(target) == "string" and host.object(target)
@@ -267,13 +266,14 @@ function Actor:look_at(target)
   end
 end
 
--- Whether it looks about by itself where it was not told at what: attention(false).
+-- Sets whether the actor chooses what to look at when look_at() has not set a target:
+-- attention(false).
 function Actor:attention(on)
   host.attend(self.id, on ~= false)
 end
 
--- joy, sadness, anger, fear, disgust, surprise or neutral, 0 to 1, over seconds; ease: linear,
--- in, out or smooth.
+-- Shows an expression: joy, sadness, anger, fear, disgust, surprise or neutral. The intensity is 0
+-- to 1, fade is in seconds, and ease is linear, in, out or smooth.
 function Actor:express(expression, intensity, fade, ease)
   local options = { intensity = intensity, fade = fade }
   if type(expression) ~= "string" then
@@ -293,7 +293,7 @@ local falls_silent = {
   end,
 }
 
--- Says a line of the project's table, in the language of the show. Waits until it is said.
+-- Says a line of the project in the language of the show. Waits until the line has ended.
 function Actor:say(line)
   if type(line) ~= "string" then
     error("say: give the id of a line", 2)
@@ -308,8 +308,8 @@ end
 
 local parts = { whole = true, upper = true, arms = true, head = true }
 
--- Plays a clip once with a part of the body ("upper", "arms", "head", "whole"), over
--- whatever the rest of it does, and goes on when it is over.
+-- Plays a clip once on a part of the body ("upper", "arms", "head", "whole") while the rest
+-- continues. Waits until the clip has ended.
 function Actor:gesture(clip, part)
   check_clip(self, clip, "gesture")
   part = part or "upper"
@@ -321,9 +321,10 @@ end
 
 local gaits = { "cadence", "step_width", "stoop", "arm_swing", "arm_spread", "sway", "lift" }
 
--- How it walks; what a grown healthy person does is 1: {cadence=, step_width=,
--- arm_swing=, sway=, lift=}, or 0: {stoop = degrees, arm_spread = degrees}. Or a style:
--- gait("tired"); normal, child, stout, old, tired, proud, hurried.
+-- Sets how the actor walks, with factors of a healthy adult's walk (1): {cadence=, step_width=,
+-- arm_swing=, sway=, lift=}, and with angles (0 by default): {stoop = degrees, arm_spread =
+-- degrees}. Or by a style: gait("tired"). Styles are normal, child, stout, old, tired, proud,
+-- hurried.
 function Actor:gait(style)
   if type(style) == "string" then
     if not host.gait(self.id, style) then

@@ -1,4 +1,4 @@
--- Light: the time of day, and the lamps that objects carry.
+-- Light: the time of day, and the lamps of objects.
 
 local host = ...
 
@@ -9,10 +9,10 @@ Daylight.__tostring = function()
   return "daylight"
 end
 
--- The light of day on the stage.
+-- The daylight on the stage.
 daylight = setmetatable({}, Daylight)
 
--- Goes to a time of day, hours from 0 to 24, at once or over {seconds =}.
+-- Changes the time of day to hours from 0 to 24, at once or within {seconds =}.
 function Daylight:set_time(hours, options)
   if type(hours) ~= "number" or not (hours >= 0 and hours <= 24) then
     error("set_time: give the hours of the day, 0 to 24", 2)
@@ -27,7 +27,7 @@ function Daylight:set_time(hours, options)
   host.set_hour(hours, seconds)
 end
 
--- The time of day in hours; nil where none was set.
+-- Returns the time of day in hours, or nil if none was set.
 function Daylight:time()
   return host.hour()
 end
@@ -41,7 +41,7 @@ end
 
 local known = {}
 
--- The lights of an object, or of the object of that name: embers, a flame.
+-- Returns the lights of an object, such as embers or a flame. Takes the object or its name.
 function light(target)
   if type(target) == "string" then
     target = object(target)
@@ -77,9 +77,9 @@ local function number(options, key, default, least, most)
   return value
 end
 
--- {level =, seconds =, ease =, colour = {r, g, b}, temperature = kelvin}: level is a factor of
--- what the object's file says, 0 puts it out, reached in seconds; what is left out stays. A
--- light burns only in the states that its file names.
+-- Changes the lights: {level =, seconds =, ease =, colour = {r, g, b}, temperature = kelvin}. level
+-- is a factor of the intensity in the object's file (0: off) and is reached within seconds. Missing
+-- values do not change. A light burns only in the states that its file names.
 function Light:set(options)
   if type(options) ~= "table" then
     error("set: give a table like {level = 0.5, seconds = 2}", 2)
@@ -97,7 +97,7 @@ function Light:set(options)
   end
 end
 
--- How bright it is: 1 as its file says.
+-- Returns the present level; 1 is the intensity in the object's file.
 function Light:level()
   return host.light_level(self.id)
 end

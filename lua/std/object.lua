@@ -1,5 +1,4 @@
--- Objects: things that people use. Positions are metres on the stage, headings
--- degrees, as for actors.
+-- Objects that actors use. Positions are metres on the stage, headings are degrees, as for actors.
 
 local host = ...
 
@@ -12,7 +11,7 @@ end
 
 local known = {}
 
--- The object of that name on the stage.
+-- Returns the object of this name on the stage.
 function object(name)
   if type(name) ~= "string" then
     error("object: give the name of an object", 2)
@@ -38,8 +37,8 @@ local function number(options, key, default)
   return value
 end
 
--- Puts it somewhere at once, out of whosever hands: {x=, y=, z=, heading=}, what is
--- left out stays; or {on = other object, surface = name, spot = 1}.
+-- Places the object at once, also out of an actor's hands: {x=, y=, z=, heading=}, where missing
+-- values do not change; or {on = other object, surface = name, spot = 1}.
 function Object:place(target)
   if type(target) ~= "table" then
     error("place: give a table like {x = 1} or {on = object(\"table\")}", 2)
@@ -60,7 +59,7 @@ function Object:place(target)
     number(target, "z", z), math.rad(number(target, "heading", math.deg(heading))))
 end
 
--- Where it is: {x=, y=, z=, heading=}.
+-- Returns the position and heading of the object: {x=, y=, z=, heading=}.
 function Object:where()
   local x, y, z, heading = host.object_pose(self.id)
   return { x = x, y = y, z = z, heading = math.deg(heading) }
@@ -74,12 +73,12 @@ function Object:hide()
   host.show_object(self.id, false)
 end
 
--- The name of the state that it is in.
+-- Returns the name of the object's state.
 function Object:state()
   return (host.object_state(self.id))
 end
 
--- Into another state at once, without anybody's doing.
+-- Changes the state of the object at once, without an actor.
 function Object:set_state(state)
   if type(state) ~= "string" then
     error("set_state: give the name of a state", 2)
@@ -87,7 +86,7 @@ function Object:set_state(state)
   host.set_object_state(self.id, state)
 end
 
--- The actor who has it in its hands, or nil.
+-- Returns the actor who holds the object, or nil.
 function Object:holder()
   local name = host.holder(self.id)
   return name and actor(name)

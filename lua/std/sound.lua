@@ -1,5 +1,4 @@
--- Sounds that the drama plays by itself. Those of people and objects follow from what
--- they do.
+-- Sounds that the drama plays. The sounds of people and objects follow from their actions.
 
 local host = ...
 
@@ -12,8 +11,8 @@ end
 
 local known = {}
 
--- The sound of that name: audio/NAME.wav (.flac, .ogg, .opus) of the project, or one that
--- is built in.
+-- Returns the sound of this name: audio/NAME.wav (.flac, .ogg, .opus) of the project, or a built-in
+-- one.
 function sound(name)
   if type(name) ~= "string" then
     error("sound: give the name of a sound", 2)
@@ -40,9 +39,9 @@ local function number(options, key, default, least, most, word)
   return value
 end
 
--- Begins it now, once: play{at = {x=, y=, z=}} at a place, play{on = actor or object} there
--- and wherever they go, play() all around the visitor. gain: decibels. loop = true: until
--- it is stopped. fade: seconds in which it comes, with an ease. Does not wait for its end.
+-- Starts the sound: play{at = {x=, y=, z=}} at a place, play{on = actor or object} with an actor or
+-- object, play() all around the visitor. gain: decibels. loop = true: until it is stopped. fade:
+-- fade-in in seconds, with an ease. Does not wait for the end of the sound.
 function Sound:play(options)
   options = options or {}
   if type(options) ~= "table" then
@@ -72,19 +71,19 @@ function Sound:play(options)
   end
 end
 
--- Stops it wherever it is heard; fades out over seconds.
+-- Stops all playbacks of the sound, with a fade-out in seconds.
 function Sound:stop(fade)
   host.stop_sound(self.id, number({ fade = fade }, "fade", 0, 0, 1e4))
 end
 
--- Seconds.
+-- Returns the length of the sound in seconds.
 function Sound:length()
   return self.seconds
 end
 
--- Describes what is to be seen to visitors who have chosen to hear that: a line whose speaker
--- is "description". It is said in the next pause of people's speech; not at all where that
--- takes longer than patience (5 s). Does not wait: the drama is the same for everybody.
+-- Plays a line of the audio description for visitors who have switched it on. The speaker of the
+-- line must be "description". It is said in the next pause of the speech, or not at all if that
+-- takes longer than patience (5 s). Does not wait: the drama is the same for all visitors.
 function describe(line, options)
   options = options or {}
   if type(line) ~= "string" or type(options) ~= "table" then

@@ -1,5 +1,5 @@
--- Time and things that happen at once. Each function that is given to start,
--- together or race becomes a task of its own.
+-- Time, tasks that run at the same time, and triggers. Each function given to start, together or
+-- race becomes a task of its own.
 
 local host = ...
 
@@ -15,9 +15,9 @@ local function check_seconds(value, name)
   end
 end
 
--- Settles the drama as a whole, while the script loads: {when_lost = "hold"}, time stands
--- still while tracking is lost for longer than {patience = seconds}; "go_on": it runs on.
--- {length = seconds}: when its story is told; life may go on after that.
+-- Sets options of the whole drama while the script loads. {when_lost = "hold"}: time stops while
+-- tracking is lost for longer than {patience = seconds}; "go_on": time continues. {length =
+-- seconds}: the end of the story; the drama may continue after it.
 function drama(settings)
   if type(settings) ~= "table" then
     error("drama: give a table like {when_lost = \"hold\"}", 2)
@@ -35,12 +35,12 @@ function drama(settings)
   host.configure(lost == "hold", patience, length)
 end
 
--- Seconds since the drama began.
+-- Returns the seconds since the drama began.
 function now()
   return host.time()
 end
 
--- Lets the calling task sleep.
+-- Suspends the calling task for a number of seconds.
 function wait(seconds)
   if type(seconds) ~= "number" or not (seconds >= 0 and seconds <= 86400) then
     error("wait: give a number of seconds from 0 to 86400", 2)
@@ -48,7 +48,7 @@ function wait(seconds)
   host.wait(seconds)
 end
 
--- What start gives: a task that runs, to be waited for or stopped.
+-- The result of start: a running task, to wait for or to stop.
 local Handle = {}
 Handle.__index = Handle
 Handle.__metatable = false
@@ -56,31 +56,31 @@ Handle.__tostring = function()
   return "task"
 end
 
--- Runs f beside everything else, with whatever else is given. Its handle has
--- handle:stop() and handle:is_over(), and can be given to wait_for, at and after.
+-- Runs f in a task of its own, with the further arguments. The handle has handle:stop() and
+-- handle:is_over(), and can be given to wait_for, at and after.
 function start(f, ...)
   check_function(f, "start")
   local run = f
   if select("#", ...) > 0 then
     local given = table.pack(...)
     run = function()
-      f(table.unpack(given, 1, given.n)) -- no tail call: errors are blamed on this level
+      f(table.unpack(given, 1, given.n)) -- No tail call: errors refer to this level.
     end
   end
   return setmetatable({ task = host.start(run) }, Handle)
 end
 
--- Ends the task wherever it is; one that has ended is left alone.
+-- Ends the task. No effect if it has already ended.
 function Handle:stop()
   host.stop(self.task)
 end
 
--- Whether the task has ended.
+-- Returns whether the task has ended.
 function Handle:is_over()
   return (host.outcome(self.task))
 end
 
--- Stops every task of a list when its owner ends or is stopped itself.
+-- Stops every task of a list when its owner ends or is stopped.
 local owned = {
   __close = function(tasks)
     for _, task in ipairs(tasks) do
@@ -99,8 +99,8 @@ local function start_all(name, ...)
   return tasks
 end
 
--- Runs all functions at once and goes on when the last of them is done: true, or false
--- and why where one of them failed.
+-- Runs all functions at the same time and waits for all of them. Returns true, or false and the
+-- error if one of them failed.
 function together(...)
   local tasks <close> = start_all("together", ...)
   host.join(tasks, false)
@@ -119,16 +119,16 @@ local fails_again = {
   end,
 }
 
--- Runs f, in which what people do may fail without anybody hearing of it: whether all
--- of it was done, and if not why.
+-- Runs f. Tasks of actors in it may fail without a message to the author. Returns true, or false
+-- and the error.
 function attempt(f, ...)
   check_function(f, "attempt")
   local guard <close> = setmetatable({ number = host.attempt() }, fails_again)
   return pcall(f, ...)
 end
 
--- Runs all functions at once, goes on when the first is done and stops the others: which
--- one it was, counted from 1.
+-- Runs all functions at the same time, waits for the first to end and stops the others. Returns the
+-- number of that function, from 1.
 function race(...)
   local tasks <close> = start_all("race", ...)
   if #tasks == 0 then
@@ -142,7 +142,7 @@ function race(...)
   end
 end
 
--- ---- triggers: what makes others begin --------------------------------------
+-- ---- triggers ---------------------------------------------------------------
 
 local Trigger = {}
 Trigger.__index = Trigger
@@ -151,7 +151,7 @@ Trigger.__tostring = function(self)
   return "trigger '" .. self.kind .. "'"
 end
 
--- For other parts of lua/std: a trigger of a kind, with what it needs.
+-- For other files of lua/std: makes a trigger of a kind with its parameters.
 function host.make_trigger(kind, spec)
   spec.kind = kind
   spec.is_trigger = true
@@ -172,14 +172,14 @@ local function arm(trigger)
     trigger.seconds or 0, trigger.text or "", table.unpack(target))
 end
 
--- So many seconds from when it is waited for.
+-- A trigger: a number of seconds has passed since the wait for it began.
 function timeout(seconds)
   check_seconds(seconds, "timeout")
   return host.make_trigger("timeout", { seconds = seconds })
 end
 
--- "lost": the visitor's camera has not been tracked for so many seconds (0.5); "back": it
--- is again.
+-- A trigger. "lost": tracking of the visitor's camera has been lost for some seconds (0.5); "back":
+-- tracking works again.
 function tracking(state, seconds)
   if state ~= "lost" and state ~= "back" then
     error("tracking: give \"lost\" or \"back\"", 2)
@@ -189,7 +189,7 @@ function tracking(state, seconds)
   return host.make_trigger(state, { seconds = seconds })
 end
 
--- A key of the keyboard is pressed: "space", "a", "enter", ...
+-- A trigger: a key of the keyboard is pressed, such as "space", "a" or "enter".
 function key(name)
   if type(name) ~= "string" then
     error("key: give the name of a key", 2)
@@ -197,7 +197,7 @@ function key(name)
   return host.make_trigger("key", { text = name })
 end
 
--- A number, true, false or a text as messages have them.
+-- Encodes a number, true, false or a text as an argument of a message.
 local function argument_of(value)
   if math.type(value) == "integer" then
     return string.format("%d", value)
@@ -213,8 +213,8 @@ local function argument_of(value)
   error("osc: give a number, a text, true or false", 3)
 end
 
--- A message of another program comes in (Open Sound Control), whatever it says or with this
--- first argument: osc("/door/open"), osc("/door/open", 1).
+-- A trigger: a message of another program arrives (Open Sound Control), with any arguments or with
+-- this first argument: osc("/door/open"), osc("/door/open", 1).
 function osc(address, value)
   if type(address) ~= "string" or not address:match("^/[^%s,]+$") then
     error("osc: give an address like \"/door/open\"", 2)
@@ -226,12 +226,12 @@ function osc(address, value)
   return host.make_trigger("message", { text = text })
 end
 
--- What the last message of an address said: its arguments; nothing where none has come.
+-- Returns the arguments of the last message with this address; nothing if there was none.
 function heard(address)
   return host.heard(address)
 end
 
--- It is that time of day where the visitor is: clock("9:30").
+-- A trigger: the local time of day is reached: clock("9:30").
 function clock(time)
   local hour, minute = tostring(time):match("^(%d%d?):(%d%d)$")
   hour, minute = tonumber(hour), tonumber(minute)
@@ -241,7 +241,7 @@ function clock(time)
   return host.make_trigger("clock", { seconds = hour * 3600 + minute * 60 })
 end
 
--- The timeline passes a marker: track{markers = {{at = 10, name = "noon"}}}.
+-- A trigger: the timeline passes a marker of track{markers = {{at = 10, name = "noon"}}}.
 function marker(name)
   if type(name) ~= "string" then
     error("marker: give the name of a marker", 2)
@@ -249,8 +249,7 @@ function marker(name)
   return host.make_trigger("marker", { text = name })
 end
 
--- Runs f each time that something happens; not again while it runs. Until the handle that
--- it gives is stopped.
+-- Runs f each time that a trigger fires, but not while f is still running. Stop it with the handle.
 function on(trigger, f)
   if type(trigger) ~= "table" or not trigger.is_trigger then
     error("on: give a trigger like visitor:near(\"keeper\", 2)", 2)
@@ -267,7 +266,7 @@ function on(trigger, f)
   end)
 end
 
--- Waits for the first of several triggers: which one it was, counted from 1.
+-- Waits for the first of several triggers. Returns its number, from 1.
 function first(...)
   local armed <close> = setmetatable({}, drops)
   local counts = {}
@@ -292,11 +291,10 @@ end
 
 -- ---- points of a task ---------------------------------------------------------
 
--- Waits until a task that was started reaches a point of the first thing that is done in
--- it: "start", "ready", "stroke_start", "stroke", "stroke_end", "relax", "end" (of the whole
--- task; what is left out), or so many seconds later. Also before it, where gestures and
--- speech say ahead when that will be. Or waits for a trigger.
--- Gives true; or false and why, where the task has failed.
+-- Waits until a started task reaches a point of its first action: "start", "ready", "stroke_start",
+-- "stroke", "stroke_end", "relax", or "end" (the default, the end of the whole task). seconds is
+-- added to that time. It may be negative for gestures and speech, whose points are known in
+-- advance. Also waits for a trigger. Returns true, or false and the error if the task has failed.
 function wait_for(what, point, seconds)
   if type(what) == "table" and what.is_trigger then
     first(what)
@@ -315,8 +313,8 @@ function wait_for(what, point, seconds)
   return true
 end
 
--- Runs f when a task reaches a point, or so many seconds later: at(line, "stroke", f),
--- at(line, "stroke", 0.2, f). Not where the task fails before.
+-- Runs f when a task reaches a point, or some seconds later: at(line, "stroke", f), at(line,
+-- "stroke", 0.2, f). Does not run it if the task fails before.
 function at(handle, point, seconds, f)
   if f == nil then
     seconds, f = 0, seconds
@@ -329,7 +327,7 @@ function at(handle, point, seconds, f)
   end)
 end
 
--- Runs f when a task has ended well.
+-- Runs f when a task has ended without an error.
 function after(handle, f)
   check_function(f, "after")
   return at(handle, "end", 0, f)
@@ -345,9 +343,9 @@ local points = {
   ["end"] = 7,
 }
 
--- Gestures and speech of several people whose points fall together:
--- meet("stroke", {keeper, "gesture", "wave"}, {guest, "say", "salvete"}). Each may have
--- another point of its own: {guest, "say", "salvete", point = "end"}. Waits for all.
+-- Runs gestures and speech of several actors so that their points coincide: meet("stroke", {keeper,
+-- "gesture", "wave"}, {guest, "say", "salvete"}). Each may name another point: {guest, "say",
+-- "salvete", point = "end"}. Waits for all of them.
 function meet(point, ...)
   local delays, latest = {}, 0
   local acts = { ... }

@@ -1,9 +1,9 @@
--- Tracks: the declarative part of a drama, written down against its time, which the
--- editor's timeline shows and edits.
+-- Tracks: the declarative part of a drama, with fixed times. The editor's timeline shows and edits
+-- it.
 
 local host = ...
 
-local FADE = 0.3 -- seconds
+local FADE = 0.3 -- Seconds.
 
 local function fail(index, problem)
   error("track: clips[" .. index .. "]: " .. problem, 3)
@@ -20,7 +20,7 @@ local function number(entry, index, key, default, least)
   return value
 end
 
--- A point {x=, y=, z=}; what is left out is as in `default`.
+-- Reads a point {x=, y=, z=}; missing values are those of `default`.
 local function point(value, index, key, default)
   if value == nil then
     return default
@@ -35,7 +35,7 @@ local function point(value, index, key, default)
   }
 end
 
--- The clips that lead an actor; name: its name, id: its id.
+-- Adds the clips that lead an actor with this name and id.
 local function lead(clips, name, id)
   local position, heading, time = { x = 0, y = 0, z = 0 }, 0, 0
   for index, entry in ipairs(clips) do
@@ -77,13 +77,13 @@ local function lead(clips, name, id)
   end
 end
 
--- Lanes that are played by the host, in this order.
+-- Lanes of actors that the host plays, in this order.
 local of_actor = { "gestures", "speech", "walks", "uses", "gaze", "expressions" }
 
--- Lanes that are played by words of lua/std: what begins an item, and what ends it.
+-- Lanes that lua/std plays: the functions that start and end an item.
 local by_words = {}
 
--- Says how lanes of a name are played: begin(item) at its time, stop(item) at its end.
+-- Registers the functions for a lane: begin(item) at its time, stop(item) at its end.
 function host.play_lane(name, begin, stop)
   by_words[name] = { begin = begin, stop = stop }
 end
@@ -92,13 +92,13 @@ local function by_time(a, b)
   return a.at < b.at
 end
 
--- Plays the items of a lane one after the other.
+-- Plays the items of a lane in the order of their times.
 local function play(name, items)
   local lane = by_words[name]
   local sorted = {}
   for index, item in ipairs(items) do
     if type(item) ~= "table" then
-      error("track: " .. name .. "[" .. index .. "]: an item {at = 0, ...} belongs here", 3)
+      error("track: " .. name .. "[" .. index .. "]: write an item {at = 0, ...} here", 3)
     end
     number(item, index, "at", nil, 0)
     number(item, index, "length", 0, 0)
@@ -125,7 +125,7 @@ end, function(item)
   light(item.light):set{ level = 1, seconds = item.seconds, ease = item.ease }
 end)
 
--- Where an item's sound is: with an actor or an object, at a point, or all around.
+-- Options of an item's sound: on an actor or an object, at a point, or all around.
 local function source(item)
   local on = item.actor and actor(item.actor) or item.object and object(item.object) or nil
   return { on = on, at = item.from, gain = item.gain, loop = item.loop, fade = item.fade,
@@ -142,7 +142,7 @@ host.play_lane("descriptions", function(item)
   describe(item.line, item)
 end)
 
--- Lanes of the stage that are played by the host.
+-- Lanes of the stage that the host plays.
 local of_stage = { "captions", "markers" }
 
 local known = { actor = true, clips = true, captions = true, markers = true }
@@ -150,18 +150,17 @@ for _, name in ipairs(of_actor) do
   known[name] = true
 end
 
--- track{ actor = "keeper", speech = {{at = 2, line = "salvete"}}, ... }
--- Lanes of items. Each item has a time `at`, in seconds of the drama, and may have a
--- length, an id and an ease. Of an actor: clips that lead its whole body, or gestures,
--- speech, walks, uses, gaze, expressions; of the stage: lights, sounds, captions, descriptions,
--- markers.
+-- Declares lanes of items: track{actor = "keeper", speech = {{at = 2, line = "salvete"}}, ...}.
+-- Each item has a time `at`, in seconds of the drama, and may have a length, an id and an ease.
+-- Lanes of an actor are clips, which lead its whole body, or gestures, speech, walks, uses, gaze
+-- and expressions. Lanes of the stage are lights, sounds, captions, descriptions and markers.
 function track(spec)
   if type(spec) ~= "table" then
     error("track: give {actor = name, speech = {...}}", 2)
   end
   for key, items in pairs(spec) do
     if not known[key] and not by_words[key] then
-      error("track: knows no '" .. tostring(key) .. "'", 2)
+      error("track: there is no lane '" .. tostring(key) .. "'", 2)
     elseif key ~= "actor" and type(items) ~= "table" then
       error("track: " .. key .. " must be a list of items {at = 0, ...}", 2)
     end

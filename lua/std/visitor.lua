@@ -1,5 +1,5 @@
--- The visitor: whoever watches through the camera. What they do may begin things, and
--- people may take notice of them.
+-- The visitor: the person who watches through the camera. Their actions can be triggers, and actors
+-- can react to them.
 
 local host = ...
 
@@ -17,7 +17,7 @@ local function number(value, default, low, high, what, name)
   return value
 end
 
--- An actor, an object, the name of one, or a point {x=, y=, z=}, as the host takes it.
+-- Converts an actor, an object, the name of one, or a point {x=, y=, z=} for the host.
 local function target_of(value, what)
   if type(value) == "string" then
     local id = host.actor(value)
@@ -28,7 +28,7 @@ local function target_of(value, what)
     if id then
       return { "object", id }
     end
-    fail(what, "there is nobody and nothing called '" .. value .. "'")
+    fail(what, "there is no actor or object called '" .. value .. "'")
   elseif type(value) == "table" and value.is_object then
     return { "object", value.id }
   elseif type(value) == "table" and value.id then
@@ -49,18 +49,18 @@ end
 
 visitor = setmetatable({}, Visitor)
 
--- Where their eyes are and where they look: {x=, y=, z=, heading=}, as last known.
+-- Returns the last known position of the visitor's eyes and the heading: {x=, y=, z=, heading=}.
 function Visitor:where()
   local _, x, y, z, heading = host.visitor()
   return { x = x, y = y, z = z, heading = math.deg(heading) }
 end
 
--- Whether they are known to be there: the camera is tracked.
+-- Returns whether the visitor's camera is tracked.
 function Visitor:is_here()
   return (host.visitor())
 end
 
--- Metres on the floor from somebody or something; nil while nobody knows.
+-- Returns the distance on the floor to an actor, an object or a point in metres; nil if unknown.
 function Visitor:distance(target)
   return host.distance(table.unpack(target_of(target, "distance")))
 end
@@ -75,13 +75,13 @@ local function near(kind, target, metres, options)
   })
 end
 
--- They come within so many metres (1.5) of somebody or something; again once they were
--- further than {leave = metres} (a fifth more).
+-- A trigger: the visitor comes within some metres (1.5) of an actor, an object or a point. Fires
+-- again after the visitor was further away than {leave = metres} (20 % more).
 function Visitor:near(target, metres, options)
   return near("near", target, metres, options)
 end
 
--- They go away, having been within so many metres (1.5), further than {leave = metres}.
+-- A trigger: after having been within some metres (1.5), the visitor goes beyond {leave = metres}.
 function Visitor:leaves(target, metres, options)
   return near("leaves", target, metres, options)
 end
@@ -95,18 +95,19 @@ local function look(kind, target, options, seconds)
   })
 end
 
--- They look within {angle = degrees} (8) of somebody or something for {seconds = 0.7};
--- again once they looked elsewhere.
+-- A trigger: the visitor looks within {angle = degrees} (8) of an actor, an object or a point for
+-- {seconds = 0.7}. Fires again after the visitor has looked elsewhere.
 function Visitor:looks_at(target, options)
   return look("looks_at", target, options, 0.7)
 end
 
--- Having looked at it they look elsewhere for {seconds = 2}.
+-- A trigger: after having looked at the target, the visitor looks elsewhere for {seconds = 2}.
 function Visitor:looks_away(target, options)
   return look("looks_away", target, options, 2)
 end
 
--- They stay for so many seconds where they are, or {at = target}, within {metres = 0.7}.
+-- A trigger: the visitor stays within {metres = 0.7} for some seconds (5), anywhere or {at =
+-- target}.
 function Visitor:stays(seconds, options)
   options = options or {}
   return host.make_trigger("stays", {
@@ -116,11 +117,11 @@ function Visitor:stays(seconds, options)
   })
 end
 
--- ---- people who notice the visitor ------------------------------------------------
+-- ---- actors who react to the visitor ----------------------------------------------
 
 local Actor = host.actor_class
 
--- Where something to face is: x, z; or nothing.
+-- Returns the position x, z of a target to face.
 local function place_of(target, what)
   if target == "visitor" then
     local _, x, _, z = host.visitor()
@@ -134,7 +135,7 @@ local function place_of(target, what)
   return x, z
 end
 
--- Turns to somebody or something, "visitor" or a point.
+-- Turns to an actor, an object, "visitor" or a point.
 function Actor:face(target, options)
   local x, z = place_of(target, "face")
   local x0, _, z0 = host.pose(self.id)
@@ -143,8 +144,8 @@ function Actor:face(target, options)
   end
 end
 
--- Greets the visitor: turns to them, looks at them, smiles; {say = line, gesture = clip,
--- expression = "joy", turn = true}. Then goes on looking wherever it likes.
+-- Greets the visitor: turns to them, looks at them and smiles. {say = line, gesture = clip,
+-- expression = "joy", turn = true}. Afterwards the actor chooses itself what to look at.
 function Actor:greet(options)
   options = options or {}
   if type(options) ~= "table" then
@@ -170,8 +171,8 @@ function Actor:greet(options)
   self:look_at()
 end
 
--- Says a line to the visitor, once they look at it: whether they did, within {patience =
--- 10} seconds. {always = true}: says it in any case.
+-- Says a line when the visitor looks at the actor within {patience = 10} seconds. Returns whether
+-- the visitor did. {always = true}: says the line in any case.
 function Actor:address(line, options)
   options = options or {}
   local patience = number(options.patience, 10, 0, 3600, "address", "patience")
@@ -184,15 +185,15 @@ function Actor:address(line, options)
   return looks
 end
 
--- Steps aside whenever the visitor comes nearer than so many metres (0.8), and back to its
--- place when there is room again. Until the handle that it gives is stopped.
+-- Steps aside when the visitor comes nearer than some metres (0.8), and returns when there is room
+-- again. Stop it with the handle.
 function Actor:keep_distance(metres)
   metres = number(metres, 0.8, 0.2, 5, "keep_distance", "the distance")
   return on(visitor:near(self, metres, { leave = 1.3 * metres }), function()
     local home = self:where()
     local x, z = host.aside(self.id, 1.4 * metres)
     if not x then
-      return -- there is no room
+      return -- There is no room.
     end
     self:look_at("visitor")
     attempt(function()

@@ -1,11 +1,12 @@
-// What arrives at a surface of people and props, without the sun: from vertices, by light
-// transfer, or from all around. Its values at hand are declared by whoever includes it.
+// The light that arrives at a surface of people and props, without the sun: from light transfer at
+// the vertices, or unshadowed. The including file declares position_in_stage and the values of the
+// transfer.
 
 #include "surface.glsl"
 
 uniform int has_transfer;
 
-// front: on the side that the vertices' normals point to. normal: on the side at hand.
+// front: true for the side that the vertices' normals point to. normal: normal of the lit side.
 Arriving LightOn(vec3 normal, bool front) {
   Arriving arriving = Unshadowed(normal);
   if (has_transfer == 1) {
@@ -16,7 +17,7 @@ Arriving LightOn(vec3 normal, bool front) {
       arriving.open = dot(back_share, vec3(0.2126, 0.7152, 0.0722));
     }
   }
-  // Transfer has the lamps' light, with its shadows.
+  // Light transfer contains the lamps' light already, with its shadows.
   int unlit = has_transfer == 1 ? 0 : lamp_count;
   for (int i = 0; i < unlit; ++i) {
     SeenLamp lamp = SeeLamp(i, position_in_stage);

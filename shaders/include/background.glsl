@@ -1,5 +1,5 @@
-// The camera's image where the picture has it, sRGB-encoded. RECTIFIED: it is the picture's
-// already, pixel by pixel.
+// The camera's image at a pixel of the picture, sRGB-encoded. RECTIFIED: the image has the pixels
+// of the picture already.
 
 #ifdef RECTIFIED
 uniform sampler2D image;
@@ -11,12 +11,12 @@ vec3 Background(vec2 raw) { return texelFetch(image, ivec2(raw), 0).rgb; }
 #include "camera.glsl"
 
 uniform bool has_image;
-uniform sampler2D image;  // raw
+uniform sampler2D image;  // not rectified
 uniform vec4 display_intrinsics;
 uniform vec4 camera_intrinsics;
 uniform vec4 camera_distortion;
 
-// Of the camera's image.
+// The position in the camera's image, pixels.
 vec2 RawPixel() {
   vec2 plane = PlaneFromPixel(gl_FragCoord.xy - 0.5, display_intrinsics);
   return has_image ? PixelFromPlane(plane, camera_intrinsics, camera_distortion)

@@ -1,5 +1,5 @@
-// A camera's intrinsics: (fx, fy, cx, cy), pixels; integer coordinates are pixel
-// centres. Distortion: (k1, k2, p1, p2), as in shared/geometry/camera_model.h.
+// Intrinsics of a camera are (fx, fy, cx, cy) in pixels; integer coordinates are pixel centres.
+// Distortion is (k1, k2, p1, p2) as in shared/geometry/camera_model.h.
 
 vec2 PlaneFromPixel(vec2 pixel, vec4 intrinsics) {
   return (pixel - intrinsics.zw) / intrinsics.xy;

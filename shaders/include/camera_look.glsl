@@ -1,23 +1,23 @@
-// People as the camera would have taken them: as soft as its lens makes things, smeared by
-// its own motion, and as noisy as its sensor. The camera's image has all this already.
+// People as the camera would have recorded them: with the softness of its lens, the blur of its own
+// motion and the noise of its sensor. The camera's image contains all this already.
 
 uniform sampler2D people;     // linear light times coverage, coverage; bottom row first
-uniform vec4 smeared_bounds;  // left, bottom, right, top: nobody is seen outside
+uniform vec4 smeared_bounds;  // left, bottom, right, top; no people outside, blur included
 
-// Where a pixel's ray met people's distance one frame ago, and since: homographies of
-// pixels (from the bottom row) for a plane across the view.
+// Homography to pixels of one frame ago, for a plane across the view at the distance of people.
+// Rows of both count from the bottom.
 uniform mat3 previous_from_pixel;
-uniform float shutter;  // 0: nothing smears
-// Evenly weighted taps, along the motion and across it.
+uniform float shutter;  // 0: no motion blur
+// Number of equally weighted taps along the motion and across it.
 uniform ivec2 taps;
-uniform float lens_spread;      // pixels over which they lie, without motion
-uniform float lens_variance12;  // twelve times the lens's variance: a box of that square
-uniform float tap_stretch;      // so that taps along the motion have the variance of the box
+uniform float lens_spread;      // length covered by the taps without motion, pixels
+uniform float lens_variance12;  // 12 times the lens's variance, the squared length of an equal box
+uniform float tap_stretch;      // factor that gives the taps the variance of the box
 
 uniform int noise_is_on;
-uniform vec2 noise;             // floor^2, slope of the variance
+uniform vec2 noise;             // variance: floor^2, slope
 uniform sampler2D noise_tile;   // normal numbers n as (1 + n / kNoiseRange) / 2
-uniform vec2 noise_offset;      // of this frame, texels
+uniform vec2 noise_offset;      // offset for this frame, texels
 
 const float kLongestSmear = 24.0;  // pixels
 const float kNoiseRange = 4.0;
@@ -30,7 +30,8 @@ vec2 Motion(vec2 cell) {
   return motion * min(1.0, kLongestSmear * inversesqrt(max(dot(motion, motion), 1e-12)));
 }
 
-// The shutter's box along the motion, widened by the lens, and the lens across it.
+// Averages people along the motion (the shutter's box, widened by the lens) and across it (the lens
+// alone).
 vec4 SmearedPeople(vec2 cell) {
   vec2 axis = vec2(1.0, 0.0);
   float spread = lens_spread;
@@ -52,7 +53,7 @@ vec4 SmearedPeople(vec2 cell) {
   return sum / float(taps.x * taps.y);
 }
 
-// raw: the pixel of the camera's image, so that noise is as coarse as that is drawn.
+// raw: pixel of the camera's image, so that the noise has the grain of the image as it is drawn.
 vec3 CameraNoise(vec3 encoded, vec2 raw) {
   vec2 at = (raw + 0.5 + noise_offset) / vec2(textureSize(noise_tile, 0));
   vec3 normal = (2.0 * textureLod(noise_tile, at, 0.0).rgb - 1.0) * kNoiseRange;

@@ -1,21 +1,21 @@
-// What a real surface's pixel keeps of its light and gains by lamps: of the sky's from the
-// coarse image of ratios, of the sun's where it is not in the shadow of real things already.
+// The factor on the light of a pixel of a real surface. The part for sky and lamps is upsampled
+// from the coarse image of ratios; the sun's part counts only outside shadows of real objects.
 
 #include "catcher.glsl"
 #include "octahedral.glsl"
 #include "sun.glsl"
 
 uniform sampler2D sky_ratio;       // shaders/pass/sky_ratio.frag
-uniform sampler2D sky_irradiance;  // without anybody, by normal
+uniform sampler2D sky_irradiance;  // irradiance without people, by normal
 
-// How much a coarse cell says about a point: it must lie in the same plane (joint bilateral
-// upsampling, Kopf et al., SIGGRAPH 2007, with plane and normal for guides).
+// Weight of a coarse cell for a point, large if both lie in the same plane (joint bilateral
+// upsampling, Kopf et al., SIGGRAPH 2007, guided by plane and normal).
 float PlaneWeight(ivec2 coarse, float depth, vec3 point, vec3 normal, float tolerance) {
   ivec2 cell = CoarseSource(coarse);
   float off = dot(SurfacePoint(cell, depth) - point, normal) / tolerance;
   float alike = max(dot(SurfaceNormal(texelFetch(surface_normal, cell, 0)), normal), 0.0);
   alike *= alike;
-  // A little is left of what does not fit, so that something is said where nothing does.
+  // The minimum gives a result even if no cell fits.
   return max(exp2(-off * off) * alike * alike * alike * alike, 1e-5);
 }
 
@@ -32,7 +32,7 @@ vec4 WeightedRatio(ivec2 coarse, float share, float depth, vec3 point, vec3 norm
   return weight * vec4(texel.rgb, 1.0);
 }
 
-// Whether any of the four coarse cells about a cell is darker or, by a lamp, brighter.
+// True if shadows or lamps change any of the four coarse cells around a cell.
 bool ChangedAbout(ivec2 first) {
   ivec2 low = ivec2(catcher_bounds.xy) / shadow_cell;
   ivec2 high = (ivec2(catcher_bounds.zw) - 1) / shadow_cell;
@@ -55,7 +55,7 @@ vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
     vec2 share = mix(1.0 - part, part, vec2(corner));
     sum += WeightedRatio(first + corner, share.x * share.y + 1e-3, depth, point, normal);
   }
-  // Along edges none of the four may fit, but some beyond them.
+  // Along edges, none of the four cells may fit, but some of their neighbours do.
   int more = corners > 0 && sum.a < 1e-2 ? 16 : 0;
   for (int i = 0; i < more; ++i) {
     sum += WeightedRatio(first - 1 + ivec2(i & 3, i >> 2), 0.1, depth, point, normal);
@@ -63,7 +63,7 @@ vec3 SkyRatio(ivec2 cell, vec3 point, vec3 normal, float depth) {
   return sum.a > 0.0 ? sum.rgb / sum.a : vec3(1.0);
 }
 
-// kept: the sky's ratio.
+// Combines the ratio of the sky (kept) with the sun.
 vec3 WithSun(vec3 kept, vec3 point, vec3 normal) {
   float cosine = dot(normal, sun_direction);
   int faces = cosine > 0.0 ? 1 : 0;
@@ -81,7 +81,7 @@ vec3 CaughtShadow(ivec2 cell) {
   vec3 point = SurfacePoint(cell, depth);
   vec3 normal = SurfaceNormal(surface);
   vec3 kept = vec3(1.0);
-  // Loops instead of ifs: shaders/include/sun.glsl.
+  // Loops replace ifs: see SeenPast in shaders/include/sun.glsl.
   int receives = surface.a > 0.5 ? 1 : 0;
   for (int i = 0; i < receives; ++i) {
     kept = SkyRatio(cell, point, normal, depth);

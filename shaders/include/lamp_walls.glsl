@@ -1,11 +1,11 @@
-// What of the real place stands in lamps' light (shared/light/lamp_walls.h).
+// Real walls that block the light of lamps (shared/light/lamp_walls.h).
 
 #include "octahedral.glsl"
 
-uniform highp sampler3D lamp_walls;  // planes, a layer for each lamp
-uniform int lamps_with_walls;  // a bit for each
+uniform highp sampler3D lamp_walls;  // planes, one layer for each lamp
+uniform int lamps_with_walls;        // bit i: lamp i has walls
 
-// Farther behind a plane than this is not on it (LampWalls::kOnWall).
+// A point farther behind a plane than this, in metres, is in its shadow (LampWalls::kOnWall).
 const float kOnWall = 0.03;
 
 float PastWall(ivec3 texel, vec3 point) {
@@ -13,7 +13,8 @@ float PastWall(ivec3 texel, vec3 point) {
   return dot(plane.xyz, point) - plane.w > kOnWall ? 0.0 : 1.0;
 }
 
-// The share of a lamp's light that comes past the walls to a point; way: from lamp to point.
+// The share of a lamp's light that passes the walls and reaches a point. way: direction from lamp
+// to point.
 float PastWalls(int lamp, vec3 way, vec3 point) {
   float seen = 1.0;
   for (int i = 0; i < (lamps_with_walls >> lamp & 1); ++i) {

@@ -1,15 +1,15 @@
-// Small lights, balls of even radiance (shared/light/lamp.h).
+// Lamps, which are balls of uniform radiance (shared/light/lamp.h).
 
 uniform int lamp_count;
-uniform vec4 lamp_places[8];      // centre, stage axes, and radius
-uniform vec3 lamp_intensities[8];  // irradiance of a facing surface at one metre
+uniform vec4 lamp_places[8];       // centre (stage axes), radius
+uniform vec3 lamp_intensities[8];  // irradiance on a facing surface at one metre
 
-// A lamp from a point.
+// A lamp as seen from a point.
 struct SeenLamp {
   vec3 direction;
   float distance;
-  vec3 irradiance;  // of a surface that faces it
-  float sine;       // of its angular radius
+  vec3 irradiance;  // irradiance of a surface that faces the lamp
+  float sine;       // sine of its angular radius
 };
 
 SeenLamp SeeLamp(int index, vec3 point) {
@@ -21,8 +21,8 @@ SeenLamp SeeLamp(int index, vec3 point) {
                   place.w / outside);
 }
 
-// The cosine that irradiance follows, of a ball that may be partly below the horizon: a
-// parabola between where it rises and where it is wholly up.
+// The cosine factor of irradiance from a ball that may be partly below the horizon: a parabola
+// between the point where it begins to rise and the point where all of it is above.
 float LampCosine(SeenLamp lamp, vec3 normal) {
   float cosine = dot(normal, lamp.direction);
   float risen = max(cosine + lamp.sine, 0.0);

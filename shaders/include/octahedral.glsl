@@ -1,4 +1,4 @@
-// Where a direction lies in an octahedral map about +Y (shared/render/sky_cones.h).
+// The position of a direction in an octahedral map about +Y (shared/render/passes/sky_cones.h).
 
 vec2 OctahedralPosition(vec3 direction) {
   vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));

@@ -1,8 +1,8 @@
-// From a cell of the picture and its depth to a point of the stage. Cells count from the
+// Converts a cell of the picture and its depth to a point in stage axes. Cells count from the
 // bottom row.
 
 uniform vec3 eye_in_stage;
-uniform vec3 ray_at_corner;  // from the eye, one metre deep, through the picture's corner
+uniform vec3 ray_at_corner;  // ray through the picture's corner, one metre deep
 uniform vec3 ray_per_column;
 uniform vec3 ray_per_row;
 uniform vec2 near_far;
@@ -12,7 +12,7 @@ vec3 RayThrough(ivec2 cell) {
   return ray_at_corner + at.x * ray_per_column + at.y * ray_per_row;
 }
 
-// Metres along the camera's axis, from what a depth buffer holds.
+// Converts a value of the depth buffer to metres along the camera's axis.
 float DepthInMetres(float buffered) {
   float clip = 2.0 * buffered - 1.0;
   return 2.0 * near_far.x * near_far.y /

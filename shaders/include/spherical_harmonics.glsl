@@ -1,9 +1,9 @@
-// Irradiance at a unit normal from real spherical harmonics of radiance, degrees
-// 0..2, index l(l+1)+m (Ramamoorthi & Hanrahan, SIGGRAPH 2001, equation 13). The
-// same basis as shared/light/spherical_harmonics.h; coefficients arrive there
-// multiplied by the clamped cosine (pi, 2 pi / 3, pi / 4) and the basis' constants.
+// Irradiance at a unit normal from real spherical harmonics of degrees 0..2, index l(l+1)+m
+// (Ramamoorthi & Hanrahan, SIGGRAPH 2001, equation 13). The basis is that of
+// shared/light/spherical_harmonics.h; the coefficients of radiance are already multiplied by those
+// of the clamped cosine (pi, 2 pi / 3, pi / 4) and by the constants of the basis.
 
-// Added where something is divided by unshadowed irradiance.
+// Added to unshadowed irradiance before dividing by it.
 const float kLeastUnshadowed = 1e-3;
 
 vec3 Irradiance(vec3 c[9], vec3 n) {

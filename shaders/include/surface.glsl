@@ -1,8 +1,7 @@
-// The radiance of surfaces under distant light: spherical harmonics for all of it, and for
-// highlights a prefiltered map and the sun; without a map, the one direction that most of
-// the light comes from. SURFACE_PLAIN,
-// SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH, SURFACE_EYE or SURFACE_METAL chooses the model,
-// REFLECTIONS whether there is a map.
+// The radiance of surfaces under distant light. Diffuse light comes from spherical harmonics.
+// Highlights come from a prefiltered map and the sun; without a map, from the main direction of
+// light. SURFACE_PLAIN, SURFACE_SKIN, SURFACE_HAIR, SURFACE_CLOTH, SURFACE_EYE or SURFACE_METAL
+// selects the model; REFLECTIONS says that there is a map.
 
 #ifdef REFLECTIONS
 #include "glossy.glsl"
@@ -11,36 +10,36 @@
 #include "spherical_harmonics.glsl"
 
 uniform int has_sun;
-uniform vec3 sun_direction;  // towards it, unit, stage axes
+uniform vec3 sun_direction;  // towards the sun, unit, stage axes
 uniform vec3 irradiance[9];
 uniform int matte_only;
 uniform vec3 key_direction;   // towards the light, unit, stage axes
-uniform vec3 key_irradiance;  // of a surface that faces it; of the sun where there is one
+uniform vec3 key_irradiance;  // facing the light; the sun's if there is a sun
 
-// Of the surface at hand: what arrives of the key light, and how much of all is not in
-// somebody's shadow.
+// For the current surface: the irradiance of the key light that arrives, and the share of all light
+// that is not in shadow.
 vec3 key_light;
 float open_share;
 
 const float kPi = 3.14159265358979;
 
-// Of a smooth dielectric at a cosine (Schlick).
+// Reflectance of a smooth dielectric (Schlick). f0: reflectance at normal incidence.
 float Fresnel(float f0, float cosine) {
   float rest = 1.0 - cosine;
   float squared = rest * rest;
   return f0 + (1.0 - f0) * squared * squared * rest;
 }
 
-// The share of even light that a rough dielectric reflects (Karis, "Physically Based
-// Shading on Mobile", 2014).
+// The share of uniform light that a rough dielectric reflects (Karis, "Physically Based Shading on
+// Mobile", 2014).
 float ReflectedShare(float f0, float roughness, float cosine) {
   vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
   float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
   return f0 * (-1.04 * a + r.z) + 1.04 * a + r.w;
 }
 
-// What a rough dielectric reflects of an irradiance from one direction: GGX (Walter et al.,
-// EGSR 2007), with the visibility of Hammon, "PBR Diffuse Lighting for GGX+Smith", GDC 2017.
+// Radiance that a rough dielectric reflects per irradiance from one direction: GGX (Walter et al.,
+// EGSR 2007), with the visibility term of Hammon, "PBR Diffuse Lighting for GGX+Smith", GDC 2017.
 float Glint(vec3 direction, vec3 normal, vec3 to_eye, float f0, float alpha) {
   vec3 half_way = normalize(direction + to_eye);
   float n_l = max(dot(normal, direction), 0.0);
@@ -53,12 +52,12 @@ float Glint(vec3 direction, vec3 normal, vec3 to_eye, float f0, float alpha) {
   return distribution * visibility * fresnel * n_l;
 }
 
-// Clay, wood and plaster that are rougher count as matte.
+// Plain surfaces (clay, wood, plaster) that are rougher than this count as matte.
 const float kMatte = 0.75;
 
 float LobeOf(float roughness) { return max(roughness * roughness, 2e-3); }
 
-// A lamp's own size widens its glint (Karis 2013, "Sphere Lights").
+// The size of a lamp widens its highlight (Karis 2013, "Sphere Lights").
 vec3 LampHighlights(vec3 normal, vec3 to_eye, float f0, float roughness) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < lamp_count; ++i) {
@@ -69,11 +68,11 @@ vec3 LampHighlights(vec3 normal, vec3 to_eye, float f0, float roughness) {
   return open_share * sum;
 }
 
-// What comes from around without a map is as blurred as irradiance is; the key light, from
-// which it is apart, glints.
+// Highlight without a map: the surroundings are as blurred as irradiance; the key light, which is
+// subtracted from them, gives a sharp highlight.
 vec3 KeyHighlight(vec3 normal, vec3 mirrored, vec3 to_eye, float f0, float roughness) {
   vec3 around = Irradiance(irradiance, mirrored);
-  if (has_sun == 0) {  // which is not in the harmonics
+  if (has_sun == 0) {  // the sun is not part of the harmonics
     around -= key_irradiance * max(dot(mirrored, key_direction), 0.0);
   }
   float share = ReflectedShare(f0, roughness, max(dot(normal, to_eye), 0.0));
@@ -88,13 +87,13 @@ vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
 #ifndef REFLECTIONS
   return sum + KeyHighlight(normal, mirrored, to_eye, f0, roughness);
 #else
-  // Rough surfaces mirror from nearer the normal (Lagarde & de Rousiers, "Moving Frostbite to
-  // PBR", SIGGRAPH 2014 courses, "Dominant direction").
+  // Rough surfaces reflect from directions nearer to the normal (Lagarde & de Rousiers, "Moving
+  // Frostbite to PBR", SIGGRAPH 2014 courses, "Dominant direction").
   float alpha = LobeOf(roughness);
   vec3 towards = mix(normal, mirrored, (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha));
   float n_v = max(dot(normal, to_eye), 0.0);
-  // What irradiance lost to shadows the mirrored light lost too, the less the sharper it is
-  // (likewise, "Specular occlusion").
+  // Shadows reduce reflections like irradiance, but less the sharper the reflection is (the same
+  // course, "Specular occlusion").
   float open = clamp(pow(n_v + open_share, exp2(-16.0 * roughness - 1.0)) - 1.0 + open_share,
                      0.0, 1.0);
   sum += open * ReflectedShare(f0, roughness, n_v) * Mirrored(normalize(towards), roughness);
@@ -105,15 +104,14 @@ vec3 Highlight(vec3 normal, vec3 to_eye, float f0, float roughness) {
 #endif
 }
 
-// One lobe of light along strands (Kajiya & Kay, SIGGRAPH 1989), moved towards root
-// or tip.
+// One lobe of light along strands (Kajiya & Kay, SIGGRAPH 1989), shifted towards root or tip.
 float StrandLobe(vec3 strand, vec3 normal, vec3 half_way, float shift, float exponent) {
   float along = dot(normalize(strand + shift * normal), half_way);
   return smoothstep(-1.0, 0.0, along) * pow(max(1.0 - along * along, 0.0), 0.5 * exponent);
 }
 
-// The white lobe comes from the strands' surface, the coloured one from within
-// (Marschner et al., SIGGRAPH 2003; lobes as Scheuermann 2004 places them).
+// The white lobe comes from the surface of the strands, the coloured one from inside (Marschner et
+// al., SIGGRAPH 2003; positions of the lobes after Scheuermann 2004).
 vec3 HairHighlight(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness) {
   vec3 half_way = normalize(key_direction + to_eye);
   float sharpness = mix(120.0, 12.0, roughness);
@@ -123,8 +121,8 @@ vec3 HairHighlight(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float rou
   return key_light * facing * (0.02 * white + 0.08 * sqrt(albedo) * coloured);
 }
 
-// Light caught by fibres that stand off the cloth: strongest at grazing sight, and
-// where sight and light have one direction.
+// Light scattered by fibres that stand off the cloth. It is strongest at grazing views, and when
+// the light comes from the direction of the eye.
 vec3 Fuzz(vec3 albedo, vec3 normal, vec3 to_eye, vec3 even) {
   float rim = 1.0 - max(dot(normal, to_eye), 0.0);
   rim *= rim;
@@ -136,25 +134,25 @@ vec3 Fuzz(vec3 albedo, vec3 normal, vec3 to_eye, vec3 even) {
   return mix(albedo, vec3(1.0), 0.15) * (0.25 * rim + 0.05 * back) * even / kPi;
 }
 
-// Light that transfer left of what falls on a surface, and how much of it that is.
+// The light that arrives at a surface after shadows.
 struct Arriving {
   vec3 irradiance;
-  float open;      // 1: nothing is in its way
-  float sun_seen;  // share of the sun's disc
+  float open;      // share of light that is not in shadow; 1: no shadow
+  float sun_seen;  // visible share of the sun's disc
 };
 
 Arriving Unshadowed(vec3 normal) { return Arriving(Irradiance(irradiance, normal), 1.0, 0.0); }
 
-// Transfer was worked out for a vertex and its normal; what the normal at hand would see
-// without shadows, over what that one would, carries it over. share: transferred over what
-// the vertex would see without shadows.
+// Light transfer was computed for the normal of a vertex. This applies it to another normal, in
+// proportion to the unshadowed irradiance of both. share: transferred irradiance divided by the
+// unshadowed irradiance at the vertex.
 Arriving Transferred(vec3 transferred, vec3 share, float open, vec3 normal) {
   vec3 here = Irradiance(irradiance, normal) + kLeastUnshadowed;
   return Arriving(min(share * here, 4.0 * transferred), open, 0.0);
 }
 
-// strand: unit, along hair from root to tip. Highlights apart, so that they can stay
-// where the surface is hardly there.
+// strand: unit, along hair from root to tip. matte and highlight are separate, so that highlights
+// can remain where coverage is low.
 void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness,
              Arriving arriving, out vec3 matte, out vec3 highlight) {
   open_share = arriving.open;
@@ -176,7 +174,7 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
 #endif
 #endif
 #ifdef SURFACE_METAL
-  // As what reflects all light, dyed: that metals turn white at grazing sight is left out.
+  // A perfect reflector tinted by albedo. That metals turn white at grazing angles is ignored.
   matte = vec3(0.0);
   highlight = albedo * Highlight(normal, to_eye, 1.0, roughness);
 #endif
@@ -190,8 +188,8 @@ void Reflect(vec3 albedo, vec3 normal, vec3 strand, vec3 to_eye, float roughness
   matte += Fuzz(albedo, normal, to_eye, even);
 #endif
 #ifdef SURFACE_EYE
-  // Lids, lashes and brows keep most of what is around off, so that the pupil is dark; the
-  // film of tears is smooth whatever lies beneath.
+  // Lids, lashes and brows block much of the surroundings, so that the pupil is dark. The tear film
+  // is smooth, so roughness is not used.
   matte *= 0.8;
   vec3 glint = key_light * Glint(key_direction, normal, to_eye, 0.025, LobeOf(0.2));
 #ifdef REFLECTIONS

@@ -1,5 +1,5 @@
-// The camera's image as an undistorted pinhole sees it: each pixel looks up where the camera
-// saw its ray. The target's top row comes first.
+// Rectifies the camera's image: each pixel of the pinhole picture reads the pixel of the camera's
+// image that has the same ray. The target's top row comes first.
 
 #include "background.glsl"
 

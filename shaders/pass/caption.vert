@@ -1,4 +1,4 @@
-// Captions: rectangles in pixels of the target, whose first row is the top one.
+// Rectangles of captions, in pixels of the target, whose first row is the top one.
 
 uniform vec2 size_px;
 

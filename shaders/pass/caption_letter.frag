@@ -1,8 +1,8 @@
-// A letter by its signed distances (Green, Improved Alpha-Tested Magnification for Vector
-// Textures and Special Effects, SIGGRAPH courses 2007), smooth over one pixel.
+// Draws a letter from an atlas of signed distances (Green, Improved Alpha-Tested Magnification for
+// Vector Textures and Special Effects, SIGGRAPH courses 2007), antialiased over one pixel.
 
 uniform sampler2D atlas;
-uniform float range_px;  // of the target, from the atlas' 0 to its 1
+uniform float range_px;  // pixels of the target between the atlas' values 0 and 1
 uniform float bolder_px;
 
 in vec2 at;

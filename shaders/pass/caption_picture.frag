@@ -1,4 +1,4 @@
-// A grey picture, sRGB-encoded as it is stored.
+// Draws a grey picture. Its values are sRGB-encoded and are not converted.
 
 uniform sampler2D picture;
 

@@ -1,4 +1,4 @@
-// Depth of people and props seen from the sun, where they are there at all.
+// Depth of people and props for shadow maps. Pixels with little coverage are discarded.
 
 uniform sampler2D colour_texture;
 uniform float alpha_cutoff;

@@ -1,4 +1,4 @@
-// Which way real surfaces face, and whether they receive shadows.
+// Writes the normal of real surfaces, and whether they receive shadows.
 
 uniform float receives;
 uniform vec3 eye_in_stage;
@@ -9,7 +9,7 @@ layout(location = 0) out vec4 surface;
 
 void main() {
   vec3 normal = normalize(cross(dFdx(position_in_stage), dFdy(position_in_stage)));
-  // Only the side that is seen matters, whichever way its triangles turn.
+  // The normal points towards the eye, independent of the winding of the triangles.
   normal = dot(normal, eye_in_stage - position_in_stage) < 0.0 ? -normal : normal;
   surface = vec4(0.5 * normal + 0.5, receives);
 }

@@ -1,11 +1,12 @@
-// What every pixel of a real surface, or one in every few, keeps of its light and gains by lamps.
+// Writes the factor on the light of real surfaces: shadows darken them, lamps brighten them. There
+// is one value for every pixel or for every caught_step pixels.
 
 #include "caught_shadow.glsl"
 
 uniform sampler2D people;    // coverage in alpha
-uniform vec4 people_bounds;  // left, bottom, right, top: nobody is outside
-uniform int caught_step;     // cells along each side for one value
-uniform int hidden_margin;   // cells within an edge of people that are seen through it
+uniform vec4 people_bounds;  // left, bottom, right, top; no people outside
+uniform int caught_step;     // width and height of one value, cells
+uniform int hidden_margin;   // cells inside the edge of people that may be visible through it
 
 layout(location = 0) out vec4 caught;
 
@@ -19,7 +20,7 @@ float Covered(ivec2 cell) {
 void main() {
   ivec2 cell = min(ivec2(gl_FragCoord.xy) * caught_step + caught_step / 2,
                    ivec2(catcher_bounds.zw) - 1);
-  // People hide what is behind them, shadows too.
+  // Shadows behind people need not be computed.
   ivec2 aside = ivec2(hidden_margin, -hidden_margin);
   float covered = min(min(Covered(cell + aside.xx), Covered(cell + aside.yy)),
                       min(Covered(cell + aside.xy), Covered(cell + aside.yx)));

@@ -1,9 +1,9 @@
-// The finished picture where people or their shadows are: the camera's image darker where they
-// keep light off, people over it, encoded as sRGB. Light brighter than white is clipped. The
-// target's top row comes first. LOOK: people are as noisy, soft and smeared as the image;
-// without it software does not pay for what is off. SEE_THROUGH: what is real is behind the
-// picture and not in it: people alone, times their coverage, and in alpha how much of what is
-// behind they and their shadows hide.
+// The finished picture in the pixels of people and their shadows: the camera's image, darkened by
+// the shadows, and people over it, encoded as sRGB. Light brighter than white is clipped. The
+// target's top row comes first. LOOK: people get the noise, softness and motion blur of the image;
+// it is a variant so that software renderers do not pay for it when it is off. SEE_THROUGH: the
+// picture contains only people, times their coverage; alpha says how much they and their shadows
+// hide of the real world behind it.
 
 #ifndef SEE_THROUGH
 #include "background.glsl"
@@ -11,13 +11,13 @@
 #include "camera_look.glsl"
 #include "colour.glsl"
 
-uniform sampler2D caught;      // what real surfaces keep of their light
-uniform vec4 catcher_bounds;   // left, bottom, right, top of the layer: it means nothing outside
-uniform float caught_step;     // of the layer's pixels, for one of caught
-// Of the layer, which has people and shadows; from a plane that both see, where it was drawn for
-// an earlier picture. Its rows count from the bottom.
+uniform sampler2D caught;      // factor on the light of real surfaces
+uniform vec4 catcher_bounds;   // left, bottom, right, top in the layer; caught is valid inside
+uniform float caught_step;     // width and height of one pixel of caught, pixels of the layer
+// Homography to pixels of the layer of people and shadows, whose rows count from the bottom. If the
+// layer was drawn for an earlier picture, it is exact for one plane at the distance of people.
 uniform mat3 layer_from_pixel;
-uniform float people_opacity;  // of people and of what they do to the light
+uniform float people_opacity;  // opacity of people and of their shadows and light
 
 layout(location = 0) out vec4 colour;
 
@@ -30,7 +30,7 @@ void main() {
   vec2 cell = in_layer.xy / in_layer.z;
   bool may_show = Within(cell, smeared_bounds);
 #ifdef LOOK
-  // Loops instead of ifs where they leave out much: shaders/include/sun.glsl.
+  // Loops replace ifs that skip much work: see SeenPast in shaders/include/sun.glsl.
   vec4 person = vec4(0.0);
   int shows = may_show ? 1 : 0;
   for (int i = 0; i < shows; ++i) {
@@ -47,7 +47,7 @@ void main() {
   person *= people_opacity;
   kept = mix(vec3(1.0), kept, people_opacity);
 #ifdef SEE_THROUGH
-  // One number stands for what is kept of all colours; what is real cannot be brightened.
+  // Alpha is one number for all colours, and it cannot brighten the real world.
   float left = min(dot(kept, vec3(0.2126, 0.7152, 0.0722)), 1.0) * (1.0 - person.a);
   colour = vec4(SrgbFromLinear(clamp(person.rgb, 0.0, 1.0)), 1.0 - left);
 #else

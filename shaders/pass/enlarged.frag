@@ -1,4 +1,4 @@
-// A picture made larger or smaller. Software does this faster than it copies between framebuffers.
+// Scales a picture. Software renderers do this faster than a copy between framebuffers.
 
 uniform sampler2D picture;
 uniform vec2 target_size;  // pixels

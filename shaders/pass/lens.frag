@@ -1,18 +1,19 @@
-// One eye's part of a panel: each pixel shows what is to be seen there through the lens. Rows
-// count from the top, in the panel and in the picture.
+// One eye's part of a panel: each pixel shows the point of the picture that the eye sees there
+// through the lens. Rows count from the top, in the panel and in the picture.
 
 #include "camera.glsl"
 
 uniform sampler2D picture;
 uniform vec4 lens_intrinsics;
-uniform vec3 radial[3];          // of red, green and blue
-uniform bool has_fringes;        // the colours differ
-uniform mat3 picture_from_eye;   // pixels of the picture, from the plane one metre before the eye
-uniform vec2 corner_px;          // of the eye's part in the panel
+uniform vec3 radial[3];          // radial distortion for red, green and blue
+uniform bool has_fringes;        // the three distortions differ
+// Homography from the plane one metre in front of the eye to pixels of the picture.
+uniform mat3 picture_from_eye;
+uniform vec2 corner_px;          // corner of the eye's part in the panel
 
 layout(location = 0) out vec4 colour;
 
-// Black outside the picture, whose edge is a pixel soft.
+// Returns black outside the picture; its edge is blended over one pixel.
 vec3 PictureAt(vec2 at, vec3 k) {
   float r2 = dot(at, at);
   vec3 seen = picture_from_eye * vec3(at * (1.0 + r2 * (k.x + r2 * (k.y + r2 * k.z))), 1.0);

@@ -1,19 +1,19 @@
-// Surfaces of people and props. COVERED: partly covered ones, in two passes, the dense
-// core and the fringe around it. LIT_AT_VERTICES: what they reflect was worked out there.
+// Surfaces of people and props. COVERED: partly covered ones, drawn in two passes, the dense core
+// and the fringe around it. LIT_AT_VERTICES: the vertex shader has computed the lighting.
 
 #include "stripes.glsl"
 
 uniform vec3 gain;   // exposure and the camera's gain
-uniform float knee;  // of the camera's response, unless that is measured
+uniform float knee;  // knee of the camera's response, unused if the response is measured
 uniform int response_is_measured;
 uniform sampler2D response;  // light::SeenTable
 uniform sampler2D sun_seen;  // shaders/pass/sun_seen.frag
 
-uniform sampler2D colour_texture;  // times coverage, coverage
+uniform sampler2D colour_texture;  // colour times coverage, coverage
 uniform vec3 emission;
 uniform float alpha_cutoff;
 uniform int fringe;
-uniform vec4 mark;  // what is drawn over what is seen: linear colour, share
+uniform vec4 mark;  // SceneMark: linear colour, share
 uniform int mark_stripes;
 uniform float mark_stripe_px;
 
@@ -21,7 +21,7 @@ in vec2 surface_uv;
 
 layout(location = 0) out vec4 colour;
 
-uniform float core_coverage;  // what is covered at least so much hides what is behind it
+uniform float core_coverage;  // least coverage of the core
 
 float Measured(float x, int channel) {
   float steps = float(textureSize(response, 0).x);
@@ -29,8 +29,8 @@ float Measured(float x, int channel) {
   return texture(response, vec2(u, 0.5))[channel];
 }
 
-// As it is measured; or linear up to the knee, then an exponential shoulder of equal slope that
-// reaches 1 at infinity.
+// The measured response; or linear up to the knee, then an exponential shoulder with the same slope
+// at the knee that reaches 1 at infinity.
 vec3 CameraResponse(vec3 x) {
   if (response_is_measured == 1) {
     return vec3(Measured(x.r, 0), Measured(x.g, 1), Measured(x.b, 2));
@@ -45,7 +45,7 @@ float SunSeen() { return texelFetch(sun_seen, ivec2(gl_FragCoord.xy), 0).r; }
 uniform int has_sun;
 in vec3 matte_front;
 in vec3 matte_back;
-in vec3 matte_of_sun;  // negative: on the back
+in vec3 matte_of_sun;  // negative: the sun lights the back
 in vec3 highlight_front;
 in vec3 highlight_of_sun;
 
@@ -56,7 +56,7 @@ void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
   matte *= texel.rgb / max(texel.a, 1.0 / 255.0);
   highlight = highlight_front + seen * highlight_of_sun;
 #ifdef SURFACE_HAIR
-  highlight *= sqrt(texel.rgb);  // most of it comes from within the strands
+  highlight *= sqrt(texel.rgb);  // most of it comes from inside the strands
 #endif
 #ifdef SURFACE_METAL
   highlight *= texel.rgb / max(texel.a, 1.0 / 255.0);
@@ -66,7 +66,7 @@ void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
 in vec3 position_in_stage;
 in vec3 normal_in_stage;
 in vec3 surface_albedo;
-// Within the triangle where only its rim is in the pixel: beyond, a share may be anything.
+// Centroid sampling, because extrapolation beyond the triangle can give invalid shares.
 centroid in vec3 transferred;
 centroid in vec3 transfer_share;
 centroid in float transfer_open;
@@ -80,9 +80,9 @@ uniform int has_normal_texture;
 uniform vec3 colour_factor;
 uniform float roughness;
 
-// Where the texture's u and v grow on the surface, from how both change on the screen
-// (Schueler, "Normal Mapping without Precomputed Tangents", ShaderX5, 2006). Not unit;
-// nothing where there are no coordinates.
+// Directions on the surface in which u and v of the texture grow, computed from screen derivatives
+// (Schueler, "Normal Mapping without Precomputed Tangents", ShaderX5, 2006). They are not unit
+// vectors; they are zero if there are no texture coordinates.
 mat2x3 TangentsAlong(vec3 normal) {
   vec3 across = cross(dFdy(position_in_stage), normal);
   vec3 down = cross(normal, dFdx(position_in_stage));
@@ -96,12 +96,13 @@ vec3 MappedNormal(vec3 normal, mat2x3 tangents) {
   vec3 bump = vec3(tilt, sqrt(max(1.0 - dot(tilt, tilt), 0.0)));
   float size = max(dot(tangents[0], tangents[0]), dot(tangents[1], tangents[1]));
   float scale = inversesqrt(max(size, 1e-20));
-  // v grows downward in the image, and the map's green upward.
+  // v grows downwards in the image, the green channel of the map upwards.
   return normalize(scale * (bump.x * tangents[0] - bump.y * tangents[1]) + bump.z * normal);
 }
 
-// Where cloth folds over in a coarse level of detail triangles are seen from behind whose normals
-// look at the eye: their backs, baked on a body, would be black slits.
+// In a coarse level of detail, folds of cloth show back faces whose normals point to the eye. They
+// count as front faces, because the light baked for the back (next to the body) would give black
+// slits.
 bool IsFront() {
 #ifdef SURFACE_CLOTH
   vec3 to_eye = eye_in_stage - position_in_stage;
@@ -114,7 +115,7 @@ bool IsFront() {
   return gl_FrontFacing;
 }
 
-// outward: of the side that is seen, without the bumps of normal.
+// outward: geometric normal of the visible side, without the normal map.
 Arriving SunnyLightOn(vec3 normal, vec3 outward, bool front) {
   Arriving arriving = LightOn(normal, front);
   if (has_sun == 1 && dot(outward, sun_direction) > 0.0) {
@@ -140,7 +141,7 @@ void Reflected(vec4 texel, out vec3 matte, out vec3 highlight) {
 }
 #endif
 
-// Light and shade stay, so that shapes are seen.
+// Keeps light and shade, so that shapes remain visible under a mark.
 vec3 Marked(vec3 seen, float coverage) {
   vec3 paint = mix(mark.rgb, vec3(1.0), 0.35 * Stripes(mark_stripes, mark_stripe_px));
   float shade = 0.15 * coverage + 1.1 * dot(seen, vec3(0.2126, 0.7152, 0.0722));
@@ -153,10 +154,10 @@ void main() {
 #ifdef COVERED
   coverage = texel.a;
 #ifdef SURFACE_EYE
-  // The cornea is clear, and glints.
+  // The cornea is transparent but has highlights.
   coverage = texel.a < alpha_cutoff ? 0.0 : texel.a;
 #else
-  // The rim of what is there is as soft as a pixel.
+  // Antialiases the edge at alpha_cutoff over one pixel.
   float rim = (texel.a - alpha_cutoff) / max(fwidth(texel.a), 1e-4) + 0.5;
   coverage *= clamp(rim, 0.0, 1.0);
   if (coverage < 1.0 / 255.0) {

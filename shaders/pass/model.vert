@@ -1,15 +1,15 @@
-// Skinning, four influences: what human::SkinningJob does on the CPU. By matrices,
-// or as SKIN_DUAL_QUATERNION says, or SKIN_RIGID, where there is one influence.
-// LIT_AT_VERTICES: surfaces reflect here, not in each pixel.
+// Skinning with four influences, the same as human::SkinningJob on the CPU: by matrices, or with
+// SKIN_DUAL_QUATERNION by dual quaternions, or with SKIN_RIGID by the matrix of a single joint.
+// LIT_AT_VERTICES: lighting is computed here, not for each pixel.
 
 #include "spherical_harmonics.glsl"
 
 uniform mat4 clip_from_model;
-uniform vec3 unscattered[9];  // irradiance, not softened by skin
+uniform vec3 unscattered[9];  // irradiance without subsurface scattering
 uniform mat4 stage_from_model;
-uniform int posed;  // 1: positions and normals are as they are to be drawn
-// Matrices; or in the columns of each the real part, the dual part (x, y, z, w), and
-// the scale.
+uniform int posed;  // 1: positions and normals are final, without skinning
+// Matrices; with SKIN_DUAL_QUATERNION the columns of each are the real part, the dual part (both
+// x, y, z, w), and the scale.
 layout(std140) uniform Skin { mat4 skin[256]; };
 
 layout(location = 0) in vec3 position;
@@ -36,10 +36,10 @@ uniform vec3 eye_in_stage;
 uniform vec3 colour_factor;
 uniform float roughness;
 
-// To be multiplied by the texture.
+// Lighting, to be multiplied by the texture.
 out vec3 matte_front;
 out vec3 matte_back;
-out vec3 matte_of_sun;  // negative: on the back
+out vec3 matte_of_sun;  // negative: the sun lights the back
 out vec3 highlight_front;
 out vec3 highlight_of_sun;
 #else
@@ -47,9 +47,9 @@ out vec3 position_in_stage;
 out vec3 normal_in_stage;
 out vec3 surface_albedo;
 centroid out vec3 transferred;     // irradiance by light transfer
-centroid out vec3 transfer_share;  // the same over what would come without shadows
-centroid out float transfer_open;  // of all channels: at most 1
-centroid out vec3 back_share;      // of unshadowed light, on the back
+centroid out vec3 transfer_share;  // transferred divided by unshadowed irradiance
+centroid out float transfer_open;  // luminance of that share, at most 1
+centroid out vec3 back_share;      // share of unshadowed light that reaches the back
 #endif
 out vec2 surface_uv;
 
@@ -65,7 +65,7 @@ mat4 Skinned() {
 #endif
 
 #ifdef SKIN_DUAL_QUATERNION
-// Adds a dual quaternion and its scale, on the side of the first.
+// Adds a dual quaternion and its scale, with the sign that puts it in the hemisphere of the first.
 void AddDualQuaternion(uint joint, float weight, inout vec4 real, inout vec4 dual,
                        inout float scale) {
   mat4 q = skin[joint];
@@ -106,7 +106,7 @@ Reflected ReflectedBy(vec3 normal, bool front, float sun_seen) {
   Arriving arriving = LightOn(normal, front);
   arriving.sun_seen = sun_seen;
   vec3 down = vec3(0.0, -1.0, 0.0);
-  vec3 strand = down - dot(down, normal) * normal;  // hair hangs
+  vec3 strand = down - dot(down, normal) * normal;  // assumes that hair hangs down
   strand *= inversesqrt(max(dot(strand, strand), 1e-20));
   vec3 to_eye = normalize(eye_in_stage - position_in_stage);
   Reflected reflected;

@@ -1,4 +1,4 @@
-// A segment as a rectangle of constant width on the screen, one instance each.
+// Draws each segment as a rectangle of constant width on the screen, one instance per segment.
 
 uniform mat4 clip_from_stage;
 uniform vec2 viewport_px;
@@ -9,11 +9,11 @@ layout(location = 1) in vec3 to;
 layout(location = 2) in vec4 colour;
 
 out vec4 line_colour;
-out float offset_px;  // from the middle of the line
+out float offset_px;  // distance from the middle of the line
 
 const float kNearest = 1e-5;
 
-// The point of the segment at which it comes in front of the viewer.
+// Returns point, or the point of the segment just in front of the viewer if point is behind it.
 vec4 ClipToFront(vec4 point, vec4 other) {
   if (point.w >= kNearest) {
     return point;
@@ -27,7 +27,7 @@ void main() {
   line_colour = colour;
   if (max(a.w, b.w) < kNearest) {
     offset_px = 0.0;
-    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);  // outside
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);  // outside the clip volume
     return;
   }
   vec4 front_a = ClipToFront(a, b);

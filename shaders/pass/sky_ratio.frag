@@ -1,37 +1,37 @@
-// How much of the sky's light real surfaces have where people stand before it, for each
-// channel: the ratio of differential rendering (Debevec, SIGGRAPH 1998). The light is that
-// of cones about the normal; what a ball hides of a cone is the overlap of two caps (Oat &
-// Sander, "Ambient Aperture Lighting", I3D 2007), in cosines instead of angles.
+// The share of the sky's light that still reaches real surfaces when people block part of it, for
+// each channel: the ratio of differential rendering (Debevec, SIGGRAPH 1998). The light comes from
+// cones about the normal; a ball hides the overlap of two spherical caps of a cone (Oat & Sander,
+// "Ambient Aperture Lighting", I3D 2007), here computed with cosines instead of angles.
 
 #include "catcher.glsl"
 #include "lamp_walls.glsl"
 #include "lamps.glsl"
 #include "octahedral.glsl"
 
-const int kGroups = 6;  // of four cones each, one in each lane
+const int kGroups = 6;  // groups of four cones, one in each component
 
 uniform vec4 cones_x[kGroups];  // directions about cone_axis
 uniform vec4 cones_y[kGroups];
 uniform vec4 cones_z[kGroups];
-uniform vec4 cones_cosine[kGroups];  // of half the opening
+uniform vec4 cones_cosine[kGroups];  // cosine of half the opening angle
 uniform vec3 cone_axis;
-uniform sampler2D sky;             // radiance of cones, octahedral
-uniform sampler2D picture_irradiance;  // of the camera's image, by normal
+uniform sampler2D sky;                 // radiance averaged over cones, octahedral map
+uniform sampler2D picture_irradiance;  // irradiance at the time of the camera's image, by normal
 uniform float least_share;
 uniform int cluster_count;
 
 struct Cluster {
   vec4 merged;  // centre, radius
-  vec4 extent;  // radius that holds all, first ball, end of balls
+  vec4 extent;  // radius that encloses all, index of the first ball, index after the last ball
 };
 layout(std140) uniform Blockers {
   Cluster clusters[128];
   vec4 balls[512];
 };
 
-layout(location = 0) out vec4 ratio;  // alpha: depth, 0: nothing there
+layout(location = 0) out vec4 ratio;  // alpha: depth; 0: no receiving surface
 
-// Of the surface at hand.
+// The cones of the current surface point.
 vec4 cone_x[kGroups];
 vec4 cone_y[kGroups];
 vec4 cone_z[kGroups];
@@ -43,7 +43,7 @@ vec3 SkyRadiance(vec3 direction) {
   return textureLod(sky, OctahedralPosition(direction), 0.0).rgb;
 }
 
-// Mirrors the cones onto a normal (Householder).
+// Mirrors the cones so that their axis becomes the normal (Householder reflection).
 void PlaceCones(vec3 normal) {
   vec3 mirror = normal - cone_axis;
   mirror *= inversesqrt(max(dot(mirror, mirror), 1e-8));
@@ -60,8 +60,8 @@ void PlaceCones(vec3 normal) {
   }
 }
 
-// A ball about a place seen from the surface. Within it, what is hidden grows beyond half
-// of all directions, to all at the centre.
+// Reduces the visible share of cones by a ball. For a point inside the ball, more than half of all
+// directions are hidden, and all of them at the centre.
 void Hide(vec3 to_centre, float radius) {
   float by_distance = inversesqrt(max(dot(to_centre, to_centre), 1e-12));
   float apparent = radius * by_distance;
@@ -73,9 +73,9 @@ void Hide(vec3 to_centre, float radius) {
   for (int group = 0; group < kGroups; ++group) {
     vec4 between =
         cone_x[group] * direction.x + cone_y[group] * direction.y + cone_z[group] * direction.z;
-    // Grows from 0 to 1 while the caps go from touching to one within the other; a cubic
-    // where they are alike, steeper where they are not, so that over all directions it adds
-    // up to the smaller cap.
+    // The overlap grows from 0 to 1 between caps that touch and caps that contain each other. It is
+    // a cubic for equal caps and steeper for different ones, so that its integral over all
+    // directions is the smaller cap.
     vec4 ratio_of_sines = sine * by_sine[group];
     vec4 t = clamp((between - cosine * cones_cosine[group]) * (0.5 * by_sine[group] / sine) + 0.5,
                    0.0, 1.0);
@@ -85,7 +85,7 @@ void Hide(vec3 to_centre, float radius) {
   }
 }
 
-// A cluster that looks smaller than this is one ball.
+// A cluster with a smaller apparent radius than this (radius / distance) counts as one ball.
 const float kMergedRadius = 0.3;
 
 void HideCluster(Cluster cluster, vec3 point) {
@@ -122,10 +122,10 @@ vec3 VisibleShare() {
   return mix(vec3(1.0), left / max(all, 1e-12), greaterThan(all, vec3(1e-9)));
 }
 
-// As shared/light/lamp.cc has it.
+// Must agree with shared/light/lamp.cc.
 const float kLeastPenumbra = 0.03;
 
-// What a ball leaves of a lamp.
+// The share of a lamp's light that passes a ball.
 float LampPast(vec4 ball, SeenLamp lamp, vec4 place, vec3 point) {
   vec3 to = ball.xyz - point;
   float along = dot(to, lamp.direction);
@@ -152,9 +152,9 @@ float LampSeen(SeenLamp lamp, vec4 place, vec3 point) {
   return seen;
 }
 
-uniform float least_lamp;  // irradiance that would not be seen
+uniform float least_lamp;  // irradiance below which a lamp is not visible
 
-// The lamps' light over that of the sky in the camera's image, where nobody stands.
+// The lamps' light divided by the sky's light in the camera's image, without people.
 vec3 LampRatio(vec3 point, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < lamp_count; ++i) {

@@ -1,5 +1,5 @@
-// How much of the sun the nearest people and props see, pixel by pixel. Apart from their own
-// shader, because many small triangles share a pixel there.
+// The visible share of the sun for the nearest people and props, pixel by pixel. It is a pass of
+// its own, because many small triangles may share a pixel in the pass that draws them.
 
 #include "picture_rays.glsl"
 #include "sun.glsl"
@@ -13,8 +13,8 @@ float DepthAt(ivec2 cell) {
   return texelFetch(nearest_depth, clamp(cell, ivec2(0), last_cell), 0).r;
 }
 
-// How the surface goes on from one pixel to the next, on the side that is more likely to be
-// of the same one.
+// The change of position from one pixel to the next, measured on the side whose depth is more
+// similar and so more likely belongs to the same surface.
 vec3 Tangent(ivec2 cell, ivec2 step, vec3 point, float depth, float before, float after) {
   before = DepthInMetres(before);
   after = DepthInMetres(after);
@@ -29,7 +29,7 @@ void main() {
   float buffered = DepthAt(cell);
   vec4 sides =
       vec4(DepthAt(cell - kRight), DepthAt(cell + kRight), DepthAt(cell - kUp), DepthAt(cell + kUp));
-  // Nobody there, but at the side: the pixel may be part of an edge.
+  // A pixel without people but with people beside it may contain an edge.
   vec2 nearer = min(sides.xy, sides.zw);
   buffered = buffered < 1.0 ? buffered : min(nearer.x, nearer.y);
   float depth = DepthInMetres(buffered);
@@ -38,9 +38,9 @@ void main() {
                       Tangent(cell, kUp, point, depth, sides.z, sides.w));
   normal *= inversesqrt(max(dot(normal, normal), 1e-20));
   normal = dot(normal, eye_in_stage - point) < 0.0 ? -normal : normal;
-  // Facets turn away a little sooner than the smooth surface that they stand for.
+  // Facets turn away from the sun a little earlier than the smooth surface that they approximate.
   int asked = buffered < 1.0 && dot(normal, sun_direction) > -0.5 ? 1 : 0;
-  // A little off the surface, which is not as fine in the sun's map.
+  // Moves the point off the surface a little, because the sun's map shows it at less detail.
   point += 0.005 * normal;
   float past_people = SunPastPeople(point, 0.015, asked);
   float past_things = SunPastOccluders(point, 0.03, past_people > 0.0 ? asked : 0);

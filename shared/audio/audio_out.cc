@@ -12,14 +12,14 @@
 namespace lararium::audio {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 class NoOut : public AudioOut {
  public:
   Status Write(std::span<const float> stereo) override {
-    const Clock::time_point now = Clock::now();
+    const SteadyClock::time_point now = SteadyClock::now();
     due_ = std::max(due_, now - kPatience);
-    due_ += std::chrono::duration_cast<Clock::duration>(
+    due_ += std::chrono::duration_cast<SteadyClock::duration>(
         std::chrono::duration<double>(static_cast<double>(stereo.size() / 2) / SoundGraph::kRate));
     std::this_thread::sleep_until(due_);
     return Status();
@@ -29,10 +29,10 @@ class NoOut : public AudioOut {
   std::string name() const override { return "none"; }
 
  private:
-  // Who was held up for longer does not catch up.
+  // A longer delay is not made up for.
   static constexpr std::chrono::milliseconds kPatience{100};
 
-  Clock::time_point due_ = Clock::now();
+  SteadyClock::time_point due_ = SteadyClock::now();
 };
 
 class FileOut : public AudioOut {

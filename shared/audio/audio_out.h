@@ -1,6 +1,6 @@
 #pragma once
 
-// Where mixed samples go: a sound device, a file, or nowhere.
+// Output of mixed samples: a sound device, a file, or none.
 
 #include <filesystem>
 #include <memory>
@@ -15,23 +15,24 @@ class AudioOut {
  public:
   virtual ~AudioOut() = default;
 
-  // The next samples: left, right, ..., 48000 frames a second. Waits until they are
-  // taken: as they are played; a file takes them at once. An error: it is lost, or full.
+  // Writes the next samples: left, right, ..., 48000 frames a second. A device blocks until it has
+  // accepted them; a file accepts them at once. Returns an error if the device was lost or the disk
+  // is full.
   virtual Status Write(std::span<const float> stereo) = 0;
-  // Seconds until what is written now is heard.
+  // Seconds until samples that are written now are heard.
   virtual double latency() const = 0;
-  // Completes what was begun. Nothing may be written afterwards.
+  // Completes the output. Do not write afterwards.
   virtual Status Finish() = 0;
   virtual std::string name() const = 0;
 };
 
 enum class AudioOutKind {
-  kDevice,  // OpenAL's default device
-  kFile,    // WAV, 16 bits; appears under its name when it is finished
-  kNone,    // takes samples at the pace at which a device would
+  kDevice,  // OpenAL's default device.
+  kFile,    // WAV, 16 bits; gets its final name when it is finished.
+  kNone,    // Discards samples at the rate of a device.
 };
 
-// file: of kFile.
+// file: used by kFile only.
 Result<std::unique_ptr<AudioOut>> CreateAudioOut(AudioOutKind kind,
                                                  const std::filesystem::path& file = {});
 

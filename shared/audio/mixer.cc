@@ -4,26 +4,25 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "shared/audio/decibels.h"
 #include "shared/core/check.h"
 
 namespace lararium::audio {
 namespace {
 
 constexpr float kFadeOutSeconds = 0.03f;
-// How quickly places and what hides them follow; a leap further than this is one.
+// Time constants of positions and obstruction, and the distance beyond which a motion is a jump.
 constexpr float kFollowSeconds = 0.02f;
 constexpr float kObstructionSeconds = 0.08f;
 constexpr float kLeapMetres = 1.5f;
 constexpr float kDuckSeconds = 0.12f;
 constexpr float kRecoverSeconds = 0.7f;
-// Who speaks as far away as this is drowned by nothing and drowns nothing.
+// Level of speech at which buses are lowered completely; below it, less.
 constexpr float kDuckingLevel = 0.3f;
-// A clip that its voice has left so near its end plays on: it lags by that.
+// A clip whose voice has ended this close to the clip's end plays to its end: it lags by that time.
 constexpr double kRingOutSeconds = 0.25;
 
-float FromDb(float db) { return std::pow(10.0f, db / 20.0f); }
-
-// What is left of a difference after some time, of a first-order lag.
+// Share of a difference that a first-order lag covers in some time.
 float Share(float seconds, float time_constant) {
   return 1.0f - std::exp(-seconds / time_constant);
 }
@@ -32,7 +31,7 @@ glm::vec3 Towards(const glm::vec3& from, const glm::vec3& to, float share) {
   return glm::distance(from, to) > kLeapMetres ? to : from + share * (to - from);
 }
 
-// What arrives of a voice, roughly: who is left out depends on it.
+// Approximate loudness at the listener; the quietest voices are left out.
 float Loudness(const Voice& voice, const Listener& listener) {
   const float distance =
       voice.head_locked ? 1.0f : std::max(glm::distance(voice.position, listener.position), 1.0f);
@@ -44,8 +43,8 @@ float Loudness(const Voice& voice, const Listener& listener) {
 Status MixerOptions::Validate() const {
   if (!(max_lead > 0.0 && max_lag > 0.0 && late_start >= 0.0 && late_start <= max_lag)) {
     return Status::Error("sound",
-                         "the limits of lead and lag must be positive, and a late start "
-                         "no later than what may lag");
+                         "max_lead and max_lag must be positive, and late_start "
+                         "must be 0 to max_lag");
   }
   return Status();
 }
@@ -70,7 +69,7 @@ double Mixer::Seconds(int clip) const {
   return graph_->library().clips()[static_cast<size_t>(clip)].seconds();
 }
 
-// The voice that the slot plays, and plays in time.
+// Returns the voice that the slot plays in time; nullptr: none.
 const Voice* Mixer::VoiceOf(const Slot& slot, const SoundScene& scene, double begin) const {
   for (const Voice& voice : scene.voices) {
     if (voice.source == slot.source && voice.clip == slot.clip && voice.loops == slot.loops &&
@@ -82,7 +81,7 @@ const Voice* Mixer::VoiceOf(const Slot& slot, const SoundScene& scene, double be
   return nullptr;
 }
 
-// Its voice has gone because the clip is over: what was heard late may end late.
+// Whether the voice has ended because its clip is over: a late clip may end late.
 bool Mixer::RingsOut(const Slot& slot, double begin) const {
   const double seconds = Seconds(slot.clip);
   return !slot.loops && seconds - slot.position <= kRingOutSeconds &&
@@ -103,7 +102,8 @@ void Mixer::Follow(const Voice& voice, float seconds, Slot& slot) const {
 void Mixer::Plan(const Voice& voice, double begin, size_t frames) {
   const double late = begin - voice.began;
   const bool over = !voice.loops && late >= Seconds(voice.clip);
-  const double first = std::ceil(-late * kRate - 1e-6);  // its sample in this block
+  // Its first sample, relative to this block.
+  const double first = std::ceil(-late * kRate - 1e-6);
   if (over || first >= static_cast<double>(frames) || onsets_.size() == onsets_.capacity()) {
     return;
   }
@@ -148,7 +148,7 @@ void Mixer::Reconcile(const SoundScene& scene, double begin, size_t frames) {
             [](const Onset& a, const Onset& b) { return a.frame < b.frame; });
 }
 
-// One that is free; otherwise the quietest, if it is quieter than the voice.
+// Returns a free slot, or else the quietest one if it is quieter than the voice, or nullptr.
 Mixer::Slot* Mixer::FreeSlot(const Voice& voice) {
   const auto loudness = [this](const Slot& slot) {
     Voice played;
@@ -202,7 +202,7 @@ void Mixer::Release(Slot& slot) {
   }
 }
 
-// Buses go down while somebody speaks, by as much as is heard of it.
+// Lowers the buses during speech, by its loudness at the listener.
 void Mixer::Duck(float seconds) {
   float heard = 0.0f;
   bool described = false;
@@ -236,7 +236,7 @@ void Mixer::MoveListener(const Listener& listener, float seconds) {
   graph_->SetListener(listener_);
 }
 
-// What sounds, up to the next beginning.
+// Renders the playing slots up to the next onset.
 void Mixer::RenderPart(std::span<float> stereo) {
   if (stereo.empty()) {
     return;
@@ -250,7 +250,8 @@ void Mixer::RenderPart(std::span<float> stereo) {
     if (slot.leaving) {
       slot.level = std::max(slot.level - static_cast<float>(seconds) / kFadeOutSeconds, 0.0f);
     }
-    slot.state.gain = slot.gain * slot.level * FromDb(duck_db_[static_cast<size_t>(slot.bus)]);
+    slot.state.gain =
+        slot.gain * slot.level * AmplitudeFromDecibels(duck_db_[static_cast<size_t>(slot.bus)]);
     graph_->Set(i, slot.state);
   }
   graph_->Render(stereo);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Makes what sounds equal to what is to be heard (sound_scene.h): starts and stops
-// clips, keeps them in time with the drama, lowers what would drown speech.
+// Makes the playing sounds match the scene (sound_scene.h): starts and stops clips, keeps them in
+// time with the drama, and lowers sounds that would mask speech.
 
 #include <array>
 #include <cstdint>
@@ -18,61 +18,60 @@ namespace lararium::audio {
 
 struct MixerOptions {
   bool hrtf = true;
-  // How far sound may lead or lag what is seen before it is put right, seconds. Of
-  // ITU-R BT.1359-1: what viewers begin to notice.
+  // Largest lead or lag of sound against the picture before it is corrected, seconds. Detectability
+  // thresholds of ITU-R BT.1359-1.
   double max_lead = 0.045;
   double max_lag = 0.125;
-  // What is heard of for the first time so soon after its beginning is played from
-  // there, so that it keeps its onset. At most max_lag.
+  // A voice that is new within this time after its beginning is played from its beginning, so that
+  // it keeps its onset. Seconds, at most max_lag.
   double late_start = 0.1;
 
-  // For files, whose samples are rendered up to a moment that is known: every sample is
-  // where it belongs.
+  // Options for files, which are rendered up to a known time: every sample is exactly in place.
   static MixerOptions ForFiles() { return {.max_lead = 0.002, .max_lag = 0.002, .late_start = 0}; }
 
   Status Validate() const;
 };
 
-// Decibels by which a bus is lowered while somebody speaks nearby.
-inline constexpr std::array<float, 4> kDuckDb = {0.0f, -4.0f, -9.0f, 0.0f};  // by Bus
-// At least, while something is described.
+// Change of a bus's level while a nearby actor speaks, decibels.
+inline constexpr std::array<float, 4> kDuckDb = {0.0f, -4.0f, -9.0f, 0.0f};  // Indexed by Bus.
+// Minimum attenuation during an audio description, decibels.
 inline constexpr std::array<float, 4> kDescribedDb = {-6.0f, -8.0f, -9.0f, 0.0f};
 
 class Mixer {
  public:
   static constexpr int kRate = SoundGraph::kRate;
-  static constexpr size_t kBlockFrames = 480;  // within which gains and places are ramps
+  // Gains and positions change linearly within a block.
+  static constexpr size_t kBlockFrames = 480;
 
   static Result<std::unique_ptr<Mixer>> Create(std::shared_ptr<const SoundLibrary> library,
                                                const MixerOptions& options);
 
-  // The samples (left, right, ...) of the drama's time from begin on. A voice of the
-  // scene that began within them starts at its own sample. Jumps of begin are seeks.
-  // Where more is to be heard at once than there are sources, the quietest is not.
-  // Allocates nothing in steady state but what OpenAL may.
+  // Renders the samples (left, right, ...) of the drama's time from `begin` on. A voice that began
+  // within them starts at its own sample. Jumps of `begin` are seeks. If there are more voices than
+  // sources, the quietest are left out. In steady state only OpenAL may allocate.
   void Render(const SoundScene& scene, double begin, std::span<float> stereo);
 
   bool hrtf() const { return graph_->hrtf(); }
-  // How many voices sound.
+  // Number of playing voices.
   size_t playing() const;
 
  private:
   struct Slot {
     bool used = false;
-    bool leaving = false;  // fades out
-    bool ended = false;    // the clip is over, its voice is not yet
+    bool leaving = false;  // Fades out.
+    bool ended = false;    // The clip has ended, its voice has not.
     uint64_t source = 0;
     int clip = -1;
     Bus bus = Bus::kEffects;
     bool loops = false;
     bool head_locked = false;
-    double began = 0.0;     // as its voice says
-    double position = 0.0;  // seconds of the clip that were played, of all its loops
-    float level = 1.0f;     // of the fade
+    double began = 0.0;     // Voice::began.
+    double position = 0.0;  // Seconds of the clip played so far, all loops together.
+    float level = 1.0f;     // Level of the fade-out.
     float gain = 1.0f;
-    SourceState state;  // of the source, smoothed
+    SourceState state;  // Smoothed state of the source.
   };
-  // A voice that begins within a block.
+  // A voice that begins within a block, at `frame`.
   struct Onset {
     size_t frame = 0;
     const Voice* voice = nullptr;
@@ -82,7 +81,7 @@ class Mixer {
       : graph_(std::move(graph)), options_(options) {}
 
   double Seconds(int clip) const;
-  // The slots that go on, those that fade out, and what has to begin: in onsets_.
+  // Decides which slots continue and which fade out, and collects the voices that start in onsets_.
   void Reconcile(const SoundScene& scene, double begin, size_t frames);
   const Voice* VoiceOf(const Slot& slot, const SoundScene& scene, double begin) const;
   bool RingsOut(const Slot& slot, double begin) const;
@@ -100,9 +99,9 @@ class Mixer {
   MixerOptions options_;
   std::array<Slot, SoundGraph::kSources> slots_;
   std::vector<Onset> onsets_;
-  std::array<float, 4> duck_db_ = {};  // of each bus now
+  std::array<float, 4> duck_db_ = {};  // Present attenuation of each bus.
   Listener listener_;
-  bool placed_ = false;  // listener_ was set
+  bool placed_ = false;  // True after the first MoveListener().
 };
 
 }  // namespace lararium::audio

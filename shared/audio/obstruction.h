@@ -1,6 +1,6 @@
 #pragma once
 
-// Which sounds are heard past something solid.
+// Finds sounds that are obstructed by occluders.
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -13,15 +13,15 @@ namespace lararium::audio {
 
 class SoundBlockers {
  public:
-  // Those of the occluders that block sound.
+  // Uses the occluders that block sound.
   explicit SoundBlockers(std::span<const stage::Occluder> occluders);
 
-  // The share of rays from an ear to a source 0.4 m across that meet something solid,
-  // 0 to 1; both in stage metres. Whatever is within 5 cm before the source belongs to it.
+  // Share, 0 to 1, of rays from the ear to a source 0.4 m across that meet an occluder. Positions
+  // in stage metres. Occluders within 5 cm of the source do not count.
   float Obstruction(const glm::vec3& ear, const glm::vec3& source) const;
 
  private:
-  std::vector<vision::OccluderTree> trees_;  // stage frame
+  std::vector<vision::OccluderTree> trees_;  // Stage frame.
 };
 
 }  // namespace lararium::audio

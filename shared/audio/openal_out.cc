@@ -18,14 +18,14 @@
 namespace lararium::audio {
 namespace {
 
-// The device has so many blocks in advance: enough for a busy machine, little enough
-// that heads turn before it is noticed.
+// Number of blocks queued in advance: enough for a busy machine, few enough that the delay after a
+// turn of the head is not noticed.
 constexpr size_t kQueued = 4;
 constexpr std::chrono::milliseconds kPoll(2);
-// A device that takes nothing for so long has gone, whatever it says.
+// A device that accepts nothing for this long is lost, even if it reports otherwise.
 constexpr std::chrono::seconds kStuck(2);
 
-// Asking OpenAL where nothing is makes its back ends complain on the terminal.
+// Without a device, OpenAL's back ends would print errors to the terminal.
 bool MayHaveDevice() {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator("/dev/snd", ignored)) {
@@ -46,21 +46,21 @@ class DeviceOut : public AudioOut {
     auto out = std::unique_ptr<DeviceOut>(new DeviceOut);
     out->device_ = MayHaveDevice() ? alcOpenDevice(nullptr) : nullptr;
     if (out->device_ == nullptr) {
-      return Status::Error("sound device", "there is none that can be opened",
-                           "connect one; it is looked for again and again");
+      return Status::Error("sound device", "no device can be opened",
+                           "connect one; the program keeps looking for it");
     }
-    // The samples are mixed for the ears already.
+    // The samples already contain HRTF filtering.
     const ALCint attributes[] = {ALC_FREQUENCY, SoundGraph::kRate, ALC_HRTF_SOFT, ALC_FALSE, 0};
     out->context_ = alcCreateContext(out->device_, attributes);
     if (out->context_ == nullptr) {
-      return Status::Error("sound device", "takes no stereo samples");
+      return Status::Error("sound device", "does not accept stereo sound");
     }
     const Entered entered(*out);
     alGenSources(1, &out->source_);
     alGenBuffers(static_cast<ALsizei>(out->free_.size()), out->free_.data());
     alSourcei(out->source_, AL_DIRECT_CHANNELS_SOFT, AL_TRUE);
     if (alGetError() != AL_NO_ERROR) {
-      return Status::Error("sound device", "has no free source");
+      return Status::Error("sound device", "has no free channel");
     }
     out->free_count_ = out->free_.size();
     return std::unique_ptr<AudioOut>(std::move(out));
@@ -85,7 +85,8 @@ class DeviceOut : public AudioOut {
     block_seconds_ = static_cast<double>(stereo.size() / 2) / SoundGraph::kRate;
     ALint state = AL_STOPPED;
     alGetSourcei(source_, AL_SOURCE_STATE, &state);
-    if (state != AL_PLAYING && free_count_ == 0) {  // at first, and after it ran dry
+    // The queue is full at the start, and again after it ran empty.
+    if (state != AL_PLAYING && free_count_ == 0) {
       alSourcePlay(source_);
     }
     return alGetError() == AL_NO_ERROR ? Status() : Lost();
@@ -138,7 +139,7 @@ class DeviceOut : public AudioOut {
   ALCdevice* device_ = nullptr;
   ALCcontext* context_ = nullptr;
   ALuint source_ = 0;
-  std::array<ALuint, kQueued> free_ = {};  // buffers that are not queued
+  std::array<ALuint, kQueued> free_ = {};  // Buffers that are not queued.
   size_t free_count_ = 0;
   double block_seconds_ = 0.01;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// A sound device through OpenAL. Private to the room.
+// A sound device through OpenAL. Private to shared/audio.
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 
 namespace lararium::audio {
 
-// Fails where there is none.
+// Fails if there is no device.
 Result<std::unique_ptr<AudioOut>> OpenDeviceOut();
 
 }  // namespace lararium::audio

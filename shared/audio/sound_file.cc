@@ -11,9 +11,9 @@
 namespace lararium::audio {
 namespace {
 
-constexpr size_t kPiece = 1024;  // samples that are converted at a time
+constexpr size_t kPiece = 1024;  // Samples converted at a time.
 
-// Bytes as libsndfile reads files.
+// Bytes in memory as a file for libsndfile.
 struct MemoryFile {
   std::span<const std::byte> bytes;
   sf_count_t position = 0;
@@ -27,7 +27,7 @@ sf_count_t SeekTo(sf_count_t offset, int whence, void* user) {
   auto* file = static_cast<MemoryFile*>(user);
   const auto size = static_cast<sf_count_t>(file->bytes.size());
   const sf_count_t base = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? file->position : size;
-  // Beyond the ends there is nothing; the sum cannot overflow after the clamp.
+  // Positions beyond the ends are clamped; the sum cannot overflow after the inner clamp.
   file->position =
       std::clamp<sf_count_t>(base + std::clamp<sf_count_t>(offset, -size, size), 0, size);
   return file->position;
@@ -45,7 +45,7 @@ sf_count_t ReadBytes(void* to, sf_count_t count, void* user) {
 sf_count_t Write(const void* /*from*/, sf_count_t /*count*/, void* /*user*/) { return 0; }
 sf_count_t Tell(void* user) { return static_cast<MemoryFile*>(user)->position; }
 
-// What the first bytes say; libsndfile knows many more formats than we want to trust.
+// Checks the first bytes; libsndfile knows many more formats than we want to trust.
 bool LooksLikeSound(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                               std::min<size_t>(bytes.size(), 12));
@@ -71,7 +71,7 @@ bool IsKnownFormat(int format) {
 }
 
 int16_t ToSample(float value) {
-  // A number that is none is silence.
+  // NaN and infinity become silence.
   return value - value == 0.0f
              ? static_cast<int16_t>(std::lrint(std::clamp(value * 32768.0f, -32768.0f, 32767.0f)))
              : int16_t{0};
@@ -98,7 +98,7 @@ SoundReader::~SoundReader() = default;
 Result<SoundReader> SoundReader::Open(std::span<const std::byte> bytes, const std::string& place) {
   constexpr std::string_view kRemedy = "give WAV, FLAC, Ogg Vorbis or Ogg Opus";
   if (!LooksLikeSound(bytes)) {
-    return Status::Error(place, "is no sound that can be played", kRemedy);
+    return Status::Error(place, "is not a sound file that can be played", kRemedy);
   }
   if (bytes.size() > kMaxBytes) {
     return Status::Error(place, "is larger than 512 MiB", "shorten or compress it");
@@ -112,7 +112,7 @@ Result<SoundReader> SoundReader::Open(std::span<const std::byte> bytes, const st
     return Status::Error(place, std::string("cannot be decoded: ") + sf_strerror(nullptr), kRemedy);
   }
   if (!IsKnownFormat(info.format)) {
-    return Status::Error(place, "has a coding that is not supported", kRemedy);
+    return Status::Error(place, "uses an encoding that is not supported", kRemedy);
   }
   if (info.channels < 1 || info.channels > kMaxChannels) {
     return Status::Error(place, "has " + std::to_string(info.channels) + " channels",
@@ -126,7 +126,7 @@ Result<SoundReader> SoundReader::Open(std::span<const std::byte> bytes, const st
     return Status::Error(place, "is empty, or longer than an hour");
   }
   if (info.seekable == 0) {
-    return Status::Error(place, "is damaged: one cannot jump within it");
+    return Status::Error(place, "is damaged: it cannot be played from the middle");
   }
   SoundReader reader(std::move(file));
   reader.rate_ = info.samplerate;

@@ -1,7 +1,6 @@
 #pragma once
 
-// Decoding of sound files that lie in memory: WAV, FLAC, and Ogg with Vorbis or Opus,
-// by libsndfile.
+// Decodes sound files in memory: WAV, FLAC, and Ogg with Vorbis or Opus, by libsndfile.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace lararium::audio {
 
-// One sound, decoded piece by piece. Borrows the bytes. Threads: one at a time.
+// Decodes one sound piece by piece. Borrows the bytes. Not thread-safe.
 class SoundReader {
  public:
   static constexpr int kMinRate = 8'000;
@@ -22,22 +21,22 @@ class SoundReader {
   static constexpr int64_t kMaxSeconds = 3600;
   static constexpr size_t kMaxBytes = size_t{1} << 29;
 
-  // Only the header is read. Refuses other formats before any library sees them, and
-  // what is longer, faster or wider than the limits above. place: what errors call it.
+  // Reads only the header. Rejects other formats before any library sees them, and sounds beyond
+  // the limits above. place: where errors happened, for example a file name.
   static Result<SoundReader> Open(std::span<const std::byte> bytes, const std::string& place);
   SoundReader(SoundReader&&) noexcept;
   SoundReader& operator=(SoundReader&&) noexcept;
   ~SoundReader();
 
-  int rate() const { return rate_; }          // samples a second
+  int rate() const { return rate_; }          // Samples per second.
   int channels() const { return channels_; }  // 1 or 2
-  int64_t frames() const { return frames_; }  // samples of each channel
+  int64_t frames() const { return frames_; }  // Samples per channel.
   double seconds() const { return static_cast<double>(frames_) / rate_; }
 
-  // The next frame to be read. False where the file is damaged.
+  // Sets the next frame to read. Returns false if the file is damaged.
   bool Seek(int64_t frame);
-  // Interleaved samples. Gives the frames that were read: fewer only at the end, or
-  // where the file is damaged.
+  // Reads interleaved samples. Returns the number of frames read; it is smaller only at the end, or
+  // if the file is damaged.
   size_t Read(std::span<int16_t> samples);
 
  private:

@@ -11,32 +11,31 @@
 #include <cmath>
 #include <optional>
 
+#include "shared/audio/decibels.h"
 #include "shared/core/check.h"
 
 namespace lararium::audio {
 namespace {
 
-constexpr size_t kPieceFrames = 4096;  // of a streamed sound that OpenAL is given at a time
-constexpr size_t kPieces = 3;          // that it has in advance
+constexpr size_t kPieceFrames = 4096;  // Frames per queued piece of a streamed sound.
+constexpr size_t kPieces = 3;          // Pieces queued in advance.
 constexpr float kReferenceDistance = 1.0f;
 constexpr float kMaxDistance = 200.0f;
 constexpr float kMaxGain = 8.0f;
-// What reaches an ear around and through something solid, decibels: over all, and at
-// 5 kHz besides. Reverberation suffers half of it.
+// Attenuation behind an occluder, decibels: overall, and additionally at 5 kHz. Reverberation gets
+// half of it.
 constexpr float kObstructedDb = -9.0f;
 constexpr float kObstructedHighDb = -18.0f;
-// A voice behind its speaker's back (Chu & Warnock, "Detailed directivity of sound
-// fields around human talkers", NRC-IRC RR-104, 2002: a few decibels at speech's
-// middle, more than ten at 5 kHz).
+// Attenuation of a voice behind the speaker (Chu & Warnock, "Detailed directivity of sound fields
+// around human talkers", NRC-IRC RR-104, 2002: a few decibels at middle frequencies of speech, more
+// than ten at 5 kHz).
 constexpr float kBehindDb = -4.0f;
 constexpr float kBehindHighDb = -10.0f;
-constexpr float kMouthConeDeg = 90.0f;  // full level within
-
-float FromDb(float db) { return std::pow(10.0f, db / 20.0f); }
+constexpr float kMouthConeDeg = 90.0f;  // Full level within this cone.
 
 const EFXEAXREVERBPROPERTIES& PresetOf(stage::Reverb reverb) {
   static constexpr std::array<EFXEAXREVERBPROPERTIES, 9> kPresets = {{
-      EFX_REVERB_PRESET_GENERIC,  // none: not used
+      EFX_REVERB_PRESET_GENERIC,  // Not used: kNone has no reverberation.
       EFX_REVERB_PRESET_LIVINGROOM,
       EFX_REVERB_PRESET_WOODEN_SMALLROOM,
       EFX_REVERB_PRESET_CASTLE_SMALLROOM,
@@ -49,7 +48,7 @@ const EFXEAXREVERBPROPERTIES& PresetOf(stage::Reverb reverb) {
   return kPresets[static_cast<size_t>(reverb)];
 }
 
-// Each calling thread has its own current context; ours is current only within.
+// Makes our context current on the calling thread, within a scope.
 class Entered {
  public:
   explicit Entered(ALCcontext* context) { alcSetThreadContext(context); }
@@ -62,7 +61,7 @@ void SetEffect(ALuint effect, const EFXEAXREVERBPROPERTIES& p, float db) {
   alEffecti(effect, AL_EFFECT_TYPE, AL_EFFECT_EAXREVERB);
   alEffectf(effect, AL_EAXREVERB_DENSITY, p.flDensity);
   alEffectf(effect, AL_EAXREVERB_DIFFUSION, p.flDiffusion);
-  alEffectf(effect, AL_EAXREVERB_GAIN, std::min(p.flGain * FromDb(db), 1.0f));
+  alEffectf(effect, AL_EAXREVERB_GAIN, std::min(p.flGain * AmplitudeFromDecibels(db), 1.0f));
   alEffectf(effect, AL_EAXREVERB_GAINHF, p.flGainHF);
   alEffectf(effect, AL_EAXREVERB_GAINLF, p.flGainLF);
   alEffectf(effect, AL_EAXREVERB_DECAY_TIME, p.flDecayTime);
@@ -85,8 +84,8 @@ void SetEffect(ALuint effect, const EFXEAXREVERBPROPERTIES& p, float db) {
   alEffecti(effect, AL_EAXREVERB_DECAY_HFLIMIT, p.iDecayHFLimit);
 }
 
-// Both ears hear a mono sound at the level of a stereo one; a stereo sound becomes one
-// point.
+// Converts to stereo, where both ears get a mono sound, or to mono, where a stereo sound becomes
+// one point.
 void Convert(std::span<const int16_t> samples,
              int channels,
              bool to_stereo,
@@ -127,7 +126,7 @@ struct SoundGraph::Device {
 
   ~Device() {
     if (context != nullptr) {
-      alcDestroyContext(context);  // with all that belongs to it
+      alcDestroyContext(context);  // Also destroys all objects of the context.
     }
     if (device != nullptr) {
       alcCloseDevice(device);
@@ -140,10 +139,10 @@ struct SoundGraph::Source {
   int clip = -1;
   bool loops = false;
   bool head_locked = false;
-  // Of a streamed clip.
+  // Used by streamed clips only.
   std::optional<SoundReader> reader;
   std::array<ALuint, kPieces> pieces = {};
-  bool drained = false;  // nothing more is to be read
+  bool drained = false;  // The stream has ended.
 };
 
 SoundGraph::SoundGraph(std::shared_ptr<const SoundLibrary> library, std::unique_ptr<Device> device)
@@ -155,7 +154,7 @@ SoundGraph::SoundGraph(std::shared_ptr<const SoundLibrary> library, std::unique_
   widened_.reserve(2 * kPieceFrames);
 }
 
-// OpenAL's objects go with their device.
+// OpenAL's objects are destroyed with their device.
 SoundGraph::~SoundGraph() = default;
 
 Result<std::unique_ptr<SoundGraph>> SoundGraph::Create(std::shared_ptr<const SoundLibrary> library,
@@ -199,14 +198,14 @@ Result<std::unique_ptr<SoundGraph>> SoundGraph::Create(std::shared_ptr<const Sou
 
   const Entered entered(d.context);
   alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
-  alDopplerFactor(0.0f);  // poses jump where the tracker corrects itself
+  alDopplerFactor(0.0f);  // Poses jump when the tracker corrects itself.
   alGenFilters(1, &d.direct_filter);
   alGenFilters(1, &d.send_filter);
   alFilteri(d.direct_filter, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
   alFilteri(d.send_filter, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
   alGenEffects(1, &d.effect);
   alGenAuxiliaryEffectSlots(1, &d.effect_slot);
-  // The best that is not wasteful: resampling happens only for clips of other rates.
+  // The best resampler that is not wasteful; only clips of other rates are resampled.
   const ALint resamplers = alGetInteger(AL_NUM_RESAMPLERS_SOFT);
   const ALint resampler = std::clamp(3, 0, std::max(resamplers - 1, 0));
   for (Source& source : graph->sources_) {
@@ -241,7 +240,7 @@ bool SoundGraph::FillBuffer(Source& source, uint32_t buffer) {
   const std::span<int16_t> piece = std::span(piece_).first(kPieceFrames * channels);
   size_t frames = source.reader->Read(piece);
   if (frames < kPieceFrames && source.loops) {
-    // Over the seam. A file that gives nothing even from its beginning is damaged.
+    // Continue at the beginning. A file that yields nothing even from there is damaged.
     if (source.reader->Seek(0)) {
       frames += source.reader->Read(piece.subspan(frames * channels));
     }
@@ -328,14 +327,15 @@ void SoundGraph::Set(size_t index, const SourceState& state) {
   const bool faces = state.facing != glm::vec3(0.0f);
   alSourcefv(source.id, AL_DIRECTION, &state.facing.x);
   alSourcef(source.id, AL_CONE_INNER_ANGLE, faces ? kMouthConeDeg : 360.0f);
-  alSourcef(source.id, AL_CONE_OUTER_GAIN, FromDb(kBehindDb));
-  alSourcef(source.id, AL_CONE_OUTER_GAINHF, FromDb(kBehindHighDb));
+  alSourcef(source.id, AL_CONE_OUTER_GAIN, AmplitudeFromDecibels(kBehindDb));
+  alSourcef(source.id, AL_CONE_OUTER_GAINHF, AmplitudeFromDecibels(kBehindHighDb));
   const float blocked = std::clamp(state.obstruction, 0.0f, 1.0f);
-  alFilterf(d.direct_filter, AL_LOWPASS_GAIN, FromDb(blocked * kObstructedDb));
-  alFilterf(d.direct_filter, AL_LOWPASS_GAINHF, FromDb(blocked * kObstructedHighDb));
+  alFilterf(d.direct_filter, AL_LOWPASS_GAIN, AmplitudeFromDecibels(blocked * kObstructedDb));
+  alFilterf(d.direct_filter, AL_LOWPASS_GAINHF, AmplitudeFromDecibels(blocked * kObstructedHighDb));
   alSourcei(source.id, AL_DIRECT_FILTER, static_cast<ALint>(d.direct_filter));
-  alFilterf(d.send_filter, AL_LOWPASS_GAIN, FromDb(0.5f * blocked * kObstructedDb));
-  alFilterf(d.send_filter, AL_LOWPASS_GAINHF, FromDb(0.5f * blocked * kObstructedHighDb));
+  alFilterf(d.send_filter, AL_LOWPASS_GAIN, AmplitudeFromDecibels(0.5f * blocked * kObstructedDb));
+  alFilterf(d.send_filter, AL_LOWPASS_GAINHF,
+            AmplitudeFromDecibels(0.5f * blocked * kObstructedHighDb));
   alSource3i(source.id, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(d.effect_slot), 0,
              static_cast<ALint>(d.send_filter));
 }

@@ -1,11 +1,10 @@
 #pragma once
 
-// The graph in which sounds become what two ears hear: OpenAL Soft on a loopback
-// device, which renders into memory when it is asked to. Heads' filters (HRTF),
-// distance, occlusion and reverberation are therefore the same whether the samples go
-// to headphones or to a file, and nothing depends on a sound card.
+// Renders sounds for two ears: OpenAL Soft on a loopback device, which renders into memory on
+// request. Head-related transfer functions (HRTF), distance, occlusion and reverberation are
+// therefore the same for headphones and for files, and do not depend on a sound card.
 //
-// Distance: inverse, 1 m is the reference and nothing is louder than there.
+// Distance model: inverse; the reference distance is 1 m, and nearer sources are not louder.
 // OpenAL's axes are those of the stage: Y up, -Z forward, metres.
 
 #include <array>
@@ -20,20 +19,20 @@
 
 namespace lararium::audio {
 
-// How a source is heard now.
+// State of a source.
 struct SourceState {
-  float gain = 1.0f;                     // factor of its amplitude
-  glm::vec3 position = glm::vec3(0.0f);  // stage, metres; unless head-locked
-  glm::vec3 facing = glm::vec3(0.0f);    // where a mouth points; zero: it sounds all around
-  float obstruction = 0.0f;              // 0: heard freely; 1: behind something solid
+  float gain = 1.0f;                     // Factor of the amplitude.
+  glm::vec3 position = glm::vec3(0.0f);  // Stage axes, metres; unused for head-locked sources.
+  glm::vec3 facing = glm::vec3(0.0f);    // Direction of a mouth; zero: omnidirectional.
+  float obstruction = 0.0f;              // 0: unobstructed; 1: behind an occluder.
 };
 
 class SoundGraph {
  public:
-  static constexpr int kRate = 48'000;  // samples a second that it gives
+  static constexpr int kRate = 48'000;  // Samples per second of the output.
   static constexpr size_t kSources = 48;
-  // By which samples come late: a millisecond in which the limiter of the output, which
-  // keeps peaks below full scale, looks ahead.
+  // Delay of the output: the look-ahead of one millisecond of the limiter that keeps peaks below
+  // full scale.
   static constexpr size_t kDelayFrames = 48;
 
   // hrtf: for headphones; otherwise for two loudspeakers.
@@ -44,24 +43,24 @@ class SoundGraph {
   SoundGraph& operator=(const SoundGraph&) = delete;
 
   const SoundLibrary& library() const { return *library_; }
-  // False where no data of heads are installed.
+  // False if no HRTF data are installed.
   bool hrtf() const { return hrtf_; }
 
-  // The clip sounds from one of its frames on, beginning with the next sample that is
-  // rendered. Stops what the source played before. False where a file is damaged.
+  // Starts a clip at one of its frames, with the next sample that is rendered. Stops what the
+  // source played before. Returns false if a file is damaged.
   bool Start(size_t source, int clip, int64_t frame, bool loops, bool head_locked);
   void Stop(size_t source);
-  // False once a clip has ended.
+  // Returns false once the clip has ended.
   bool Playing(size_t source);
 
-  // How a source is heard, and from where; they hold until they are set anew.
+  // Set the state of a source and of the listener; both persist until the next call.
   void Set(size_t source, const SourceState& state);
   void SetListener(const Listener& listener);
-  // How the room answers. db: louder than rooms of its kind do.
+  // Sets the room's reverberation. db: level relative to typical rooms of its kind.
   void SetReverb(stage::Reverb reverb, float db);
 
-  // The next samples: left, right, left, ... What was set before is reached at the end
-  // of them: a change is a ramp over one call.
+  // Renders the next samples: left, right, left, ... State that was set before is reached at their
+  // end: a change is a ramp over one call.
   void Render(std::span<float> stereo);
 
  private:
@@ -75,17 +74,17 @@ class SoundGraph {
   SoundGraph(std::shared_ptr<const SoundLibrary> library, std::unique_ptr<Device> device);
   uint32_t BufferOf(int clip, bool head_locked);
   bool StartStream(Source& source, const Clip& clip, int64_t frame);
-  // Gives OpenAL the next piece of a streamed sound; false at its end.
+  // Queues the next piece of a streamed sound in OpenAL; returns false at its end.
   bool FillBuffer(Source& source, uint32_t buffer);
   void Feed(Source& source);
 
   std::shared_ptr<const SoundLibrary> library_;
   std::unique_ptr<Device> device_;
   bool hrtf_ = false;
-  std::vector<Buffers> buffers_;  // of each clip; 0: not given to OpenAL yet
+  std::vector<Buffers> buffers_;  // OpenAL buffers of each clip; 0: not created yet.
   std::vector<Source> sources_;
-  std::vector<int16_t> piece_;    // of a stream, as decoded
-  std::vector<int16_t> widened_;  // and as OpenAL takes it
+  std::vector<int16_t> piece_;    // A piece of a stream, decoded.
+  std::vector<int16_t> widened_;  // The piece in the channel count for OpenAL.
 };
 
 }  // namespace lararium::audio

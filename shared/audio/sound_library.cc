@@ -11,7 +11,7 @@ Status Hold(Clip& clip) {
   LARARIUM_ASSIGN_OR_RETURN(SoundReader reader, SoundReader::Open(clip.data.bytes, clip.name));
   clip.samples.resize(static_cast<size_t>(clip.frames * clip.channels));
   if (reader.Read(clip.samples) != static_cast<size_t>(clip.frames)) {
-    return Status::Error(clip.name, "ends too early: the file is damaged", "put it back");
+    return Status::Error(clip.name, "ends too early: the file is damaged", "replace the file");
   }
   clip.data = {};
   return Status();

@@ -1,7 +1,6 @@
 #pragma once
 
-// All sounds of one show, by name. Short ones are decoded once, long ones while they
-// are played.
+// All sounds of one show, by name. Short ones are decoded once, long ones while they play.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace lararium::audio {
 
-// An encoded sound and whoever keeps its bytes.
+// An encoded sound and the owner of its bytes.
 struct SoundData {
   std::string name;
   std::span<const std::byte> bytes;
@@ -28,30 +27,30 @@ struct Clip {
   int rate = 0;
   int channels = 1;
   int64_t frames = 0;
-  std::vector<int16_t> samples;  // interleaved; empty: data is decoded while it plays
-  SoundData data;                // empty where samples are
+  std::vector<int16_t> samples;  // Interleaved; empty: `data` is decoded while it plays.
+  SoundData data;                // Empty if `samples` are held.
 
   double seconds() const { return static_cast<double>(frames) / rate; }
 };
 
-// Immutable; shared by threads.
+// Immutable; may be shared by threads.
 class SoundLibrary {
  public:
-  // What is longer is streamed.
+  // Longer sounds are streamed.
   static constexpr double kMaxHeldSeconds = 5.0;
-  static constexpr size_t kMaxHeldSamples = size_t{48} << 20;  // of all clips
+  static constexpr size_t kMaxHeldSamples = size_t{48} << 20;  // Limit for all clips together.
 
-  // Names are unique. Errors name the sound.
+  // Names must be unique. Errors name the sound.
   static Result<std::shared_ptr<const SoundLibrary>> Load(std::vector<SoundData> sounds);
 
   std::span<const Clip> clips() const { return clips_; }
-  // Index of a clip; -1: there is none of that name.
+  // Index of a clip; -1: there is no clip of that name.
   int Find(std::string_view name) const;
 
  private:
   SoundLibrary() = default;
 
-  std::vector<Clip> clips_;  // in the order of their names
+  std::vector<Clip> clips_;  // Sorted by name.
 };
 
 }  // namespace lararium::audio

@@ -11,8 +11,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kAskAgain(2);
 constexpr std::chrono::milliseconds kStale(333);
-// A difference of clocks beyond which the drama has jumped, and the share of a smaller
-// one that is put right in each block.
+// Clock difference beyond which the drama has jumped, and share of a smaller one that is corrected
+// in each block.
 constexpr double kJumpSeconds = 0.25;
 constexpr double kEvenOut = 0.02;
 
@@ -83,7 +83,8 @@ void SoundPlayer::Open() {
   }
 }
 
-// A ramp over the block; loudness is felt by its logarithm, roughly its square.
+// Ramps over the block. Perceived loudness is about logarithmic; the square of the volume
+// approximates that.
 void SoundPlayer::ApplyVolume(std::span<float> stereo) {
   const float wanted = std::clamp(volume_.load(), 0.0f, 1.0f);
   if (wanted == 1.0f && heard_volume_ == 1.0f) {

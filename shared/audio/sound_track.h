@@ -1,6 +1,6 @@
 #pragma once
 
-// The sound of a show for files: every sample once, in step with the drama's time.
+// The sound of a show for files: every sample once, synchronous with the drama's time.
 
 #include <functional>
 #include <memory>
@@ -16,19 +16,19 @@ class SoundTrack {
  public:
   using Take = std::function<Status(std::span<const float> stereo)>;
 
-  // The first sample is that of the drama's beginning. take gets the samples, 48000
-  // frames a second, piece by piece.
+  // The first sample is at the drama's beginning. `take` receives the samples piece by piece, 48000
+  // frames a second.
   static Result<std::unique_ptr<SoundTrack>> Create(std::shared_ptr<const SoundLibrary> library,
                                                     bool hrtf,
                                                     Take take);
 
-  // Goes on with other sounds, whose indices later scenes mean, at the sample where it is.
+  // Continues with another library at the present sample; later scenes refer to its indices.
   Status SetLibrary(std::shared_ptr<const SoundLibrary> library);
 
-  // What was to be heard since the last call, until scene.frame_time. Going back gives nothing.
-  // The same scenes give the same samples.
+  // Renders the time from the last call until scene.frame_time; nothing if that goes back. The same
+  // scenes give the same samples.
   Status RenderUntil(const SoundScene& scene);
-  // The same scene for some seconds more, as the last picture is shown.
+  // Renders the last scene for some more seconds, while the last picture is shown.
   Status RenderOn(double seconds);
 
  private:
@@ -38,10 +38,10 @@ class SoundTrack {
   static constexpr size_t kPieceFrames = 16 * Mixer::kBlockFrames;
 
   bool hrtf_;
-  std::unique_ptr<Mixer> mixer_;  // set when created
+  std::unique_ptr<Mixer> mixer_;  // Set by Create().
   Take take_;
   SoundScene last_;
-  int64_t frames_ = 0;  // that were rendered
+  int64_t frames_ = 0;  // Number of frames rendered.
   std::vector<float> piece_;
 };
 

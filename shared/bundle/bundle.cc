@@ -12,10 +12,8 @@
 namespace lararium::bundle {
 namespace {
 
-constexpr char kCopyAgain[] = "copy the bundle again, or export it again";
-
-// The manifest vouches for all other members; for itself it has the archive's
-// CRC-32, which tells every change of a few bytes.
+// The manifest contains the hashes of all other members. The manifest itself is checked by the
+// archive's CRC-32, which detects every change of a few bytes.
 Result<ShowManifest> ReadManifest(const ZipMember& member, const std::string& place) {
   if (member.name != kManifestName || member.data.size() > kMaxManifestBytes) {
     return Status::Error(place, "not a bundle of this program: it does not begin with a manifest",
@@ -29,18 +27,19 @@ Result<ShowManifest> ReadManifest(const ZipMember& member, const std::string& pl
   return ParseShowManifest(text, place + ": " + std::string(kManifestName));
 }
 
-// What no manifest vouches for has its CRC-32.
+// Checks the CRC-32 of a member that the manifest does not list.
 bool IsWhole(const ZipMember& member, size_t size) {
   const auto* bytes = reinterpret_cast<const Bytef*>(member.data.data());
   return member.data.size() == size && crc32_z(0, bytes, size) == member.crc32;
 }
 
-// Before anything in the manifest is believed.
+// Checks the signature before the content of the manifest is used.
 Status CheckSignature(const ZipMember& manifest,
                       const ZipMember* signature,
                       const PublicKey& trusted,
                       const std::string& place) {
-  constexpr char kAsk[] = "ask whoever made the show for one that is signed with the museum's key";
+  constexpr char kAsk[] =
+      "ask the makers of the show for a bundle that is signed with the museum's key";
   if (signature == nullptr) {
     return Status::Error(place, "the bundle is not signed", kAsk);
   }
@@ -51,7 +50,7 @@ Status CheckSignature(const ZipMember& manifest,
   return Status();
 }
 
-// What is in the archive is what the manifest lists, in the same order.
+// Checks that the archive contains what the manifest lists, in the same order.
 Status CheckListing(const ShowManifest& manifest,
                     std::span<const ZipMember> members,
                     const std::string& place) {

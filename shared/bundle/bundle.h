@@ -1,8 +1,8 @@
 #pragma once
 
-// A show as visitors get it: the .larshow file. A zip archive of one fixed form
-// (docs/file-formats.md): manifest.json first, every member stored and aligned,
-// each byte either checked or known. It is mapped, verified and used in place.
+// A show in the form that visitors get: the .larshow file. It is a zip archive of one fixed form
+// (docs/file-formats.md): manifest.json comes first, every member is stored and aligned, and each
+// byte is either verified or has a known value. The file is mapped, verified and used in place.
 
 #include <filesystem>
 #include <map>
@@ -21,13 +21,12 @@
 namespace lararium::bundle {
 
 struct OpenOptions {
-  // Only what its owner signed is opened, and nothing of anything else is looked at but the
-  // archive's structure. None: signatures do not count.
+  // If set, only bundles that are signed with this key are opened; of others, only the archive's
+  // structure is read. If not set, signatures are ignored.
   std::optional<PublicKey> trusted = std::nullopt;
 };
 
-// Where a member of a bundle that was verified lies, so that it can be read when the bundle is
-// closed.
+// Location of a member of a verified bundle, so that it can be read after the bundle is closed.
 struct StoredMember {
   std::filesystem::path file;
   std::string name;
@@ -35,31 +34,31 @@ struct StoredMember {
   size_t size = 0;
   Sha256 sha256 = {};
 
-  // Fails where it is not what it was.
+  // Returns an error if the content has changed.
   Result<std::vector<std::byte>> Read() const;
 };
 
 class Bundle {
  public:
-  // Verifies everything before it returns: the archive's structure, and the size
-  // and SHA-256 of every member. Uses constant memory beside the mapped file.
-  // Errors say that the file is damaged, foreign or too new, and what to do.
+  // Verifies everything before it returns: the archive's structure, and the size and SHA-256 of
+  // every member. Uses constant memory beside the mapped file. Errors say that the file is damaged,
+  // not a bundle, or too new, and what to do.
   static Result<Bundle> Open(const std::filesystem::path& path, const OpenOptions& options = {});
 
   const ShowManifest& manifest() const { return manifest_; }
   const std::string& place() const { return place_; }
-  // Whether it carries a signature, which counts for nothing unless a key was given.
+  // True if the bundle has a signature, which is only checked if a key was given.
   bool is_signed() const { return is_signed_; }
 
-  // The bytes of a member where they are mapped, aligned to 64 bytes; they live
-  // as long as the bundle. The members that manifest() names always exist.
+  // Returns the mapped bytes of a member, aligned to 64 bytes and valid as long as the bundle. The
+  // members that manifest() names always exist.
   Result<std::span<const std::byte>> member(std::string_view name) const;
   Result<StoredMember> stored(std::string_view name) const;
 
  private:
   Bundle(std::string place, MappedFile file) : place_(std::move(place)), file_(std::move(file)) {}
 
-  std::string place_;  // what errors call it
+  std::string place_;  // name of the bundle in errors
   MappedFile file_;
   ShowManifest manifest_;
   bool is_signed_ = false;

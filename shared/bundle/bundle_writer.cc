@@ -16,7 +16,7 @@
 namespace lararium::bundle {
 namespace {
 
-// Ends an archive without writing, unless it was written before.
+// Discards an archive that was not written.
 struct Discard {
   void operator()(zip_t* archive) const { zip_discard(archive); }
 };
@@ -39,13 +39,13 @@ Result<Archive> OpenArchive(const std::filesystem::path& path) {
   return Archive(archive);
 }
 
-// Where the bytes of a member lie while the archive is written.
+// The bytes of a member while the archive is written.
 struct Source {
   std::string name;
   std::span<const std::byte> bytes;
 };
 
-// Adds a member whose local header will begin at offset, and moves offset on.
+// Adds a member whose local header begins at `offset`, and advances `offset`.
 bool AddMember(zip_t* archive, const Source& source, uint64_t& offset) {
   zip_source_t* buffer = zip_source_buffer(archive, source.bytes.data(), source.bytes.size(), 0);
   if (buffer == nullptr) {
@@ -79,16 +79,16 @@ Status WriteArchive(const std::filesystem::path& path, const std::vector<Source>
   }
   if (offset > kMaxBundleBytes) {
     return Status::Error(path.string(), "the bundle would be larger than 4 GiB",
-                         "leave out or shrink what is large");
+                         "remove large files from the show, or make them smaller");
   }
   if (zip_close(archive.get()) != 0) {
     return ZipError(path, zip_get_error(archive.get()));
   }
-  static_cast<void>(archive.release());  // zip_close has freed it
+  static_cast<void>(archive.release());  // zip_close() has freed it.
   return Status();
 }
 
-// Makes what was written to `from` durable, and gives it its name.
+// Flushes the file `from` to disk and renames it to `to`.
 Status Publish(const std::filesystem::path& from, const std::filesystem::path& to) {
   const auto sync = [](const std::filesystem::path& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Writes bundles. A target of its own (lararium_bundle_writer): players read
-// bundles without libzip.
+// Writes bundles. This is a separate target (lararium_bundle_writer), because players read bundles
+// without libzip.
 
 #include <cstddef>
 #include <filesystem>
@@ -16,21 +16,21 @@
 
 namespace lararium::bundle {
 
-// A member to be: its bytes, which are borrowed, or the file that holds them.
+// A member to write: its bytes, which are borrowed, or the file that holds them.
 struct MemberContent {
   std::string name;
   std::variant<std::span<const std::byte>, std::filesystem::path> content;
 };
 
-// Writes manifest and members to path, in their order, replacing it as a whole
-// or leaving it as it was. manifest.members is computed here. The same content
-// and key give the same bytes. key: signs the manifest; nullptr leaves it unsigned.
+// Writes manifest and members to `path` in this order. Replaces the file completely or leaves it
+// unchanged. Computes manifest.members. Equal content and key give equal bytes. key: signs the
+// manifest; nullptr leaves it unsigned.
 Status WriteBundle(const std::filesystem::path& path,
                    ShowManifest manifest,
                    const std::vector<MemberContent>& members,
                    const SecretKey* key = nullptr);
 
-// Signs a bundle that was written, in the place of a signature that it has.
+// Signs an existing bundle and replaces any signature that it has.
 Status SignBundle(const std::filesystem::path& path, const SecretKey& key);
 
 }  // namespace lararium::bundle

@@ -13,7 +13,7 @@ bool IsMemberName(std::string_view name) {
   if (name.empty() || name.size() > kMaxMemberName) {
     return false;
   }
-  bool at_start = true;  // of a part
+  bool at_start = true;  // start of a part
   for (const char c : name) {
     if (c == '/' ? at_start : !IsWordCharacter(c) && (at_start || (c != '-' && c != '.'))) {
       return false;

@@ -16,7 +16,7 @@ using Sha256 = std::array<uint8_t, 32>;
 
 Sha256 ComputeSha256(std::span<const std::byte> bytes);
 
-// 64 lower-case hexadecimal digits.
+// Formats and parses 64 lower-case hexadecimal digits.
 std::string FormatSha256(const Sha256& hash);
 std::optional<Sha256> ParseSha256(std::string_view text);
 

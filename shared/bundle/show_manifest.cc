@@ -23,7 +23,7 @@ constexpr size_t kMaxObjects = 1024;
 constexpr size_t kMaxLines = 4096;
 constexpr size_t kMaxLanguages = 64;
 constexpr size_t kMaxLanguageTag = 16;
-// Lines of bundles that knew no languages.
+// Language of the lines in old bundles without languages.
 constexpr char kNoLanguage[] = "und";
 constexpr size_t kMaxSounds = 4096;
 constexpr size_t kMaxOccluders = 256;
@@ -31,7 +31,7 @@ constexpr double kMaxIrradiance = 1e6;
 constexpr double kMaxProbeDistance = 1e5;  // metres
 constexpr size_t kMaxCredits = 1 << 20;
 
-// The field key of a list, element by element through parse.
+// Parses the list in field `key` with parse() for each element.
 template <typename T>
 Result<std::vector<T>> ParseList(const JsonView& json,
                                  std::string_view key,
@@ -51,7 +51,7 @@ Result<std::vector<T>> ParseList(const JsonView& json,
   return list;
 }
 
-// The same of a field that may be missing.
+// Same as ParseList for an optional field.
 template <typename T>
 Result<std::vector<T>> ParseOptionalList(const JsonView& json,
                                          std::string_view key,
@@ -66,7 +66,7 @@ Result<std::vector<T>> ParseOptionalList(const JsonView& json,
 Result<std::string> ParseMemberName(const JsonView& json, std::string_view key) {
   LARARIUM_ASSIGN_OR_RETURN(std::string name, json.Text(key, kMaxMemberName));
   if (!IsMemberName(name) || name == kManifestName) {
-    return json.Problem("the field \"" + std::string(key) + "\" is not a possible member name");
+    return json.Problem("the field \"" + std::string(key) + "\" is not a valid member name");
   }
   return name;
 }
@@ -121,7 +121,7 @@ Json FormatSun(const light::Sun& sun) {
 Result<light::ShRgb> ParseSky(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("light"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(3 * light::kShCount));
-  // Older bundles hold degree 2 only.
+  // Older bundles contain degree 2 only.
   const bool plain = list.size() == 3 * light::kPlainShCount;
   LARARIUM_ASSIGN_OR_RETURN(
       const std::vector<double> numbers,
@@ -175,7 +175,7 @@ Status ParseProbe(const JsonView& json, PlaceEntry& place) {
   return Status();
 }
 
-// Bundles of schema 1 have one light in the place itself.
+// In schema 1 the light is in the place itself.
 Status ParseProbes(const JsonView& json, PlaceEntry& place) {
   if (!json.Has("probes")) {
     LARARIUM_ASSIGN_OR_RETURN(const light::ProbeLight light, ParseLight(json));
@@ -290,7 +290,7 @@ Result<LineEntry> ParseLine(const JsonView& json) {
   return line;
 }
 
-// As bundles had them before there were languages.
+// Parses a line of an old bundle without languages.
 Result<LineEntry> ParsePlainSpeech(const JsonView& json) {
   LineEntry line;
   LARARIUM_ASSIGN_OR_RETURN(line.name, json.Text("name", kMaxName));
@@ -307,7 +307,7 @@ Result<SpokenLanguage> ParseSpokenLanguage(const JsonView& json) {
   return language;
 }
 
-// Lines, the languages that they are said and written in, and the letters.
+// Parses the lines, their spoken and written languages, and the font.
 Status ParseLines(const JsonView& json, ShowManifest& manifest) {
   if (json.Has("speech")) {
     LARARIUM_ASSIGN_OR_RETURN(manifest.lines,
@@ -408,7 +408,7 @@ Result<Member> ParseMember(const JsonView& json) {
   return member;
 }
 
-// Everything that names a member names one that is listed.
+// Checks that every named member is listed.
 Status CheckReferences(const ShowManifest& manifest, const JsonView& json) {
   std::set<std::string_view> known;
   for (const Member& member : manifest.members) {
@@ -464,7 +464,7 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
   if (schema > ShowManifest::kSchema) {
     return json.Problem("the bundle has version " + std::to_string(schema) +
                             ", this program reads up to " + std::to_string(ShowManifest::kSchema),
-                        "it needs a newer player");
+                        "update the player");
   }
   ShowManifest manifest;
   LARARIUM_ASSIGN_OR_RETURN(manifest.title, json.Text("title", kMaxTitle));

@@ -1,6 +1,6 @@
 #pragma once
 
-// manifest.json of a bundle: what the show consists of, and which members hold it.
+// manifest.json of a bundle: the parts of the show and the members that contain them.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace lararium::bundle {
 
-// Every file of a bundle but the manifest itself.
+// A file of a bundle; every file except the manifest itself has an entry.
 struct Member {
   std::string name;
   uint64_t size = 0;
@@ -30,7 +30,8 @@ struct OccluderEntry {
   std::string name;
   std::string mesh;  // member, .larmesh
   geometry::Similarity3 stage_from_mesh;
-  bool blocks_sound = true;  // these three as of stage::Occluder; a bundle may lack the fields
+  // The following three fields are those of stage::Occluder. Bundles may lack them.
+  bool blocks_sound = true;
   bool blocks_walking = true;
   bool receives_shadow = true;
 };
@@ -42,8 +43,8 @@ struct PlaceEntry {
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres along camera axes
   std::vector<OccluderEntry> occluders;
   std::vector<light::PlacedProbe> probes;                    // light in stage axes
-  std::optional<light::CameraTraits> camera = std::nullopt;  // a bundle may lack the field
-  std::vector<std::string> glossy = {};  // of each probe: member, .gloss; empty: none
+  std::optional<light::CameraTraits> camera = std::nullopt;  // Bundles may lack the field.
+  std::vector<std::string> glossy = {};  // Member for each probe, .gloss; empty: none.
   stage::Acoustics acoustics = {};
 };
 
@@ -52,73 +53,74 @@ struct CastEntry {
   std::string human;  // member, .larhuman
 };
 
-// A thing on stage at the drama's beginning.
+// An object on stage at the beginning of the drama.
 struct ObjectEntry {
   std::string name;
   std::string prop;  // member, .larprop
   geometry::Rigid3 stage_from_object;
 };
 
-// A line as it is said in one language.
+// A line as it is spoken in one language.
 struct SpokenEntry {
   std::string visemes;  // member, JSON: stage::ParseVisemes
-  std::string sound;    // member, FLAC or Ogg; empty: nothing is heard
+  std::string sound;    // member, FLAC or Ogg; empty: no sound
 };
 
-// What somebody can say.
+// A line that a character can say.
 struct LineEntry {
-  // The speaker of what is described to visitors who do not see well, unless one of the cast is
-  // called so. It is heard in languages of captions.
+  // Speaker of the audio description for visitors who do not see well, unless a member of the cast
+  // has this name. Descriptions are spoken in the languages of captions.
   static constexpr char kDescription[] = "description";
 
-  std::string name;     // its id
-  std::string speaker;  // of the cast, whose voice it has; may be empty
-  std::map<std::string, SpokenEntry, std::less<>> spoken;  // by language
+  std::string name;     // id of the line
+  std::string speaker;  // Name in the cast, whose voice is used; may be empty.
+  std::map<std::string, SpokenEntry, std::less<>> spoken;  // key: language tag
 };
 
-// A language that lines are said in.
+// A language in which lines are spoken.
 struct SpokenLanguage {
   std::string name;      // "la"
-  std::string captions;  // member, JSON: stage::ParseCaptions; empty: it has none
+  std::string captions;  // member, JSON: stage::ParseCaptions; empty: none
 };
 
-// What a caption is drawn with.
+// The font of captions.
 struct CaptionFontEntry {
   std::string metrics;  // member, JSON: render::ParseCaptionFont
   std::string atlas;    // member, PNG
 };
 
-// A sound that things, places or the drama make.
+// A sound of an object, of a place or of the drama.
 struct SoundEntry {
   std::string name;
   std::string file;  // member: WAV, FLAC or Ogg
 };
 
 struct ShowManifest {
-  // 1: a place has one light, without position and time of day.
+  // In schema 1 a place has a single light without position and time of day.
   static constexpr int kSchema = 2;
 
   std::string title;
   std::string credits;
-  std::string drama;                         // member, Lua source
-  std::vector<PlaceEntry> places;            // at least one; names are unique
-  std::vector<CastEntry> cast;               // names are unique
-  std::vector<ObjectEntry> objects;          // likewise; a bundle may lack the field
-  std::vector<LineEntry> lines;              // likewise
-  std::vector<SpokenLanguage> spoken;        // the first unless another is asked for
-  std::vector<std::string> captions;         // languages of captions, likewise
-  std::vector<SpokenLanguage> descriptions;  // languages of what is described; may be empty
+  std::string drama;                   // member, Lua source
+  std::vector<PlaceEntry> places;      // not empty; names are unique
+  std::vector<CastEntry> cast;         // names are unique
+  std::vector<ObjectEntry> objects;    // Names are unique; bundles may lack the field.
+  std::vector<LineEntry> lines;        // Names are unique; bundles may lack the field.
+  std::vector<SpokenLanguage> spoken;  // The first is used unless another is requested.
+  // Languages of captions; the first is used unless another is requested.
+  std::vector<std::string> captions;
+  std::vector<SpokenLanguage> descriptions;  // Languages of audio descriptions; may be empty.
   std::optional<CaptionFontEntry> caption_font;
   std::vector<SoundEntry> sounds;  // names are unique
-  std::string paradata;            // member, JSON: stage::ParseParadata; empty: it has none
-  std::vector<Member> members;     // in their order in the file
+  std::string paradata;            // member, JSON: stage::ParseParadata; empty: none
+  std::vector<Member> members;     // same order as in the file
 };
 
-// Whether a line of the manifest is described to visitors who do not see well.
+// True if a line of the manifest is an audio description for visitors who do not see well.
 bool Describes(const ShowManifest& manifest, const LineEntry& line);
 
-// Checks every field, that names are unique, and that each member which an
-// entry names is listed. place: what errors call the text.
+// Checks every field, that names are unique, and that every member that an entry names is listed.
+// Errors call the text `place`.
 Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& place);
 std::string FormatShowManifest(const ShowManifest& manifest);
 

@@ -26,7 +26,7 @@ static_assert(crypto_sign_ed25519_BYTES == 64);
 constexpr std::string_view kPublic = "lararium public key 1 ";
 constexpr std::string_view kSecret = "lararium secret key 1 ";
 constexpr size_t kMostKeyFile = 4096;  // bytes
-// What is signed begins with this: a signature of something else is none of a bundle.
+// Prefix of the signed data, so that a signature of other data is never valid for a bundle.
 constexpr std::string_view kPurpose = "lararium bundle manifest 1\n";
 
 void StartSodium() { CHECK(sodium_init() >= 0); }
@@ -65,7 +65,7 @@ Status ParseKey(std::string_view text,
       count != key.size()) {
     const bool wants_public = kind == kPublic;
     return Status::Error(place,
-                         std::string("is no ") + (wants_public ? "public" : "secret") + " key",
+                         std::string("is not a ") + (wants_public ? "public" : "secret") + " key",
                          wants_public ? "name the .pub file that came with the show"
                                       : "make a key with lararium-editor key");
   }
@@ -114,7 +114,7 @@ Status SaveSecretKey(const std::filesystem::path& path, const SecretKey& key) {
   const std::string text = std::string(kSecret) + Hex(key.bytes) + "\n";
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) {
-    return Status::Error(path.string(), std::string("cannot be made: ") + std::strerror(errno),
+    return Status::Error(path.string(), std::string("cannot be created: ") + std::strerror(errno),
                          errno == EEXIST ? "keys are never replaced: give another name" : "");
   }
   const bool written =

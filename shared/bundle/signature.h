@@ -1,7 +1,7 @@
 #pragma once
 
-// Who made a bundle: Ed25519 signatures (RFC 8032) of its manifest, by libsodium. The manifest
-// has the hash of every member, so that its signature vouches for the whole file.
+// Identifies the maker of a bundle: Ed25519 signatures (RFC 8032) of its manifest, with libsodium.
+// The manifest contains the hash of every member, so its signature covers the whole file.
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ struct PublicKey {
   friend bool operator==(const PublicKey&, const PublicKey&) = default;
 };
 
-// Kept by whoever makes bundles; players never see it.
+// Only the maker of bundles has it; players never see it.
 struct SecretKey {
   std::array<uint8_t, 64> bytes = {};
 
@@ -31,10 +31,11 @@ using Signature = std::array<uint8_t, 64>;
 
 SecretKey MakeSecretKey();
 
-// Key files are one line of text: "lararium public key 1" or "lararium secret key 1", and the key
-// in hexadecimal digits. A secret key's file can be read by its owner alone; none is replaced.
+// Key files are one line of text: "lararium public key 1" or "lararium secret key 1", followed by
+// the key in hexadecimal digits. Only its owner can read a secret key's file. Existing files are
+// not replaced.
 Result<PublicKey> LoadPublicKey(const std::filesystem::path& path);
-// place: what errors call the text.
+// Errors call the text `place`.
 Result<PublicKey> ParsePublicKey(std::string_view text, const std::string& place);
 Result<SecretKey> LoadSecretKey(const std::filesystem::path& path);
 Status SavePublicKey(const std::filesystem::path& path, const PublicKey& key);

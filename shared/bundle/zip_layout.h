@@ -1,14 +1,13 @@
 #pragma once
 
-// The one form of zip archive that a bundle has (docs/file-formats.md), shared
-// by the reader and the writer. Names and numbers are those of PKWARE's
-// APPNOTE.TXT, sections 4.3.7, 4.3.12 and 4.3.16; all values little-endian.
+// The only form of zip archive that a bundle may have (docs/file-formats.md), shared by the reader
+// and the writer. Names and numbers are those of PKWARE's APPNOTE.TXT, sections 4.3.7, 4.3.12 and
+// 4.3.16; all values are little-endian.
 //
-// No compression, no encryption, no data descriptors, no zip64, no comments, no
-// gaps. Each local header carries one extra field, whose payload is the
-// alignment (2 bytes) and then zeros, so that the data after it begin at a
-// multiple of kAlignment. Every other byte has one possible value, so that a
-// reader can tell any change.
+// There is no compression, no encryption, no data descriptors, no zip64, no comments and no gaps.
+// Each local header has one extra field, whose payload is the alignment (2 bytes) followed by
+// zeros, so that the data after it begin at a multiple of kAlignment. Every other byte has exactly
+// one possible value, so a reader detects any change.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,10 +22,10 @@ inline constexpr size_t kCentralSize = 46;
 inline constexpr size_t kEndSize = 22;
 
 inline constexpr size_t kAlignment = 64;
-inline constexpr uint16_t kAlignmentField = 0xd935;  // as Android's zipalign
+inline constexpr uint16_t kAlignmentField = 0xd935;  // the id that Android's zipalign uses
 inline constexpr size_t kExtraHeaderSize = 4;        // id, length
 
-// 1980-01-01 00:00:00: bundles carry no dates, so that content alone decides.
+// 1980-01-01 00:00:00. Bundles have no dates, so that equal content gives equal files.
 inline constexpr uint16_t kDosTime = 0;
 inline constexpr uint16_t kDosDate = 1 << 5 | 1;
 
@@ -34,8 +33,7 @@ inline constexpr size_t kMaxMembers = 16384;
 inline constexpr uint64_t kMaxBundleBytes = (uint64_t{1} << 32) - 1;
 inline constexpr uint64_t kMaxManifestBytes = 16 << 20;
 
-// Bytes of the extra field, its header included, of a member whose local header
-// begins at offset.
+// Size of the extra field, including its header, of a member whose local header begins at `offset`.
 inline constexpr size_t ExtraSize(uint64_t offset, size_t name_size) {
   const uint64_t shortest = offset + kLocalSize + name_size + kExtraHeaderSize + 2;
   return kExtraHeaderSize + 2 + (kAlignment - shortest % kAlignment) % kAlignment;

@@ -9,13 +9,12 @@
 namespace lararium::bundle {
 namespace {
 
-constexpr char kCopyAgain[] = "copy the bundle again, or export it again";
 constexpr char kExportAgain[] = "export the bundle with lararium-editor";
 
 constexpr uint16_t kVersionMadeBy = 63;  // 6.3, MS-DOS
 constexpr uint16_t kVersionNeeded = 10;  // 1.0: stored files
 
-// Little-endian values one after the other.
+// Reads consecutive little-endian values.
 class Cursor {
  public:
   explicit Cursor(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -38,8 +37,8 @@ class Cursor {
   size_t position_ = 0;
 };
 
-// The fields of a central file header or of a local one that are checked one by
-// one; those a header does not have keep the values they must have.
+// The checked fields of a central or of a local file header. Fields that a header does not have
+// keep the values that they must have.
 struct FileHeader {
   uint32_t signature = 0;
   uint16_t version_made_by = kVersionMadeBy;
@@ -95,7 +94,7 @@ FileHeader ReadCentral(std::span<const std::byte> bytes) {
   return header;
 }
 
-// Whether all that is the same in every header of a bundle is so.
+// True if the fields that are equal in every header of a bundle have their values.
 bool HasFixedFields(const FileHeader& header) {
   return header.version_made_by == kVersionMadeBy && header.version_needed == kVersionNeeded &&
          header.flags == 0 && header.method == 0 && header.time == kDosTime &&
@@ -108,7 +107,7 @@ std::string_view Text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// A name for a message, without what could disturb a terminal.
+// Returns a name for a message, without characters that could disturb a terminal.
 std::string Printable(std::string_view name) {
   std::string text(name.substr(0, kMaxMemberName));
   std::replace_if(
@@ -116,7 +115,7 @@ std::string Printable(std::string_view name) {
   return text;
 }
 
-// Reads one archive, from its first member to its last.
+// Reads one archive from its first member to its last.
 class Reader {
  public:
   Reader(std::span<const std::byte> file, const std::string& place) : file_(file), place_(place) {}
@@ -213,8 +212,8 @@ class Reader {
     return Status();
   }
 
-  // The local header says the same as the directory, the extra field aligns, and
-  // the data end before the directory begins.
+  // Checks that the local header equals the directory's, that the extra field aligns the data, and
+  // that the data end before the directory begins.
   Status CheckLocalHeader(const FileHeader& central, std::string_view name) const {
     const Status damaged = Damaged("the header of '" + std::string(name) + "' is wrong");
     const size_t extra_size = ExtraSize(next_, name.size());
@@ -246,8 +245,8 @@ class Reader {
   const std::string& place_;
   size_t count_ = 0;
   uint64_t central_begin_ = 0;
-  uint64_t central_ = 0;  // where the next directory entry begins
-  uint64_t next_ = 0;     // where the next local header must begin
+  uint64_t central_ = 0;  // offset of the next directory entry
+  uint64_t next_ = 0;     // required offset of the next local header
   std::set<std::string_view> names_;
 };
 

@@ -7,9 +7,9 @@ namespace lararium::capture {
 namespace {
 
 constexpr uint32_t kBuffers = 4;
-constexpr uint32_t kLeastBuffers = 2;  // one is filled while the other is read
+constexpr uint32_t kLeastBuffers = 2;  // One is filled while the other is read.
 constexpr std::chrono::seconds kPatience(2);
-constexpr std::chrono::seconds kPatienceAtFirst(5);  // cameras begin slowly
+constexpr std::chrono::seconds kPatienceAtFirst(5);  // Cameras start slowly.
 
 v4l2_buffer Buffer(uint32_t index) {
   v4l2_buffer buffer = Zeroed<v4l2_buffer>();
@@ -27,7 +27,7 @@ v4l2_requestbuffers RequestOf(uint32_t count) {
   return request;
 }
 
-// Linux' monotonic clock is std::chrono::steady_clock.
+// Linux's monotonic clock is std::chrono::steady_clock.
 std::optional<double> TimeTaken(const v4l2_buffer& buffer) {
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
     return std::nullopt;
@@ -108,7 +108,7 @@ bool BufferQueue::Queue(uint32_t index) {
   return Ask(device_, VIDIOC_QBUF, &buffer) == 0;
 }
 
-// A driver that does not take it back has failed: then no image comes any more.
+// If the driver does not accept the buffer it has failed, and no image will come any more.
 void BufferQueue::GiveBack(const SentImage& image) { Queue(image.buffer); }
 
 Result<SentImage> BufferQueue::Newest() {
@@ -123,7 +123,7 @@ Result<SentImage> BufferQueue::Newest() {
   return GivesNoImage(name_);
 }
 
-// Whether there is something to fetch.
+// True if there is something to fetch.
 bool BufferQueue::WaitUntil(Clock::time_point deadline) {
   while (true) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
@@ -137,7 +137,7 @@ bool BufferQueue::WaitUntil(Clock::time_point deadline) {
   }
 }
 
-// A buffer that is filled; nullopt where none is.
+// Returns a filled buffer; nullopt if there is none.
 Result<std::optional<v4l2_buffer>> BufferQueue::Fetch() {
   v4l2_buffer buffer = Buffer(0);
   if (Ask(device_, VIDIOC_DQBUF, &buffer) == 0) {
@@ -150,8 +150,9 @@ Result<std::optional<v4l2_buffer>> BufferQueue::Fetch() {
   return GivesNoImage(name_);
 }
 
-// The newest of the images that wait; nullopt where all are damaged. Where every buffer was full
-// the driver had none for what came since: unless they may be old, all go back.
+// Returns the newest of the waiting images; nullopt if all are damaged. If every buffer was full,
+// the driver had none for newer images: all are then returned to it, unless the caller accepts old
+// images.
 Result<std::optional<SentImage>> BufferQueue::Drain(bool may_be_old) {
   std::optional<SentImage> newest;
   size_t fetched = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The buffers that a camera's driver fills with images, shared with it. Private to capture.
+// The image buffers that are shared with a camera's driver. Private to capture.
 
 #include <linux/videodev2.h>
 
@@ -20,22 +20,24 @@ namespace lararium::capture {
 // An image as the camera sent it.
 struct SentImage {
   uint32_t buffer = 0;
-  std::span<uint8_t> bytes;     // until it is given back
-  std::optional<double> taken;  // seconds of std::chrono::steady_clock, where the driver knows
+  std::span<uint8_t> bytes;     // Valid until GiveBack().
+  std::optional<double> taken;  // Seconds of std::chrono::steady_clock, if the driver provides it.
 };
 
 class BufferQueue {
  public:
-  // Images flow from now on until it goes away. device must outlive it.
+  // Starts the stream of images, which runs until the queue is destroyed. device must outlive the
+  // queue.
   static Result<std::unique_ptr<BufferQueue>> Start(const std::string& name, VideoDevice& device);
   ~BufferQueue();
   BufferQueue(const BufferQueue&) = delete;
   BufferQueue& operator=(const BufferQueue&) = delete;
 
-  // The newest image, so that nobody lags behind: older ones, and those that the driver knows to
-  // be damaged, go back. Waits for one up to two seconds, for the first one five.
+  // Returns the newest image, so that the caller never falls behind. Older images, and images that
+  // the driver marks as damaged, are returned to the driver. Waits for up to two seconds, for the
+  // first image up to five.
   Result<SentImage> Newest();
-  // The driver may fill its buffer again.
+  // Returns the image's buffer to the driver.
   void GiveBack(const SentImage& image);
 
  private:
@@ -54,7 +56,7 @@ class BufferQueue {
   VideoDevice& device_;
   std::vector<std::span<uint8_t>> buffers_;
   bool flows_ = false;
-  bool came_ = false;  // an image
+  bool came_ = false;  // True after the first image.
 };
 
 }  // namespace lararium::capture

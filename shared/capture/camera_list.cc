@@ -10,7 +10,7 @@
 namespace lararium::capture {
 namespace {
 
-constexpr int kMostDevices = 256;  // numbers that Linux gives
+constexpr int kMostDevices = 256;  // number of device numbers in Linux
 
 std::optional<Result<std::unique_ptr<VideoDevice>>> OpenIfThere(int number) {
   std::error_code ignored;

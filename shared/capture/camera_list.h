@@ -1,6 +1,6 @@
 #pragma once
 
-// Which cameras are connected.
+// Lists the connected cameras.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,15 @@
 namespace lararium::capture {
 
 struct ConnectedCamera {
-  int number = 0;       // of OpenCamera()
-  std::string name;     // as its driver calls it, printable ASCII; empty where it cannot be asked
-  std::string problem;  // why it cannot be asked, as where somebody may not open it; else empty
+  int number = 0;  // number for OpenCamera()
+  // Name from the driver in printable ASCII; empty if the camera cannot be queried.
+  std::string name;
+  // Why the camera cannot be queried, for example without permission; otherwise empty.
+  std::string problem;
 };
 
-// Those of Video4Linux that stream video, by their numbers. Nodes of a camera that give no images
-// are left out. One that another program has is listed all the same.
+// Returns the Video4Linux devices that stream video, in the order of their numbers. Device nodes
+// that give no images are left out. Cameras in use by another program are listed too.
 std::vector<ConnectedCamera> ConnectedCameras();
 
 }  // namespace lararium::capture

@@ -9,7 +9,7 @@
 namespace lararium::capture {
 namespace {
 
-// Of a camera that was told nothing.
+// Defaults for settings that are not given.
 constexpr int kUsualWidth = 640;
 constexpr int kUsualHeight = 480;
 constexpr double kUsualRate = 30.0;
@@ -22,7 +22,7 @@ std::string SizeText(int64_t width, int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// What to ask the driver for.
+// Returns the format to request from the driver.
 Result<v4l2_format> WantedFormat(const std::string& name,
                                  const CameraSettings& settings,
                                  FrameConverter& converter) {
@@ -40,12 +40,12 @@ Result<v4l2_format> WantedFormat(const std::string& name,
   const double rate = settings.frames_per_second > 0.0 ? settings.frames_per_second : kUsualRate;
   const std::optional<v4l2_format> chosen = converter.Choose(width, height, rate);
   if (!chosen) {
-    return Status::Error(name, "has no images of a format that is known", "take another camera");
+    return Status::Error(name, "offers no known image format", "use another camera");
   }
   return *chosen;
 }
 
-// A driver answers with what comes nearest.
+// Sets the format; the driver answers with the nearest one that it supports.
 Result<v4l2_format> SetFormat(const std::string& name,
                               const CameraSettings& settings,
                               VideoDevice& device,
@@ -57,13 +57,14 @@ Result<v4l2_format> SetFormat(const std::string& name,
   }
   const v4l2_pix_format& given = format.fmt.pix;
   if (settings.format.size() == 4 && given.pixelformat != wanted) {
-    return Status::Error(name, "has no images of the format " + settings.format, kChangeCapture);
+    return Status::Error(name, "does not offer the image format " + settings.format,
+                         kChangeCapture);
   }
   if (HasSize(settings) && (given.width != static_cast<uint32_t>(settings.width) ||
                             given.height != static_cast<uint32_t>(settings.height))) {
     return Status::Error(name,
-                         "has no images of " + SizeText(settings.width, settings.height) +
-                             ", but of " + SizeText(given.width, given.height),
+                         "does not offer images of " + SizeText(settings.width, settings.height) +
+                             ", only of " + SizeText(given.width, given.height),
                          kChangeCapture);
   }
   if (given.width == 0 || given.height == 0) {
@@ -73,7 +74,8 @@ Result<v4l2_format> SetFormat(const std::string& name,
   return format;
 }
 
-// The rate that the driver grants, which need not be the one that was asked for.
+// Sets the rate and returns the rate that the driver grants, which may differ from the requested
+// one.
 double SetRate(const CameraSettings& settings, VideoDevice& device) {
   const double wanted = settings.frames_per_second > 0.0 ? settings.frames_per_second : kUsualRate;
   v4l2_streamparm parameters = Zeroed<v4l2_streamparm>();
@@ -99,23 +101,23 @@ bool SetControl(VideoDevice& device, uint32_t id, int value) {
 Status NoExposure(const std::string& name, const char* control) {
   const std::string why = std::generic_category().message(errno);
   return Status::Error(
-      name, std::string("does not let its exposure be set (") + control + ": " + why + ")",
+      name, std::string("does not allow setting its exposure (") + control + ": " + why + ")",
       "remove \"exposure_ms\" from the device file's \"capture\"");
 }
 
 Status SetExposure(const std::string& name, double milliseconds, VideoDevice& device) {
-  // A camera that never exposes by itself has no such switch.
+  // A camera without automatic exposure has no such control.
   if (!SetControl(device, V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL) && errno != EINVAL) {
     return NoExposure(name, "V4L2_CID_EXPOSURE_AUTO");
   }
-  // In tenths of a millisecond.
+  // The unit is a tenth of a millisecond.
   const int tenths = std::max(1, static_cast<int>(std::lround(10.0 * milliseconds)));
   return SetControl(device, V4L2_CID_EXPOSURE_ABSOLUTE, tenths)
              ? Status()
              : NoExposure(name, "V4L2_CID_EXPOSURE_ABSOLUTE");
 }
 
-// A driver's text, which need not end within its field.
+// Converts a text of the driver, which need not be terminated within its field.
 template <size_t size>
 std::string Printable(const uint8_t (&text)[size]) {
   std::string printable(text, std::find(text, text + size, uint8_t{0}));
@@ -141,7 +143,7 @@ Result<std::string> CameraName(const std::string& name, VideoDevice& device) {
   return card.empty() ? name : card;
 }
 
-// Sizes and formats belong together: first the format with its size, then the rate.
+// Sizes depend on formats, so the format is set with its size first, and then the rate.
 Result<CameraMode> SetUpCamera(const std::string& name,
                                const CameraSettings& settings,
                                VideoDevice& device,

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a camera is set up before its images flow. Private to capture.
+// Sets up a camera before its images flow. Private to capture.
 
 #include <linux/videodev2.h>
 
@@ -14,12 +14,12 @@
 namespace lararium::capture {
 
 struct CameraMode {
-  v4l2_format format;  // of its images
+  v4l2_format format;  // format of the images
   double frames_per_second = 30.0;
 };
 
-// What a camera's driver calls it, in printable ASCII; an error where it is no camera. name: for
-// errors.
+// Returns the driver's name of the camera in printable ASCII, or an error if the device is not a
+// camera. `name` is the camera in errors.
 Result<std::string> CameraName(const std::string& name, VideoDevice& device);
 
 Result<CameraMode> SetUpCamera(const std::string& name,

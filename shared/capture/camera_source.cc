@@ -15,8 +15,8 @@ namespace {
 
 using geometry::Frame;
 
-constexpr int kMostDamaged = 30;  // images one after the other
-constexpr double kOldest = 0.5;   // seconds; a driver that says older ones errs
+constexpr int kMostDamaged = 30;  // consecutive images
+constexpr double kOldest = 0.5;   // Seconds; an older time from the driver is wrong.
 constexpr double kLeastStep = 1e-3;
 
 double Now() {
@@ -67,8 +67,8 @@ class CameraSource final : public FrameSource {
   std::string FrameName(int64_t index) const override { return NumberedFrameName(index); }
 
  private:
-  // Seconds since the camera was opened. The driver knows when an image was taken, we only when
-  // it came.
+  // Seconds since the camera was opened. The driver knows when an image was taken; we only know
+  // when it arrived.
   double TimeOf(const SentImage& image) const {
     const double now = Now();
     const double taken = image.taken.value_or(now);
@@ -76,7 +76,7 @@ class CameraSource final : public FrameSource {
   }
 
   std::string name_;
-  // Each uses those above it.
+  // Each member uses those above it.
   std::unique_ptr<VideoDevice> device_;
   FrameConverter converter_;
   CameraMode mode_;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Cameras by their drivers, for tests. Private to capture: others call OpenCamera(number)
-// and ConnectedCameras().
+// Opens cameras through a given driver, for tests. Private to capture: other code calls
+// OpenCamera(number) and ConnectedCameras().
 
 #include <functional>
 #include <memory>
@@ -15,14 +15,14 @@
 
 namespace lararium::capture {
 
-// name: for errors.
+// `name` is the camera in errors.
 Result<std::unique_ptr<FrameSource>> OpenCamera(const std::string& name,
                                                 std::unique_ptr<VideoDevice> device,
                                                 const CameraSettings& settings);
 
-// The driver of a number; nullopt: there is none.
+// Returns the driver with a number; nullopt if there is none.
 using DeviceOpener = std::function<std::optional<Result<std::unique_ptr<VideoDevice>>>(int number)>;
-// As ConnectedCameras().
+// Same as ConnectedCameras() with the given opener.
 std::vector<ConnectedCamera> ListCameras(const DeviceOpener& open);
 
 }  // namespace lararium::capture

@@ -56,7 +56,7 @@ class Tiff {
     return little_endian_ ? *second << 16 | *first : *first << 16 | *second;
   }
 
-  // Where the value of a tag in the directory at an offset lies.
+  // Returns the offset of the value of a tag in the directory at an offset.
   std::optional<size_t> FindValue(uint32_t directory, uint16_t tag) const {
     const uint32_t count = U16(directory).value_or(0);
     for (uint32_t i = 0; i < count; ++i) {
@@ -92,7 +92,7 @@ class ExifDirectory {
     const auto value = tiff_.FindValue(offset_, tag);
     return value ? tiff_.U16(*value) : std::nullopt;
   }
-  // Above 0.
+  // Returns a rational number above 0.
   std::optional<double> Rational(uint16_t tag) const {
     const auto value = tiff_.FindValue(offset_, tag);
     const auto at = value ? tiff_.U32(*value) : std::nullopt;
@@ -111,7 +111,7 @@ class ExifDirectory {
   uint32_t offset_;
 };
 
-// The TIFF structure in the segments before the image data; empty where none.
+// Returns the TIFF structure in the segments before the image data; empty if there is none.
 Bytes FindExif(Bytes jpeg) {
   static constexpr char kSignature[] = {'E', 'x', 'i', 'f', 0, 0};
   if (BigEndian16(jpeg, 0) != 0xffd8) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the EXIF data of a JPEG's bytes say; ExifFocalPixels and ExifExposure
-// (frame_source.h) read files with it.
+// Reads the EXIF data in the bytes of a JPEG, for ExifFocalPixels and ExifExposure
+// (frame_source.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace lararium::capture {
 
-// The focal length in millimetres of 35 mm film, above 0.
+// Returns the focal length in millimetres of 35 mm film, above 0.
 std::optional<uint32_t> FindFocalLengthIn35mmFilm(std::span<const std::byte> jpeg);
 
-// As ExifExposure; finite and above 0.
+// Returns the exposure as in ExifExposure; finite and above 0.
 std::optional<double> FindExposure(std::span<const std::byte> jpeg);
 
 }  // namespace lararium::capture

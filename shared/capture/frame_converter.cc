@@ -1,6 +1,6 @@
 #include "shared/capture/frame_converter.h"
 
-// In this order: the second takes types from what the first includes.
+// The order matters: the second header uses types from headers that the first includes.
 #include <libv4lconvert.h>
 //
 #include <libv4l-plugin.h>
@@ -12,7 +12,7 @@
 namespace lararium::capture {
 namespace {
 
-// libv4lconvert asks the driver too.
+// Passes ioctl() calls of libv4lconvert to the driver.
 int AskFor(void* device, int /*descriptor*/, unsigned long request, void* argument) {
   return Ask(*static_cast<VideoDevice*>(device), request, argument);
 }
@@ -30,12 +30,12 @@ constexpr libv4l_dev_ops kCalls = {.init = nullptr,
                                    .reserved6 = nullptr,
                                    .reserved7 = nullptr};
 
-// Formats of luma and halved chroma. libv4lconvert leaves their luma at 16 to 235, so that black
-// is grey, and takes three times as long.
+// Formats of luma and subsampled chroma. libv4lconvert leaves their luma at 16 to 235, so that
+// black becomes grey, and takes three times as long.
 struct HalvedChroma {
   uint32_t format;
-  int code;         // of cv::cvtColor
-  bool two_planes;  // chroma lies behind luma, and is halved in height too
+  int code;         // code for cv::cvtColor
+  bool two_planes;  // Chroma follows luma in a second plane and is halved in height too.
 };
 constexpr HalvedChroma kHalvedChroma[] = {
     {V4L2_PIX_FMT_YUYV, cv::COLOR_YUV2BGR_YUY2, false},
@@ -45,7 +45,7 @@ constexpr HalvedChroma kHalvedChroma[] = {
     {V4L2_PIX_FMT_NV21, cv::COLOR_YUV2BGR_NV21, true},
 };
 
-// nullptr: libv4lconvert is for it. cv::cvtColor takes even sizes only.
+// Returns nullptr for formats that libv4lconvert converts. cv::cvtColor accepts even sizes only.
 const HalvedChroma* FindHalvedChroma(const v4l2_pix_format& format) {
   const auto* found =
       std::find_if(std::begin(kHalvedChroma), std::end(kHalvedChroma),
@@ -54,7 +54,7 @@ const HalvedChroma* FindHalvedChroma(const v4l2_pix_format& format) {
   return found != std::end(kHalvedChroma) && even ? found : nullptr;
 }
 
-// False where bytes are missing.
+// Returns false if bytes are missing.
 bool ConvertHalvedChroma(const HalvedChroma& halved,
                          const v4l2_pix_format& format,
                          std::span<uint8_t> sent,
@@ -111,7 +111,8 @@ bool FrameConverter::Convert(const v4l2_format& format, std::span<uint8_t> sent,
   if (const HalvedChroma* halved = FindHalvedChroma(format.fmt.pix)) {
     return ConvertHalvedChroma(*halved, format.fmt.pix, sent, bgr) || Refuse("cut short");
   }
-  // As large as the camera's, whatever libv4lconvert would have cut off: rays of pixels stay.
+  // The image keeps the camera's size even if libv4lconvert would crop it, because cropping changes
+  // the rays of pixels.
   v4l2_format wanted = format;
   wanted.fmt.pix.pixelformat = V4L2_PIX_FMT_BGR24;
   v4lconvert_fixup_fmt(&wanted);
@@ -127,8 +128,7 @@ bool FrameConverter::Refuse(std::string problem) {
   return false;
 }
 
-// Images that were cut short on their way lack JPEG's end mark, which libjpeg makes up. There are
-// cameras that never send it.
+// Truncated images lack JPEG's end marker, which libjpeg would add. Some cameras never send it.
 bool FrameConverter::IsWhole(std::span<const uint8_t> jpeg) {
   for (size_t i = jpeg.size(); i >= 2; --i) {
     if (jpeg[i - 2] == 0xff && jpeg[i - 1] == 0xd9) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// Makes BGR images of what cameras send: raw colours, Motion JPEG, sensors' mosaics and formats
-// of single makers. Private to capture.
+// Converts the formats of cameras to BGR images: raw colours, Motion JPEG, sensor mosaics and
+// formats of single manufacturers. Private to capture.
 
 #include <linux/videodev2.h>
 
@@ -15,21 +15,21 @@
 #include "shared/capture/video_device.h"
 #include "shared/core/status.h"
 
-struct v4lconvert_data;  // NOLINT(readability-identifier-naming): libv4lconvert's
+struct v4lconvert_data;  // NOLINT(readability-identifier-naming): libv4lconvert's name
 
 namespace lararium::capture {
 
 class FrameConverter {
  public:
-  // device must outlive it.
+  // device must outlive the converter.
   static Result<FrameConverter> Create(const std::string& name, VideoDevice& device);
 
-  // The camera's format that gives images of this size, or of the nearest, at the least cost and
-  // as often as that; nullopt where none is known.
+  // Returns the camera's format that gives images of this size (or the nearest size) at this rate
+  // with the least processing; nullopt if none is known.
   std::optional<v4l2_format> Choose(int width, int height, double frames_per_second);
 
-  // Fills bgr, CV_8UC3 of the format's size and without gaps between its rows. sent may be
-  // changed. Not where the image is damaged: then Problem() has the reason.
+  // Fills bgr, which is CV_8UC3 with the format's size and without gaps between rows. May change
+  // `sent`. Returns false if the image is damaged; Problem() then has the reason.
   bool Convert(const v4l2_format& format, std::span<uint8_t> sent, cv::Mat& bgr);
   const std::string& Problem() const { return problem_; }
 
@@ -43,7 +43,7 @@ class FrameConverter {
   bool IsWhole(std::span<const uint8_t> jpeg);
 
   std::unique_ptr<v4lconvert_data, Destroy> data_;
-  bool marks_ends_ = false;  // of JPEG images: known once one was seen
+  bool marks_ends_ = false;  // True after a JPEG image with an end marker.
   std::string problem_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Recycles the images of frames that nobody holds any more, so that a running
-// source allocates nothing. Private to capture.
+// Recycles the images of frames that are no longer in use, so that a running source does not
+// allocate. Private to capture.
 
 #include <opencv2/core.hpp>
 #include <vector>
@@ -10,8 +10,8 @@ namespace lararium::capture {
 
 class FramePool {
  public:
-  // An image of this size and type that only the caller may write until it is
-  // published. Its content is undefined.
+  // Returns an image of this size and type that only the caller may write until it is published.
+  // Its content is undefined.
   cv::Mat Take(int rows, int cols, int type) {
     for (cv::Mat& image : images_) {
       if (image.rows == rows && image.cols == cols && image.type() == type && OnlyOurs(image)) {
@@ -28,7 +28,7 @@ class FramePool {
  private:
   static constexpr size_t kKept = 16;
 
-  // Atomic: other threads let go of their frames at any time.
+  // Reads the count atomically, because other threads release their frames at any time.
   static bool OnlyOurs(const cv::Mat& image) { return CV_XADD(&image.u->refcount, 0) == 1; }
 
   std::vector<cv::Mat> images_;

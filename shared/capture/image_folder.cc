@@ -16,7 +16,7 @@ constexpr double kFramesPerSecond = 30.0;
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Skips leading zeros; the digits up to the end of the number.
+// Skips leading zeros and returns the digits up to the end of the number.
 std::string_view NumberAt(std::string_view text, size_t& position) {
   while (position + 1 < text.size() && text[position] == '0' && IsDigit(text[position + 1])) {
     ++position;
@@ -28,7 +28,7 @@ std::string_view NumberAt(std::string_view text, size_t& position) {
   return text.substr(begin, position - begin);
 }
 
-// Numbers within names by value: 2 before 10.
+// Compares names with numbers by value: 2 before 10.
 bool NaturalLess(std::string_view a, std::string_view b) {
   size_t i = 0;
   size_t j = 0;
@@ -77,7 +77,7 @@ class ImageFolder final : public FrameSource {
       return Status::Error(
           file.string(),
           "is " + SizeText(frame.bgr.size()) + ", the first image of the folder " + SizeText(size_),
-          "all images must have one size");
+          "all images must have the same size");
     }
     cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
     return std::optional<Frame>(std::move(frame));
@@ -130,7 +130,7 @@ Result<std::vector<std::string>> ListImages(const std::filesystem::path& folder)
     return Status::Error(folder.string(), "cannot be read as a folder (" + error.message() + ")");
   }
   if (names.empty()) {
-    return Status::Error(folder.string(), "holds no images",
+    return Status::Error(folder.string(), "contains no images",
                          "give a folder of png, jpg, tif, webp or bmp files");
   }
   std::sort(names.begin(), names.end(), NaturalLess);

@@ -48,9 +48,9 @@ class LoopedSource final : public FrameSource {
 
  private:
   std::unique_ptr<FrameSource> recording_;
-  int64_t first_index_ = 0;  // of this round
-  double first_time_ = 0.0;  // what is added to its times
-  int64_t last_index_ = -1;  // of the last frame
+  int64_t first_index_ = 0;  // index of this round's first frame
+  double first_time_ = 0.0;  // offset added to this round's times
+  int64_t last_index_ = -1;  // index of the last frame
   double last_time_ = 0.0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A recording that begins again at its end: for kiosks that have no camera, and long tests.
+// A recording that restarts at its end: for kiosks without a camera, and for long tests.
 
 #include <memory>
 
@@ -8,8 +8,8 @@
 
 namespace lararium::capture {
 
-// Frames are numbered through, and time goes on from round to round. A recording without a single
-// frame ends at once. Seeking leads into the first round.
+// Frame numbers and times continue from round to round. A recording without any frame ends at once.
+// Seek() goes to the first round.
 std::unique_ptr<FrameSource> Loop(std::unique_ptr<FrameSource> recording);
 
 }  // namespace lararium::capture

@@ -14,7 +14,7 @@ namespace {
 using geometry::Frame;
 
 constexpr double kMostClockError = 0.5;  // seconds
-constexpr double kLeastStep = 1e-3;
+constexpr double kLeastStreamStep = 1e-3;
 
 class SteadyCamera final : public FrameSource {
  public:
@@ -28,7 +28,7 @@ class SteadyCamera final : public FrameSource {
         height_(camera_->height()),
         frames_per_second_(camera_->frames_per_second()) {}
 
-  // Never an error and never the end.
+  // Never returns an error and never ends.
   Result<std::optional<Frame>> Next() override {
     const double now = world_.now();
     start_ = start_.value_or(now);
@@ -73,7 +73,7 @@ class SteadyCamera final : public FrameSource {
       if (!std::exchange(told_of_size_, true)) {
         world_.changed(false, "the camera came back with " + SizeOf(**opened) +
                                   " pixels instead of " + SizeOf(*this) +
-                                  "; set its mode as it was, or start anew");
+                                  "; restore its former mode, or restart the program");
       }
       return;
     }
@@ -86,8 +86,8 @@ class SteadyCamera final : public FrameSource {
     return std::to_string(source.width()) + "x" + std::to_string(source.height());
   }
 
-  // The camera's own clock, which says best when an image was taken, begins anew with each
-  // opening, and may leap.
+  // The camera's clock tells best when an image was taken, but it restarts with each opening and
+  // may jump.
   double OurTime(double theirs) {
     const double now = world_.now() - *start_;
     const double leap = ours_from_theirs_ ? theirs + *ours_from_theirs_ - now : 0.0;
@@ -99,7 +99,7 @@ class SteadyCamera final : public FrameSource {
     return theirs + *ours_from_theirs_;
   }
 
-  // Tells of the first leap alone: a clock may leap with every image.
+  // Reports only the first jump, because a clock may jump with every image.
   void WatchClock(double now, bool leaps, double leap) {
     const bool was_steady = clock_steady_;
     last_leap_ = leaps ? now : last_leap_;
@@ -109,10 +109,10 @@ class SteadyCamera final : public FrameSource {
     }
   }
 
-  // Time never stands and never goes back.
+  // Time always increases.
   Frame Numbered(Frame frame, double time) {
     frame.index = next_index_++;
-    frame.capture_time = last_time_ = std::max(time, last_time_ + kLeastStep);
+    frame.capture_time = last_time_ = std::max(time, last_time_ + kLeastStreamStep);
     return frame;
   }
 
@@ -125,7 +125,7 @@ class SteadyCamera final : public FrameSource {
     return frame;
   }
 
-  std::unique_ptr<FrameSource> camera_;  // nullptr: it is away
+  std::unique_ptr<FrameSource> camera_;  // nullptr while disconnected
   SteadyCameraWorld world_;
   SteadyCameraOptions options_;
   FramePool pool_;
@@ -139,7 +139,7 @@ class SteadyCamera final : public FrameSource {
   double last_leap_ = 0.0;
   double last_time_ = -1.0;
   double next_attempt_ = 0.0;
-  bool told_of_size_ = false;  // since it went away
+  bool told_of_size_ = false;  // True if a wrong size was reported since the loss.
 };
 
 }  // namespace

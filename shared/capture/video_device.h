@@ -1,7 +1,7 @@
 #pragma once
 
-// A driver of Video4Linux as its user sees it: the calls of the system that it answers, so that
-// a double may stand in for it. Private to capture.
+// Interface to a Video4Linux driver: the system calls that it answers, so that tests can replace
+// it. Private to capture.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,31 +17,31 @@ class VideoDevice {
  public:
   virtual ~VideoDevice() = default;
 
-  // As ioctl(2): -1, with errno, where it fails.
+  // See ioctl(2): returns -1 and sets errno on failure.
   virtual int Ioctl(unsigned long request, void* argument) = 0;
-  // As mmap(2), shared, for reading and writing; nullptr where it fails.
+  // See mmap(2): shared, for reading and writing; nullptr on failure.
   virtual uint8_t* Map(size_t length, int64_t offset) = 0;
   virtual void Unmap(uint8_t* memory, size_t length) = 0;
-  // As poll(2) for reading: above 0 where there is something to fetch, be it an error; 0 where
-  // nothing came in this time; -1, with errno, where it fails.
+  // See poll(2) for reading: above 0 if there is something to fetch, even an error; 0 on timeout;
+  // -1 with errno on failure.
   virtual int Wait(int milliseconds) = 0;
-  // For libraries that look up which camera it is; -1: none.
+  // File descriptor for libraries that identify the camera; -1 if there is none.
   virtual int descriptor() const = 0;
 };
 
-// /dev/video and the number.
+// Returns "/dev/video" and the number.
 std::string VideoDeviceFile(int number);
 
-// The driver behind it. name: of the camera, for errors.
+// Opens the driver with a number. `name` is the camera in errors.
 Result<std::unique_ptr<VideoDevice>> OpenVideoDevice(const std::string& name, int number);
 
-// Ioctl(), asked again where a signal came in between.
+// Calls Ioctl(), and repeats it if a signal interrupts it.
 int Ask(VideoDevice& device, unsigned long request, void* argument);
 
-// That a camera cannot be opened because a call failed, by errno.
+// Returns the error for a camera that cannot be opened because a call failed with errno.
 Status CannotOpen(const std::string& name, const std::string& call);
 
-// What the system is asked with: fields that are not set must be 0, in all of a union.
+// Returns an argument for a system call: unset fields, and all bytes of a union, must be 0.
 template <typename T>
 T Zeroed() {
   T value;

@@ -15,8 +15,8 @@ using geometry::Frame;
 using image::LibavMessage;
 using image::LibavPtr;
 
-// Only plain containers of video: playlists and the like would open further
-// files or addresses that the file names.
+// Only plain video containers are allowed: playlists and similar formats would open further files
+// or addresses that the file names.
 constexpr char kContainers[] =
     "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,ogg,flv,asf,ivf,m4v,h264,hevc,mjpeg";
 
@@ -36,7 +36,7 @@ Status VideoError(const std::filesystem::path& file, std::string_view problem) {
   return Status::Error(file.string(), problem, "give a complete video file, for example MP4");
 }
 
-// Containers with an index (MP4) tell where each picture lies.
+// Containers with an index (MP4) state where each picture is stored.
 Status CheckComplete(const std::filesystem::path& file, Decoder& decoder) {
   const int64_t file_size = avio_size(decoder.format->pb);
   const int count = avformat_index_get_entries_count(decoder.stream);
@@ -68,8 +68,8 @@ Status OpenFormat(const std::filesystem::path& file, Decoder& decoder) {
   return Status();
 }
 
-// Threads that decode a frame each hold images of their own and answer later: for what one of them
-// does in a few milliseconds there is one. 0: one for each core.
+// Threads that each decode a frame hold their own images and answer later. Small videos, which one
+// thread decodes in a few milliseconds per frame, get one thread. 0: one thread for each core.
 int ThreadCount(const AVCodecContext& codec) {
   constexpr int64_t kLargePixels = 1280 * 720;
   return int64_t{codec.width} * codec.height <= kLargePixels ? 1 : 0;
@@ -80,7 +80,7 @@ Status OpenCodec(const std::filesystem::path& file, Decoder& decoder) {
   const AVCodec* codec = nullptr;
   const int index = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
   if (index < 0) {
-    return VideoError(file, "holds no video that can be decoded");
+    return VideoError(file, "contains no video that can be decoded");
   }
   decoder.stream = format->streams[index];
   for (unsigned i = 0; i < format->nb_streams; ++i) {
@@ -130,7 +130,7 @@ int64_t EstimateFrameCount(const Decoder& decoder, double frames_per_second) {
   return 0;
 }
 
-// The matrix of YCbCr; files that do not say use BT.709 from 720 lines on.
+// Returns the YCbCr matrix. Files that do not state it use BT.709 from 720 lines on.
 const int* ColourMatrix(const AVFrame& frame) {
   int matrix = frame.colorspace;
   if (matrix == AVCOL_SPC_UNSPECIFIED || matrix == AVCOL_SPC_RGB) {
@@ -144,11 +144,10 @@ bool IsFullRange(const AVFrame& frame) {
          frame.format == AV_PIX_FMT_YUVJ422P || frame.format == AV_PIX_FMT_YUVJ444P;
 }
 
-// Frames are numbered in the order in which they come out of the decoder when
-// the file is read from its start: containers miscount, and packets may be
-// undecodable. Times of frames are learned while decoding; a jump lands on a
-// key frame, recognises by its time which frame it is, and decodes forward. A
-// part of the file that was never decoded is reached by decoding up to it.
+// Frames are numbered in the order in which the decoder returns them when the file is read from its
+// start, because containers may state wrong counts and packets may be undecodable. Times of frames
+// are learned while decoding. A jump goes to a key frame, identifies the frame by its time, and
+// decodes forward. A part of the file that was never decoded is reached by decoding up to it.
 class VideoSource final : public FrameSource {
  public:
   VideoSource(std::filesystem::path file, Decoder decoder)
@@ -159,11 +158,11 @@ class VideoSource final : public FrameSource {
         frames_per_second_(FramesPerSecond(*decoder_.stream)),
         estimated_count_(EstimateFrameCount(decoder_, frames_per_second_)) {}
 
-  // Decodes the first frame, which settles the size.
+  // Decodes the first frame, which determines the size.
   Status Start() {
     LARARIUM_ASSIGN_OR_RETURN(const bool decoded, Decode());
     if (!decoded) {
-      return VideoError(file_, "holds no frame that can be decoded");
+      return VideoError(file_, "contains no frame that can be decoded");
     }
     width_ = picture_->width;
     height_ = picture_->height;
@@ -206,7 +205,7 @@ class VideoSource final : public FrameSource {
   std::string FrameName(int64_t index) const override { return NumberedFrameName(index); }
 
  private:
-  // Brings frame index into picture_.
+  // Decodes frame `index` into picture_.
   Status Reach(int64_t index) {
     const auto next_key = std::lower_bound(key_frames_.begin(), key_frames_.end(), next_index_);
     const bool key_on_the_way = next_key != key_frames_.end() && *next_key <= index;
@@ -224,7 +223,7 @@ class VideoSource final : public FrameSource {
     return Status();
   }
 
-  // Continues at a frame at or before index: at a known key frame, else at the start.
+  // Continues at a frame at or before `index`: at a known key frame, otherwise at the start.
   Status Jump(int64_t index) {
     if (times_are_ordered_) {
       auto key = std::upper_bound(key_frames_.begin(), key_frames_.end(), index);
@@ -242,7 +241,7 @@ class VideoSource final : public FrameSource {
     return Status();
   }
 
-  // False when the demuxer did not land on a known frame at or before index.
+  // Returns false if the demuxer did not land on a known frame at or before `index`.
   Result<bool> JumpToTime(int64_t time, int64_t index) {
     if (av_seek_frame(decoder_.format.get(), decoder_.stream->index, time, AVSEEK_FLAG_BACKWARD) <
         0) {
@@ -262,7 +261,7 @@ class VideoSource final : public FrameSource {
     return true;
   }
 
-  // The next frame into picture_; false at the end.
+  // Decodes the next frame into picture_. Returns false at the end.
   Result<bool> Decode() {
     LARARIUM_ASSIGN_OR_RETURN(has_picture_, ReceivePicture());
     if (!has_picture_) {
@@ -292,7 +291,7 @@ class VideoSource final : public FrameSource {
     }
   }
 
-  // Undecodable packets are passed over, as every player does; false at the end.
+  // Skips undecodable packets, as every player does. Returns false at the end.
   Result<bool> ReceivePicture() {
     while (true) {
       const int received = avcodec_receive_frame(decoder_.codec.get(), picture_.get());
@@ -370,12 +369,12 @@ class VideoSource final : public FrameSource {
   int width_ = 0;
   int height_ = 0;
 
-  int64_t next_index_ = 0;      // of the frame that the decoder gives next
-  bool has_picture_ = false;    // picture_ is frame next_index_ - 1
-  bool pending_ = false;        // ... and Next() has not handed it out yet
-  std::vector<int64_t> times_;  // of the frames decoded so far, in the stream's time base
-  // Capture times of the same frames: from where the file's times lose their order, they go on
-  // at its rate.
+  int64_t next_index_ = 0;      // index of the frame that the decoder returns next
+  bool has_picture_ = false;    // True if picture_ is frame next_index_ - 1.
+  bool pending_ = false;        // True if Next() has not returned that frame yet.
+  std::vector<int64_t> times_;  // Times of the decoded frames in the stream's time base.
+  // Capture times of the same frames. From the frame on at which the file's times are no longer in
+  // order, they continue at its frame rate.
   std::vector<double> seconds_;
   std::vector<int64_t> key_frames_;
   bool times_are_ordered_ = true;
@@ -390,7 +389,7 @@ std::string NumberedFrameName(int64_t index) {
 }
 
 Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file) {
-  av_log_set_level(AV_LOG_FATAL);  // its errors are reported as Status
+  av_log_set_level(AV_LOG_FATAL);  // Errors are reported as Status.
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     return Status::Error(file.string(), "is not a file", "give the path of a video");

@@ -14,7 +14,7 @@ using image::LibavPtr;
 namespace {
 
 constexpr int kSoundChannels = 2;
-constexpr int64_t kSoundBits = 192'000;  // a second
+constexpr int64_t kSoundBits = 192'000;  // bits per second
 
 struct MuxerDeleter {
   void operator()(AVFormatContext* context) const {
@@ -37,11 +37,11 @@ struct VideoWriter::Encoder {
   LibavPtr<SwsContext> scaler;
   AVStream* stream = nullptr;
   int64_t next_index = 0;
-  // Of the sound, where there is some.
+  // The sound encoder, if there is sound.
   LibavPtr<AVCodecContext> sound_codec;
   LibavPtr<AVFrame> sound_frame;
   AVStream* sound_stream = nullptr;
-  int sound_filled = 0;  // samples of sound_frame
+  int sound_filled = 0;  // Number of samples in sound_frame.
   int64_t sound_written = 0;
 
   ~Encoder() {
@@ -185,7 +185,7 @@ struct VideoWriter::Encoder {
     }
   }
 
-  // What sound_frame holds.
+  // Encodes the content of sound_frame.
   Status EncodeSound() {
     sound_frame->nb_samples = sound_filled;
     sound_frame->pts = sound_written;
@@ -241,7 +241,7 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::
   if (!(frames_per_second >= 0.1 && frames_per_second <= 1000.0)) {
     return Status::Error(file.string(), "the frame rate must lie between 0.1 and 1000");
   }
-  av_log_set_level(AV_LOG_FATAL);  // its errors are reported as Status
+  av_log_set_level(AV_LOG_FATAL);  // Errors are reported as Status.
   auto encoder = std::make_unique<Encoder>();
   encoder->file = file;
   encoder->temporary = file;
@@ -297,7 +297,7 @@ Status VideoWriter::Finish() {
   }
   std::error_code error;
   std::filesystem::rename(e->temporary, e->file, error);
-  return error ? Status::Error(e->file.string(), "cannot be put in place: " + error.message())
+  return error ? Status::Error(e->file.string(), "cannot be moved to its path: " + error.message())
                : Status();
 }
 

@@ -10,13 +10,12 @@
 
 namespace lararium::capture {
 
-// Writes an H.264 MP4 (4:2:0, BT.709, limited range, index in front), with AAC sound if it
-// is to have some. The file
-// appears under its name only when Finish() succeeds: until then it is written
-// beside it, and removed if the writer goes away.
+// Writes an H.264 MP4 (4:2:0, BT.709, limited range, index at the front), optionally with AAC
+// sound. The file appears under its name only when Finish() succeeds: until then it is written
+// beside it, and it is removed if the writer is destroyed.
 class VideoWriter {
  public:
-  static constexpr int kSoundRate = 48'000;  // samples a second, of two channels
+  static constexpr int kSoundRate = 48'000;  // Samples per second of each of the two channels.
 
   // width and height must be even.
   static Result<std::unique_ptr<VideoWriter>> Create(const std::filesystem::path& file,
@@ -28,15 +27,15 @@ class VideoWriter {
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
 
-  // bgr: CV_8UC3 of the writer's size, sRGB-encoded; shown from the moment of frame index
-  // of the video on, until the next one. Indices increase.
+  // bgr: CV_8UC3 of the writer's size, sRGB-encoded. It is shown from the time of the video's frame
+  // `index` until the next frame. Indices must increase.
   Status Write(const cv::Mat& bgr, int64_t index);
-  // The same, for one frame interval after the last one.
+  // Same as above, one frame interval after the last frame.
   Status Write(const cv::Mat& bgr);
-  // The next samples: left, right, ... The first of all is heard with frame 0. Of a
-  // writer with sound.
+  // Appends interleaved samples: left, right, ... The first sample is heard with frame 0. Requires
+  // a writer with sound.
   Status WriteSound(std::span<const float> stereo);
-  // Completes the file and puts it in its place. Nothing may be written afterwards.
+  // Completes the file and moves it to its path. Nothing may be written afterwards.
   Status Finish();
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-// For our own bugs only: a failed CHECK prints the place and aborts, in every
-// build. Bad input is a Status (shared/core/status.h), never a CHECK.
+// For our own bugs only: a failed CHECK prints its location and aborts in every build. Bad input is
+// a Status (shared/core/status.h), never a CHECK.
 
 namespace lararium {
 
@@ -13,7 +13,7 @@ namespace lararium {
   (static_cast<bool>(condition) ? static_cast<void>(0) \
                                 : ::lararium::CheckFailed(__FILE__, __LINE__, #condition))
 
-// In inner loops: checked in debug and sanitizer builds only.
+// For inner loops: checked in debug and sanitizer builds only.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
 #define DCHECK(condition) static_cast<void>(0)
 #else

@@ -1,6 +1,6 @@
 #pragma once
 
-// How something goes from its beginning to its end over its time.
+// Easing functions.
 
 #include <array>
 #include <cstdint>
@@ -21,8 +21,8 @@ inline std::optional<Ease> EaseNamed(std::string_view name) {
   return std::nullopt;
 }
 
-// The share of the way at a share of the time, 0..1: slow at the beginning, the end, or
-// both (the cubic smoothstep).
+// Returns the share of the change at a share of the time, 0..1: slow at the beginning, at the end,
+// or at both (the cubic smoothstep).
 inline double Eased(Ease ease, double t) {
   switch (ease) {
     case Ease::kIn:

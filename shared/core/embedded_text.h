@@ -4,10 +4,10 @@
 
 namespace lararium {
 
-// A file whose text was built into the program (cmake/targets.cmake,
-// lararium_embed): programs need none of ours beside them.
+// A file whose text is compiled into the program (cmake/targets.cmake, lararium_embed), so that
+// programs need no data files beside them.
 struct EmbeddedText {
-  std::string_view name;  // of the file, without its folder
+  std::string_view name;  // file name without its folder
   std::string_view text;
 };
 

@@ -33,7 +33,7 @@ class Descriptor {
   int value_;
 };
 
-// Without O_NONBLOCK, opening a pipe would wait for a writer.
+// Without O_NONBLOCK, opening a pipe would block until a writer opens it.
 constexpr int kReadFlags = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
 
 // The size of an open regular file.
@@ -48,7 +48,7 @@ Result<uint64_t> RegularFileSize(const std::filesystem::path& path, int descript
   return static_cast<uint64_t>(info.st_size);
 }
 
-// Fills content from offset on.
+// Fills `content` with the bytes from `offset` on.
 Status ReadFrom(const std::filesystem::path& path,
                 const Descriptor& file,
                 uint64_t offset,

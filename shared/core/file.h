@@ -1,6 +1,6 @@
 #pragma once
 
-// Reading, mapping and safely replacing files.
+// Reads, maps and safely replaces files.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,19 +14,19 @@
 
 namespace lararium {
 
-// The largest file that ReadBytes and ReadText take unless told otherwise.
+// Default size limit of ReadBytes and ReadText.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 30;
 
 Result<std::vector<std::byte>> ReadBytes(const std::filesystem::path& path,
                                          uint64_t max_bytes = kMaxFileBytes);
-// size bytes from offset on.
+// Reads `size` bytes from `offset` on.
 Result<std::vector<std::byte>> ReadBytesAt(const std::filesystem::path& path,
                                            uint64_t offset,
                                            size_t size);
 Result<std::string> ReadText(const std::filesystem::path& path, uint64_t max_bytes = kMaxFileBytes);
 
-// Replaces path as a whole or leaves it as it was, also across a crash: writes
-// beside it, fsyncs, renames, fsyncs the folder.
+// Replaces the file completely or leaves it unchanged, even if the system crashes: writes a
+// temporary file beside it, calls fsync, renames it and calls fsync on the folder.
 Status WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> content);
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Our FlatBuffers files: large arrays are vectors of structs, read and written as
-// whole blocks.
+// Helpers for our FlatBuffers files, in which large arrays are vectors of structs that are read and
+// written as blocks.
 
 #include <flatbuffers/flatbuffers.h>
 
@@ -21,16 +21,16 @@ namespace lararium {
 
 static_assert(std::endian::native == std::endian::little, "blocks are copied as they are");
 
-// Copies the vectors of one file. An honest file uses each of its bytes once, so
-// one whose vectors add up to more than its size shares them to exhaust memory:
-// from there on nothing more is read and ok() is false.
+// Copies the vectors of one file. A valid file uses each of its bytes once. If the vectors add up
+// to more than the file's size, they share bytes in order to exhaust memory: from then on nothing
+// more is read, and ok() is false.
 class BlockReader {
  public:
   explicit BlockReader(size_t file_size) : bytes_left_(file_size) {}
 
   bool ok() const { return ok_; }
 
-  // Counts bytes of the file as used; false where there are no more.
+  // Counts bytes of the file as used. Returns false if fewer bytes are left.
   bool Take(size_t bytes) {
     ok_ = ok_ && bytes <= bytes_left_;
     bytes_left_ -= ok_ ? bytes : 0;
@@ -47,8 +47,8 @@ class BlockReader {
     }
   }
 
-  // The first `wanted` of `all` elements; all that there are where that is another number, so that
-  // whoever checks `to` finds out.
+  // Reads the first `wanted` elements if the vector has `all` elements. Otherwise reads the whole
+  // vector, so that the validation of `to` reports the wrong size.
   template <typename To, typename From>
   void ReadFirst(const flatbuffers::Vector<From>* from,
                  size_t wanted,
@@ -78,7 +78,7 @@ class BlockReader {
     }
   }
 
-  // One value of To for each table, by read(table, *this, value).
+  // Reads one value of To from each table by read(table, *this, value).
   template <typename From, typename To, typename ReadTable>
   void ReadTables(const flatbuffers::Vector<flatbuffers::Offset<From>>* from,
                   std::vector<To>& to,
@@ -96,15 +96,15 @@ class BlockReader {
   bool ok_ = true;
 };
 
-// A kind of file of ours, as errors call it.
+// A file type, for error messages.
 struct FlatbufferKind {
   const char* extension;  // ".larprop"
   uint32_t version;
   const char* remedy;
 };
 
-// The root of a file's bytes, whose structure is verified. bytes: aligned as malloc
-// aligns; borrowed. place: what errors call them.
+// Returns the root of a file after its structure has been verified. `bytes` must be aligned as by
+// malloc and outlive the root. Errors call the file `place`.
 template <typename Root>
 Result<const Root*> OpenFlatbuffer(std::span<const std::byte> bytes,
                                    const char* identifier,
@@ -122,7 +122,7 @@ Result<const Root*> OpenFlatbuffer(std::span<const std::byte> bytes,
   if (root->version() != kind.version) {
     return Status::Error(place,
                          "version " + std::to_string(root->version()) +
-                             " of the file is not known here (this program reads version " +
+                             " of the file is not supported (this program reads version " +
                              std::to_string(kind.version) + ")",
                          kind.remedy);
   }
@@ -140,7 +140,7 @@ auto WriteBlock(flatbuffers::FlatBufferBuilder& builder, const std::vector<From>
   return offset;
 }
 
-// One table for each of a list, by write(builder, item).
+// Writes one table for each item by write(builder, item).
 template <typename From, typename Write>
 auto WriteTables(flatbuffers::FlatBufferBuilder& builder,
                  const std::vector<From>& from,

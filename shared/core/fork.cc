@@ -17,7 +17,7 @@ pid_t ForkApart() {
   gate.lock();
   const pid_t child = fork();
   if (child == 0) {
-    std::construct_at(&gate);  // the thread has another number here, and may not unlock it
+    std::construct_at(&gate);  // The thread's id differs here: it cannot unlock.
   } else {
     gate.unlock();
   }

@@ -1,9 +1,9 @@
 #pragma once
 
-// A process that goes on with this program's memory, where there are threads: the child has only
-// the one that forked. A lock of a library that another held at that moment nobody lets go of
-// there, and whoever wants it waits for good. The heap and streams of the C library look after
-// themselves; its locale does not, which translating texts reads all the while.
+// Safe use of fork() in a program with threads. The child process has only the thread that forked.
+// If another thread holds a library's lock at that moment, the lock stays locked in the child for
+// ever, and any use of it blocks. The heap and the streams of the C library handle this themselves;
+// its locale, which every translation of a text reads, does not.
 
 #include <sys/types.h>
 
@@ -11,10 +11,10 @@
 
 namespace lararium {
 
-// Held, shared, by whoever may be in one of the C library's locks that a child will want.
+// Code that may take a lock of the C library that a child needs holds this gate in shared mode.
 std::shared_mutex& ForkGate();
 
-// fork(), while nobody holds the gate; in the child it is open.
+// Calls fork() while no thread holds the gate; in the child the gate is open.
 pid_t ForkApart();
 
 }  // namespace lararium

@@ -1,7 +1,7 @@
 #pragma once
 
-// Generation ids: a handle that was kept too long is recognised as stale
-// instead of reaching whatever took its place. The zero id names nothing.
+// Handles with a generation: a handle to a removed value is recognised as stale and never reaches
+// the value that replaced it. The zero id is invalid.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace lararium {
 template <typename Tag>
 struct Id {
   uint32_t index = 0;
-  uint32_t generation = 0;  // of a live slot: at least 1
+  uint32_t generation = 0;  // A live slot has at least 1.
 
   explicit operator bool() const { return generation != 0; }
   friend bool operator==(const Id&, const Id&) = default;
 };
 
-// Values addressed by Id<T>. Iterate over ids() in order of their slots.
+// Values addressed by Id<T>. ids() returns them in the order of their slots.
 template <typename T>
 class SlotMap {
  public:
@@ -36,7 +36,7 @@ class SlotMap {
     return {index, ++slot.generation};
   }
 
-  // False when the id is stale.
+  // Returns false if the id is stale.
   bool Remove(Id<T> id) {
     if (Find(id) == nullptr) {
       return false;
@@ -47,7 +47,7 @@ class SlotMap {
     return true;
   }
 
-  // nullptr when the id is stale or zero.
+  // Returns nullptr if the id is stale or zero.
   T* Find(Id<T> id) { return const_cast<T*>(std::as_const(*this).Find(id)); }
   const T* Find(Id<T> id) const {
     const bool known = id && id.index < slots_.size() && slots_[id.index].alive &&

@@ -1,5 +1,6 @@
 #include "shared/core/json.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shared/core/file.h"
@@ -10,7 +11,7 @@ Result<Json> ParseJson(std::string_view text, std::string_view place) {
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
-    // The library's text carries an identifier in brackets first.
+    // The library's text starts with an identifier in brackets, which is removed.
     std::string_view what = error.what();
     if (const size_t end = what.find("] "); end != std::string_view::npos) {
       what.remove_prefix(end + 2);
@@ -26,6 +27,24 @@ Result<Json> LoadJson(const std::filesystem::path& path) {
 
 Status SaveJson(const std::filesystem::path& path, const Json& json) {
   return WriteFileAtomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Status JsonView::CheckFields(std::span<const std::string_view> known) const {
+  if (!json_->is_object()) {
+    return Problem("must be an object");
+  }
+  for (const auto& [key, value] : json_->items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      std::string names;
+      for (const std::string_view name : known) {
+        names += (names.empty() ? "" : ", ") + std::string(name);
+      }
+      return Problem(
+          "the field \"" + key + "\" is not known",
+          "correct its spelling (known are " + names + "), or use a newer version of Lararium");
+    }
+  }
+  return Status();
 }
 
 bool JsonView::Has(std::string_view key) const {

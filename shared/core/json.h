@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,12 +18,12 @@ namespace lararium {
 
 using Json = nlohmann::json;  // keys are sorted, so that files diff well
 
-// place: what error messages call the text, normally its file.
+// place: the name of the text in error messages, normally its file.
 Result<Json> ParseJson(std::string_view text, std::string_view place);
 Result<Json> LoadJson(const std::filesystem::path& path);
 Status SaveJson(const std::filesystem::path& path, const Json& json);
 
-// A view of one JSON value that knows its path within the file. Errors read
+// A view of one JSON value that knows its path within the file. An error reads, for example,
 // "project.json: stage.scale: must be a finite number".
 class JsonView {
  public:
@@ -33,12 +35,18 @@ class JsonView {
     return Status::Error(place_, problem, remedy);
   }
 
+  // Returns an error if this is no object or has a field that is not listed.
+  Status CheckFields(std::span<const std::string_view> known) const;
+  Status CheckFields(std::initializer_list<std::string_view> known) const {
+    return CheckFields(std::span(known.begin(), known.size()));
+  }
+
   bool Has(std::string_view key) const;
   Result<JsonView> Field(std::string_view key) const;
-  // All elements of an array of at most max_count elements.
+  // Returns all elements of an array of at most max_count elements.
   Result<std::vector<JsonView>> Array(size_t max_count = 1'000'000) const;
 
-  // The value itself, checked for type and range.
+  // Returns the value, checked for type and range.
   Result<double> Number(double min = std::numeric_limits<double>::lowest(),
                         double max = std::numeric_limits<double>::max()) const;
   Result<int64_t> Integer(int64_t min, int64_t max) const;
@@ -46,7 +54,7 @@ class JsonView {
   Result<std::string> Text(size_t max_bytes = 1 << 20) const;
   Result<std::vector<double>> Numbers(size_t count) const;
 
-  // The same for a field of an object.
+  // Same as above for a field of an object.
   Result<double> Number(std::string_view key,
                         double min = std::numeric_limits<double>::lowest(),
                         double max = std::numeric_limits<double>::max()) const;

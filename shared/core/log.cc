@@ -17,8 +17,8 @@
 namespace lararium {
 namespace {
 
-// A file whose disk may be full for a while: then lines are counted in place of being written, the
-// log's other sinks are told once, and the file goes on as soon as it takes lines again.
+// Writes to a file whose disk may be full for a while. Lines are then counted instead of written,
+// the log's other sinks are told once, and the file continues as soon as it accepts lines again.
 class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   FileSink(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
@@ -26,7 +26,7 @@ class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
   FileSink(const FileSink&) = delete;
   FileSink& operator=(const FileSink&) = delete;
 
-  // Of which this is a sink.
+  // Sets the log that this sink belongs to.
   void SetLog(const Log* log) { log_ = log; }
 
  protected:
@@ -50,7 +50,7 @@ class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
                                             std::generic_category().message(errno)));
     }
   }
-  void flush_() override {}  // each line is written at once
+  void flush_() override {}  // Each line is written at once.
 
  private:
   bool Write(std::string_view text) {
@@ -76,12 +76,12 @@ class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
   int descriptor_;
   std::string name_;
   const Log* log_ = nullptr;
-  int64_t lost_ = 0;   // lines since the file was full
-  bool torn_ = false;  // its last line is not whole
+  int64_t lost_ = 0;   // Lines lost since the file was full.
+  bool torn_ = false;  // True if the last line is incomplete.
 };
 
 Result<std::shared_ptr<FileSink>> OpenFile(const std::filesystem::path& file) {
-  std::error_code ignored;  // opening says it
+  std::error_code ignored;  // Opening the file reports it.
   std::filesystem::create_directories(file.parent_path(), ignored);
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor < 0) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Logging goes through spdlog; the logger is an argument, never a global.
+// Logging with spdlog. The logger is passed as an argument and is never a global.
 
 #include <spdlog/logger.h>
 
@@ -13,10 +13,10 @@ namespace lararium {
 
 using Log = spdlog::logger;
 
-// Writes to stderr, and to a file as well when one is named.
+// Creates a log to stderr and, if `file` is not empty, to that file.
 Result<std::shared_ptr<Log>> MakeLog(const std::filesystem::path& file = {});
 
-// For tests and tools that want silence.
+// For tests and tools without output.
 std::shared_ptr<Log> MakeSilentLog();
 
 }  // namespace lararium

@@ -5,8 +5,8 @@
 
 namespace lararium {
 
-// A to Z as a to z, and all else as it is, in every locale: for names of files, hosts and formats,
-// and for words within a sentence.
+// Converts A to Z to lower case and leaves all other characters unchanged, in every locale. For
+// names of files, hosts and formats, and for words within a sentence.
 std::string LowerCase(std::string_view text);
 
 }  // namespace lararium

@@ -1,7 +1,7 @@
 #pragma once
 
-// A single-slot mailbox between two threads in which the newest message wins: a
-// slow reader drops messages, it never queues them.
+// A single-slot mailbox between two threads in which the newest message wins: messages for a slow
+// reader are dropped, never queued.
 
 #include <chrono>
 #include <condition_variable>
@@ -16,7 +16,7 @@ namespace lararium {
 template <typename T>
 class Mailbox {
  public:
-  // Replaces a message that was not taken yet, and gives that back: its buffers may serve again.
+  // Replaces a message that was not taken yet, and returns it so that its buffers can be reused.
   std::optional<T> Put(T message) {
     std::optional<T> replaced(std::move(message));
     {
@@ -28,7 +28,7 @@ class Mailbox {
     return replaced;
   }
 
-  // No message will follow. Take() still hands out the last one, then nullopt.
+  // Closes the mailbox: no message will follow. Take() still returns the last one, then nullopt.
   void Close() {
     {
       const std::lock_guard lock(mutex_);
@@ -37,7 +37,8 @@ class Mailbox {
     filled_.notify_all();
   }
 
-  // Waits for a message; nullopt when closed and empty, or when stop was asked.
+  // Waits for a message. Returns nullopt if the mailbox is closed and empty, or if a stop was
+  // requested.
   std::optional<T> Take(std::stop_token stop) {
     std::unique_lock lock(mutex_);
     filled_.wait(lock, stop, [this] { return slot_.has_value() || closed_; });
@@ -47,26 +48,26 @@ class Mailbox {
     return std::exchange(slot_, std::nullopt);
   }
 
-  // The same, waiting no longer than timeout.
+  // Same as Take(), but waits no longer than `timeout`.
   std::optional<T> TakeFor(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
     filled_.wait_for(lock, timeout, [this] { return slot_.has_value() || closed_; });
     return std::exchange(slot_, std::nullopt);
   }
 
-  // The newest message, if there is one, without waiting.
+  // Returns the newest message, if there is one, without waiting.
   std::optional<T> TryTake() {
     const std::lock_guard lock(mutex_);
     return std::exchange(slot_, std::nullopt);
   }
 
-  // True once closed and emptied: nothing will come any more.
+  // True if the mailbox is closed and empty: no message will follow.
   bool Finished() const {
     const std::lock_guard lock(mutex_);
     return closed_ && !slot_.has_value();
   }
 
-  // How many messages were replaced before they were taken.
+  // Number of messages that were replaced before they were taken.
   uint64_t dropped() const {
     const std::lock_guard lock(mutex_);
     return dropped_;

@@ -6,7 +6,7 @@
 
 namespace lararium {
 
-// The middle value, the mean of the two middle ones where their number is even; 0 of none.
+// Returns the median; for an even number of values the mean of the two middle ones, for none 0.
 template <typename T>
 T Median(std::vector<T> values) {
   if (values.empty()) {

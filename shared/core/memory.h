@@ -1,6 +1,6 @@
 #pragma once
 
-// How the heap of the GNU C library treats memory that is no longer used.
+// Controls how the heap of the GNU C library treats unused memory.
 
 #include <chrono>
 #include <cstddef>
@@ -9,29 +9,29 @@
 
 namespace lararium {
 
-// Empties items and gives their memory back, which an assignment of {} would keep.
+// Empties `items` and releases their memory, which an assignment of {} would keep.
 template <typename T>
 void Release(std::vector<T>& items) {
   std::vector<T>().swap(items);
 }
 
-// All threads share so many arenas, instead of one for each up to eight a core, which all grow in
-// time to the most that a thread ever wanted in it. For programs that run for long and do not
-// allocate where it is urgent; before threads begin.
+// Lets all threads share this number of arenas. By default there are up to eight arenas for each
+// core, and each grows to the largest size that any thread needed in it. For programs that run for
+// long and do not allocate in time-critical code. Call it before threads start.
 void ShareArenas(int arenas);
 
-// Memory is taken in small pages, where the system would round up to huge ones of 2 MiB that are
-// never full. Of this process and those that it begins, from now on.
+// Makes the system use small pages, instead of huge pages of 2 MiB that never fill up. Applies to
+// this process and to those that it starts afterwards.
 void KeepPagesSmall();
 
-// Blocks of at least so many bytes go back to the system as soon as they are dropped: for work
-// that takes much, once. Smaller limits cost time where blocks come and go again and again.
+// Returns blocks of at least this number of bytes to the system as soon as they are freed. For work
+// that needs much memory once. Small limits cost time if blocks are allocated repeatedly.
 void ReturnBlocksFrom(size_t bytes);
 
-// Whatever is free goes back to the system. Takes milliseconds.
+// Returns all free memory to the system. Takes milliseconds.
 void TrimHeap();
 
-// While it lives, what is free goes back at once and then now and then.
+// While it exists, returns free memory to the system at once and then at every interval.
 class HeapKeeper {
  public:
   explicit HeapKeeper(std::chrono::steady_clock::duration interval);

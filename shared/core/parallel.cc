@@ -16,10 +16,10 @@
 namespace lararium {
 namespace {
 
-// The library that hands work to its threads and waits for them is not instrumented,
-// and neither is this file (CMakeLists.txt), or half of the library would be. So the
-// thread sanitizer is told what is ordered: everything before Publish() of an address
-// comes before everything after its Observe(). Iterations are not ordered.
+// The library that distributes work to threads is not instrumented, and neither is this file
+// (CMakeLists.txt), because half of the library would then be. Therefore we tell the thread
+// sanitizer what is ordered: everything before Publish() of an address comes before everything
+// after its Observe(). Iterations are not ordered.
 void Publish([[maybe_unused]] void* address) {
 #ifdef LARARIUM_THREAD_SANITIZER
   __tsan_release(address);

@@ -4,8 +4,8 @@
 
 namespace lararium {
 
-// Whether this processor has the instructions the build was made for. Called
-// first in main(): without it a program would die of an illegal instruction.
+// Checks that this processor has the instructions that the build needs. Call it first in main():
+// otherwise the program would crash with an illegal instruction.
 Status CheckProcessor();
 
 }  // namespace lararium

@@ -1,12 +1,12 @@
 #pragma once
 
-// Where the running program lies, beside which its data and its companions are.
+// Location of the running program, beside which its data and companion programs are.
 
 #include <filesystem>
 
 namespace lararium {
 
-// Its folder; empty where the system does not tell.
+// Returns the program's folder; empty if the system does not provide it.
 std::filesystem::path ProgramFolder();
 
 }  // namespace lararium

@@ -1,7 +1,7 @@
 #pragma once
 
-// How long work reports to whoever started it (a progress bar, a panel), and
-// how it learns that it should stop.
+// Interface through which long tasks report progress to their caller (a progress bar, a panel) and
+// learn that they should stop.
 
 #include <string_view>
 
@@ -11,15 +11,15 @@ class Progress {
  public:
   virtual ~Progress() = default;
 
-  // fraction of the named step that is done, 0..1. Called from the thread that
-  // does the work; cheap enough to call often.
+  // Reports the completed fraction of the named step, 0..1. Called from the thread that does the
+  // work; cheap enough to call often.
   virtual void Report(std::string_view step, double fraction) = 0;
 
-  // True once the work should end early, leaving nothing half written.
+  // True if the work should end early, without leaving incomplete files.
   virtual bool Cancelled() const = 0;
 };
 
-// Says nothing and never cancels.
+// Ignores reports and never cancels.
 class NoProgress : public Progress {
  public:
   void Report(std::string_view, double) override {}

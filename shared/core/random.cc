@@ -23,7 +23,7 @@ uint32_t Random::Next() {
 
 uint32_t Random::Below(uint32_t count) {
   CHECK(count > 0);
-  // Values under the threshold would make the first residues too likely.
+  // Values below the threshold would make the first residues too likely.
   const uint32_t threshold = -count % count;
   uint32_t value = Next();
   while (value < threshold) {

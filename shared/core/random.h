@@ -1,7 +1,7 @@
 #pragma once
 
-// Random numbers from an explicit seed, the same on every platform (the
-// standard library's distributions are not).
+// Random numbers from an explicit seed, equal on every platform (the standard library's
+// distributions are not).
 
 #include <cstdint>
 

@@ -10,11 +10,11 @@ const char* AsItIs(const char* text) { return text; }
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// What a percent sign begins.
+// A conversion that begins with a percent sign.
 struct Conversion {
-  size_t length = 1;  // with the sign
+  size_t length = 1;  // length including the percent sign
   bool is_part = false;
-  size_t number = 0;  // from 1; 0: the next one
+  size_t number = 0;  // Number of the part, from 1; 0: the next part.
 };
 
 Conversion ReadConversion(std::string_view text) {

@@ -6,18 +6,20 @@
 
 namespace lararium {
 
-// A sentence that is kept apart from what it speaks of, so that it can be said in another language
-// later: English where programs and logs read it, a translation where a window shows it.
+// A sentence that is stored separately from its parameters, so that it can be translated later:
+// programs and logs read English, windows show a translation.
 class Sentence {
  public:
-  // The English text of a format in another language; gettext's.
+  // Returns the translation of an English format, as gettext does.
   using Translate = const char* (*)(const char*);
 
-  Sentence() = default;  // says nothing
-  // The same in every language: a name, a number with its unit, what is known in English alone.
+  Sentence() = default;  // empty text
+  // Text that is equal in every language: a name, a number with its unit, or text that is known in
+  // English only.
   Sentence(std::string text) : text_(std::move(text)) {}
-  // format: a literal, which the catalogues gather, with %s for each of the parts: in their order,
-  // or by number, as %2$s, where another language wants another order; %% is a percent sign.
+  // format: a literal that the translation catalogues collect, with %s for each of the parts in
+  // their order, or with numbers such as %2$s if a language needs another order. %% is a percent
+  // sign.
   explicit Sentence(const char* format, std::vector<Sentence> parts = {});
 
   std::string English() const;
@@ -26,12 +28,12 @@ class Sentence {
   friend bool operator==(const Sentence&, const Sentence&) = default;
 
  private:
-  std::string text_;  // as it is, or a format
+  std::string text_;  // plain text or a format
   bool is_format_ = false;
   std::vector<Sentence> parts_;
 };
 
-// Each in English.
+// Returns each sentence in English.
 std::vector<std::string> EnglishOf(const std::vector<Sentence>& sentences);
 
 }  // namespace lararium

@@ -1,6 +1,6 @@
 #pragma once
 
-// Durations of a pipeline stage, as stats.json reports them.
+// Durations of pipeline stages, in the format of stats.json.
 
 #include <array>
 #include <chrono>
@@ -11,12 +11,12 @@
 
 namespace lararium {
 
-// Processor time that the calling thread has used, in milliseconds.
+// Returns the processor time that the calling thread has used, in milliseconds.
 double ThreadCpuMilliseconds();
 
-// The distribution of durations in constant memory, however long a show runs:
-// logarithmic bins from a microsecond to a quarter of an hour, 1 % wide. Count,
-// mean and maximum are exact, quantiles good to half a bin.
+// The distribution of durations in constant memory for any run time: logarithmic bins from a
+// microsecond to a quarter of an hour, 1 % wide. Count, mean and maximum are exact; quantiles are
+// accurate to half a bin.
 class DurationHistogram {
  public:
   void Add(double milliseconds);
@@ -59,7 +59,7 @@ class ScopedStageTimer {
         std::chrono::steady_clock::now() - start_;
     times_.Add(wall.count(), ThreadCpuMilliseconds() - start_cpu_ms_);
   }
-  // Processor time that other threads spent on the same work.
+  // Adds processor time that other threads spent on the same work.
   void AddCpu(double milliseconds) { start_cpu_ms_ -= milliseconds; }
   ScopedStageTimer(const ScopedStageTimer&) = delete;
   ScopedStageTimer& operator=(const ScopedStageTimer&) = delete;

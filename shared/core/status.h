@@ -1,8 +1,8 @@
 #pragma once
 
-// Errors as values. A function that can fail on what it is given (a file, an
-// image, a script, a device) returns Status or Result<T>; nothing is thrown.
-// The text of an error names the place, what is wrong there, and what to do.
+// Errors as values. A function that can fail on its input (a file, an image, a script, a device)
+// returns Status or Result<T>; nothing is thrown. The text of an error says where the problem is,
+// what is wrong, and what to do.
 
 #include <optional>
 #include <string>
@@ -19,8 +19,8 @@ class [[nodiscard]] Status {
   // Success.
   Status() = default;
 
-  // A failure that reads "place: problem; remedy". place: a file, a file with
-  // line, a field. remedy may be empty where there is nothing a person can do.
+  // A failure that reads "place: problem; remedy". `place` is a file, a file with a line, or a
+  // field. `remedy` may be empty if the user can do nothing.
   static Status Error(std::string_view place,
                       std::string_view problem,
                       std::string_view remedy = {});
@@ -28,7 +28,7 @@ class [[nodiscard]] Status {
   bool ok() const { return message_.empty(); }
   const std::string& message() const { return message_; }
 
-  // The same failure, seen from further out: "place: message".
+  // Returns the same failure with an outer location: "place: message".
   Status At(std::string_view place) const;
 
  private:

@@ -13,21 +13,21 @@ namespace lararium::drama {
 namespace {
 
 constexpr size_t kMaxScriptBytes = 16 << 20;
-constexpr size_t kMaxErrors = 100;  // kept; the log has them all
+constexpr size_t kMaxErrors = 100;  // Kept in memory; the log has all of them.
 constexpr size_t kMaxTaskRecords = 100'000;
-// How often the stage is kept for seeking, at first, and how many are kept: when there
-// are more, every other one is dropped and they are kept half as often.
+// The state is first saved for seeking every kSaveTicks. When there are more than kMaxSaved states,
+// every other one is dropped and the interval doubles.
 constexpr int64_t kSaveTicks = int64_t{2} * Drama::kTicksPerSecond;
 constexpr size_t kMaxSaved = 1200;
 
-// A list of what happened that survives going back: what is behind the present is hidden,
-// and found again when it happens again.
+// A list of events that survives seeking backwards: events later than the present are hidden and
+// appear again when they happen again.
 template <typename T>
 class History {
  public:
   explicit History(size_t limit) : limit_(limit) {}
 
-  // False: it had happened before.
+  // Returns false if the event was already in the list.
   bool Add(T item) {
     if (count_ < items_.size()) {
       ++count_;
@@ -50,7 +50,7 @@ class History {
   size_t limit_;
 };
 
-// A moment to come back to.
+// A saved state for seeking.
 struct Moment {
   int64_t tick = 0;
   stage::Stage::Checkpoint stage;
@@ -69,7 +69,7 @@ class LuaDrama : public Drama {
            Log& log)
       : script_(script), place_(std::move(place)), stage_(stage), options_(options), log_(log) {}
 
-  // From the beginning, and nothing is known of what was before.
+  // Starts from the beginning and forgets the past.
   Status Begin() {
     LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Sandbox> sandbox, MakeSandbox());
     stage_.Reset();
@@ -106,7 +106,7 @@ class LuaDrama : public Drama {
   }
 
   void SetVisitor(const Visitor& visitor) override {
-    std::string keys = std::move(visitor_.keys);  // not yet seen by the drama
+    std::string keys = std::move(visitor_.keys);  // Keys that the drama has not seen yet.
     visitor_ = visitor;
     if (!visitor.tracked) {
       visitor_.position = last_seen_.position;
@@ -149,7 +149,7 @@ class LuaDrama : public Drama {
       if (moment == nullptr) {
         LARARIUM_RETURN_IF_ERROR(Begin());
       } else if (!GoTo(*moment)) {
-        // Must not be; then all is played again.
+        // Should not happen. Plays everything again.
         log_.warn("{}: seeking plays the drama again from its beginning", place_);
         LARARIUM_RETURN_IF_ERROR(Begin());
       }
@@ -184,7 +184,7 @@ class LuaDrama : public Drama {
     Status status = Begin();
     if (!status.ok()) {
       script_ = old;
-      LARARIUM_RETURN_IF_ERROR(Begin());  // it began before
+      LARARIUM_RETURN_IF_ERROR(Begin());  // The old script has compiled before.
     }
     LARARIUM_RETURN_IF_ERROR(Seek(now));
     return status;
@@ -229,7 +229,7 @@ class LuaDrama : public Drama {
 
   bool forgets() const { return options_.past == Past::kForgotten; }
 
-  // The last one that is kept, until a tick; nullptr: none is.
+  // The latest saved state that is not after a tick; nullptr: none.
   const Moment* MomentBefore(int64_t tick) const {
     const auto behind =
         std::upper_bound(moments_.begin(), moments_.end(), tick,
@@ -237,8 +237,8 @@ class LuaDrama : public Drama {
     return behind == moments_.begin() ? nullptr : &*(behind - 1);
   }
 
-  // The visitor of a tick: of the log, of the past that is kept, or as they are now, which
-  // begins a new future where they did something else then.
+  // The visitor of a tick: from the log, from the recorded past, or the present visitor. If the
+  // present visitor differs from the recorded one, a new future begins.
   Visitor VisitorOf(int64_t tick) {
     const bool is_known = tick <= visited_until_;
     if (follows_log_ || (is_known && (options_.past == Past::kRepeated || seeking_))) {
@@ -259,7 +259,7 @@ class LuaDrama : public Drama {
     return visitor;
   }
 
-  // What was played later than now is not what will come.
+  // Drops everything recorded after the present tick.
   void ForgetFuture() {
     const int64_t now = run_->tick();
     recording_.Truncate();
@@ -280,7 +280,7 @@ class LuaDrama : public Drama {
     if (now % kSaveTicks != 0) {
       return;
     }
-    stage_.Settle();  // also where nothing is kept, so that keeping changes nothing
+    stage_.Settle();  // Also if nothing is saved, so that saving does not change the result.
     const bool is_known = !moments_.empty() && moments_.back().tick >= now;
     if (now % save_ticks_ != 0 || is_known || recording_.closed()) {
       return;
@@ -294,8 +294,8 @@ class LuaDrama : public Drama {
     }
   }
 
-  // What is run again to bring coroutines back: the script without the items that the host
-  // has read of it and plays by itself.
+  // The script that is replayed to restore coroutines: without the timeline items, which the host
+  // has already read and plays itself.
   const std::string& ScriptOfCoroutines() {
     if (!script_of_coroutines_) {
       constexpr LaneKind kOfHost[] = {
@@ -307,7 +307,7 @@ class LuaDrama : public Drama {
     return *script_of_coroutines_;
   }
 
-  // Coroutines only go forward: to go back the script begins anew.
+  // Coroutines only run forward: to go back, the script is replayed from its beginning.
   bool BringScriptTo(const Recording::Position& position) {
     if (run_->followed() == position) {
       recording_.GoTo(position);
@@ -355,18 +355,18 @@ class LuaDrama : public Drama {
   Log& log_;
   Recording recording_;
   CueLog cues_;
-  int changes_ = 0;  // of the recording that are known
+  int changes_ = 0;  // Last value of Recording::changes().
   std::unique_ptr<Run> run_;
-  std::vector<Moment> moments_;  // ascending
+  std::vector<Moment> moments_;  // Sorted by tick.
   int64_t save_ticks_ = kSaveTicks;
   History<ScriptError> errors_{kMaxErrors};
   History<TaskRecord> tasks_{kMaxTaskRecords};
   int64_t ticks_ = 0;          // played_ticks()
-  int64_t played_until_ = -1;  // the last tick that is known
-  Visitor visitor_;            // as they are now
+  int64_t played_until_ = -1;  // Latest tick that has been played.
+  Visitor visitor_;            // The present visitor.
   Visitor last_seen_;
-  VisitorLog visitors_;        // of each tick so far, or all that follow
-  int64_t visited_until_ = 0;  // the last tick that they are known of
+  VisitorLog visitors_;        // The recorded visitor, or the log that is followed.
+  int64_t visited_until_ = 0;  // Latest tick with a recorded visitor.
   bool follows_log_ = false;
   bool seeking_ = false;
 };

@@ -1,8 +1,7 @@
 #pragma once
 
-// A running drama: the curator's Lua script, which moves the actors of a stage
-// in ticks of a 120th of a second. The script runs in a sandbox (sandbox.h) and
-// speaks the words of lua/std.
+// A running drama: the curator's Lua script, which moves the actors of a stage in ticks of 1/120 s.
+// The script runs in a sandbox (sandbox.h) and uses the functions of lua/std.
 
 #include <cstdint>
 #include <functional>
@@ -19,64 +18,63 @@
 
 namespace lararium::drama {
 
-// What a drama knows of what was.
+// What a drama remembers of its past.
 enum class Past {
-  // Nothing but its errors: it takes no more memory however long it plays. Going back plays again
-  // from the beginning.
+  // Only its errors, so memory does not grow with time. Seeking backwards plays from the beginning.
   kForgotten,
-  // Going back is quick, and the visitor does there what they do now.
+  // Seeking backwards is fast. After it the present visitor counts, as in live play.
   kKept,
-  // The visitor does again what they did, until the last moment that was played: for whoever edits.
+  // Like kKept, but the recorded visitor is repeated up to the last moment that was played. For the
+  // editor.
   kRepeated,
 };
 
 struct DramaOptions {
-  uint64_t seed = 1;                    // of math.random
-  size_t memory_limit = 64 << 20;       // bytes that the script may hold
-  int64_t instruction_limit = 1 << 20;  // that the script may run in one tick
+  uint64_t seed = 1;                    // Seed of math.random.
+  size_t memory_limit = 64 << 20;       // Limit of the script's memory, bytes.
+  int64_t instruction_limit = 1 << 20;  // Limit of Lua instructions per tick.
   Past past = Past::kKept;
 
   Status Validate() const;
 };
 
-// What went wrong in a script, and when. An error ended the coroutine that it
-// happened in (a place that cannot be reached does not); the show went on.
+// An error of a script. It ended its coroutine, except for warnings such as an unreachable place;
+// the drama continued.
 struct ScriptError {
-  double time = 0.0;      // of the drama, seconds
+  double time = 0.0;      // Time of the drama, seconds.
   std::string message;    // "drama.lua:12: ..."
-  std::string traceback;  // one call per line; may be empty
+  std::string traceback;  // One call per line; may be empty.
 };
 
-// What a script says of its drama as a whole: drama{...}.
+// Settings of the whole drama, from the script's call drama{...}.
 struct DramaSettings {
-  bool hold_when_lost = false;  // time stands still while tracking is lost
-  double patience = 1.0;        // seconds that it may be lost before that
-  double length = 0.0;          // seconds after which the story is told; 0: nobody said
+  bool hold_when_lost = false;  // Time stops while tracking is lost.
+  double patience = 1.0;        // Seconds of lost tracking before time stops.
+  double length = 0.0;          // Length of the story, seconds; 0: unknown.
 };
 
-// One thing that somebody was told to do, and how it ended: what a timeline shows of the
-// scripted part. What was stopped before its end is told only where its length is known
-// when it begins (speech, gestures, looks).
+// One task of an actor and its result, for the scripted part of the timeline. A task that was
+// stopped early is recorded only if its length was known at its start (speech, gestures, looks).
 struct TaskRecord {
-  double began = 0.0;  // of the drama, seconds
+  double began = 0.0;  // Time of the drama, seconds.
   double ended = 0.0;
-  std::string where;   // "drama.lua:12"
-  std::string actor;   // who
+  std::string where;  // "drama.lua:12"
+  std::string actor;
   std::string action;  // "walk_to", "take", "use stir", "say salvete", ...
-  std::string object;  // with what; may be empty
+  std::string object;  // May be empty.
   bool failed = false;
-  bool expected = false;       // within attempt(): it may fail
-  std::string message;         // why it failed; of a done one, what was not quite as asked
-  bool from_timeline = false;  // an item of track{...} told it; else the script
-  double waited = 0.0;         // seconds until it was its turn
+  bool expected = false;       // The task ran within attempt(), so it may fail.
+  std::string message;         // Why it failed, or how the result differs from the request.
+  bool from_timeline = false;  // The source is an item of track{...}, not a call of the script.
+  double waited = 0.0;         // Seconds before the task could start.
 };
 
-// What a script has waited for: a trigger that one of its lines armed.
+// A trigger that a line of the script has armed.
 struct CueRecord {
   std::string where;   // "drama.lua:12"
   std::string kind;    // "near", "looks_at", "marker", ...
-  std::string name;    // of the marker or the key
-  bool fired = false;  // at least once
+  std::string name;    // Name of the marker or key.
+  bool fired = false;  // True if it fired at least once.
 
   friend bool operator==(const CueRecord&, const CueRecord&) = default;
 };
@@ -84,12 +82,12 @@ struct CueRecord {
 class Drama {
  public:
   static constexpr int kTicksPerSecond = 120;
-  static constexpr double kMaxTime = 24 * 3600.0;  // seconds, of Seek()
+  static constexpr double kMaxTime = 24 * 3600.0;  // Limit of Seek(), seconds.
 
-  // Runs the script's chunk and main() up to its first wait. Fails only where
-  // the chunk does not compile (the message has file and line) or options are
-  // wrong; what goes wrong later is in errors(). place: what messages call the
-  // script. Borrows stage and log, which must outlive it; resets the stage.
+  // Runs the script's chunk and then main() up to its first wait. Error: the chunk does not compile
+  // (the message has file and line) or the options are invalid. Later problems are in errors().
+  // Messages call the script `place`. Borrows stage and log, which must outlive the drama; resets
+  // the stage.
   static Result<std::unique_ptr<Drama>> Create(std::string_view script,
                                                std::string place,
                                                stage::Stage& stage,
@@ -97,49 +95,50 @@ class Drama {
                                                Log& log);
   virtual ~Drama() = default;
 
-  // The next tick.
+  // Plays one tick.
   virtual void Tick() = 0;
 
-  // What the visitor does from the next tick on. Keys count in one tick.
+  // Sets what the visitor does from the next tick on. Keys count for one tick only.
   virtual void SetVisitor(const Visitor& visitor) = 0;
-  // Instead of all that: a recorded visitor, from the beginning on.
+  // From the beginning on, replaces SetVisitor() by a recorded visitor.
   virtual void SetVisitorLog(VisitorLog log) = 0;
-  // What they have done until a time (seconds), as another drama noted it: seeking until there
-  // plays it, and from then on they are what SetVisitor says. Before anything is played; does
-  // nothing where a recorded visitor is followed or the past is forgotten.
+  // Sets what the visitor did until a time (seconds), as recorded by another drama. Seeking up to
+  // there repeats it; afterwards SetVisitor() counts. Call it before anything is played. No effect
+  // while a visitor log is followed or with Past::kForgotten.
   virtual void SetPastVisitor(VisitorLog log, double until) = 0;
-  // What they have done so far; of a past that is forgotten, nothing.
+  // The visitor so far; empty with Past::kForgotten.
   virtual const VisitorLog& visitor_log() const = 0;
 
-  // To the tick nearest to a time: the stage is then exactly as it was, or as if the drama
-  // had played until there. What was played before is, unless the past is forgotten, not played
-  // again but for the last seconds before a time: the stage is restored, and the script's
-  // coroutines are run again against what they were told (recording.h).
+  // Goes to the tick nearest to a time. The stage is then exactly as if the drama had been played
+  // to there. Unless the past is forgotten, a time that was played before is reached from a saved
+  // state: the stage is restored, the script's coroutines are replayed against recorded results
+  // (recording.h), and only the last seconds are played again.
   virtual Status Seek(double time) = 0;
 
-  // Seeks to a time, calls look and comes back, and it is as if nothing had been: what was never
-  // played before is not known afterwards either. Where it cannot be sought, look is not called.
+  // Seeks to a time, calls `look` and returns. Leaves no trace: a time that had not been played
+  // before is not remembered afterwards. `look` is not called if seeking fails.
   virtual Status Glance(double time, const std::function<void()>& look) = 0;
 
-  // Another script, sought to the same time. On an error the old one goes on.
+  // Replaces the script and seeks to the present time. On an error the old script continues.
   virtual Status Reload(std::string_view script) = 0;
 
-  // The same script to the same time, on a stage that is another now: as if it always had been.
+  // Plays the script again to the present time, after the stage has changed.
   virtual Status PlayAgain() = 0;
 
-  // Whether time is to stand still: tracking is lost, and the author wants that.
+  // Whether time must stop because tracking is lost (DramaSettings::hold_when_lost).
   virtual bool holds() const = 0;
   virtual const DramaSettings& settings() const = 0;
 
-  // How often the stage went on by a tick since it was made: what playing and seeking cost.
+  // Number of ticks that were computed, including those of seeking: a measure of its cost.
   virtual int64_t played_ticks() const = 0;
-  virtual double time() const = 0;                          // seconds since the beginning
-  virtual std::span<const ScriptError> errors() const = 0;  // until time(), oldest first
-  // Likewise, in the order in which they ended; those that the script caught too. None where the
-  // past is forgotten.
+  virtual double time() const = 0;  // Seconds since the beginning.
+  // Errors up to time(), oldest first.
+  virtual std::span<const ScriptError> errors() const = 0;
+  // Tasks that ended up to time(), in the order of their ends, including failures that the script
+  // caught. Empty with Past::kForgotten.
   virtual std::span<const TaskRecord> tasks() const = 0;
-  // Whatever was armed since the script began, once for each line and kind, whatever was
-  // played since.
+  // All triggers that were armed since the script was loaded, one per line and kind. Seeking does
+  // not remove any.
   virtual std::span<const CueRecord> cues() const = 0;
 };
 

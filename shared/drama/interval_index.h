@@ -1,6 +1,6 @@
 #pragma once
 
-// Which of many intervals touch a window, in O(log n + k).
+// Finds the intervals that touch a window, in O(log n + k).
 
 #include <algorithm>
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace lararium::drama {
 
-// Intervals sorted by begin, as an implicit balanced tree: the node of a range is its
-// middle element, and knows the latest end in the range (an augmented tree after Cormen
-// et al., Introduction to Algorithms, section 14.3, laid out in an array).
+// Intervals sorted by begin, as an implicit balanced tree: the node of a range is its middle
+// element and stores the latest end in the range (an augmented tree after Cormen et al.,
+// Introduction to Algorithms, section 14.3, laid out in an array).
 class IntervalIndex {
  public:
-  // Any order; an interval without length counts as the instant of its begin.
+  // Accepts any order. An interval of length 0 is an instant.
   void Build(std::span<const double> begins, std::span<const double> lengths) {
     order_.resize(begins.size());
     for (uint32_t i = 0; i < order_.size(); ++i) {
@@ -32,14 +32,14 @@ class IntervalIndex {
     FindLatest(0, order_.size());
   }
 
-  // Appends those with begin < to and end > from (or begin = from), in the order of
-  // their begins.
+  // Appends the indices of intervals with begin < to and end > from (or begin = from), in the order
+  // of their begins.
   void Query(double from, double to, std::vector<uint32_t>& found) const {
     Query(0, order_.size(), from, to, found);
   }
 
   std::span<const uint32_t> order() const { return order_; }
-  // The latest end of all; 0: there are none.
+  // The latest end of all intervals; 0 if there are none.
   double latest() const { return order_.empty() ? 0.0 : latest_[order_.size() / 2]; }
 
  private:
@@ -72,7 +72,7 @@ class IntervalIndex {
   }
 
   std::vector<uint32_t> order_;
-  std::vector<double> begin_;  // in that order
+  std::vector<double> begin_;  // Same order as order_.
   std::vector<double> end_;
   std::vector<double> latest_;
 };

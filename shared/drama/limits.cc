@@ -11,15 +11,14 @@ constexpr char kTooLong[] = "ran too long without waiting (an endless loop?)";
 constexpr char kTooMuchMemory[] = "needs more memory than a script may have";
 constexpr char kTooDeep[] = "calls functions in functions too deeply (stack overflow)";
 constexpr char kTextTooLong[] = "made a text longer than 64 KiB";
-constexpr size_t kBytesPerInstruction = 64;
 
-// Lua's stacks: slots of 16 bytes, 40 at first and twice as many each time, five spare ones
-// (ldo.c). Nothing else that Lua keeps has such sizes: those are powers of two, or small.
+// Lua's stacks have slots of 16 bytes: 40 at first, doubled each time, plus five spare ones
+// (ldo.c). No other block of Lua has such a size: others are powers of two, or small.
 constexpr size_t kSlotBytes = 16;
 constexpr size_t kFirstSlots = 40;
 constexpr size_t kSpareSlots = 5;
-// Lua would go on to a million. A table that is its own __call shifts the whole stack for each
-// slot and runs no instruction meanwhile: minutes, at a million.
+// Lua's own limit is a million slots. A table that is its own __call shifts the whole stack for
+// each slot without running an instruction, which takes minutes for a million slots.
 constexpr size_t kMaxSlots = 12'000;
 
 bool IsTooLargeStack(size_t new_size) {
@@ -65,14 +64,14 @@ bool Limits::MayGrow(size_t freed, size_t new_size, bool is_text) {
     tripped_ = tripped() ? tripped_ : kTextTooLong;
     return false;
   }
-  if (!tripped() && !Charge(static_cast<int64_t>(new_size / kBytesPerInstruction))) {
+  if (!tripped() && !Charge(static_cast<int64_t>(new_size / kAllocatedBytesPerInstruction))) {
     return false;
   }
   const size_t limit = memory_limit_ + (tripped() ? kReserve : 0);
   const size_t held = memory_ - freed;
   const bool fits = new_size <= limit && held <= limit - new_size;
   if (!fits && refused_ && !tripped()) {
-    tripped_ = kTooMuchMemory;  // Lua had collected garbage and asked again
+    tripped_ = kTooMuchMemory;  // Lua has collected garbage and asked again.
   }
   refused_ = !fits;
   return fits;
@@ -80,7 +79,7 @@ bool Limits::MayGrow(size_t freed, size_t new_size, bool is_text) {
 
 void* Limits::Allocate(void* self, void* block, size_t old_size, size_t new_size) {
   Limits& limits = *static_cast<Limits*>(self);
-  // Of a new block Lua tells the kind of object in place of the old size.
+  // For a new block Lua passes the kind of object instead of the old size.
   const bool is_text = block == nullptr && old_size == LUA_TSTRING;
   const size_t held = block == nullptr ? 0 : old_size;
   if (new_size == 0) {

@@ -1,11 +1,11 @@
 #pragma once
 
-// What a script may use. Instructions are counted by a hook, and functions in C
-// charge for their work; memory is counted by the allocator, which also charges
-// for large blocks, because one instruction can copy one.
+// Resource limits of a script. A hook counts instructions, and C++ functions charge for their work.
+// The allocator counts memory and also charges for large blocks, because one instruction can copy
+// one.
 //
-// Once a limit is passed the limits are "tripped": no protected call of the
-// script gets control back (safe_base.cc) until the host refills them.
+// When a limit is exceeded, the limits are "tripped": no protected call of the script regains
+// control (safe_base.cc) until the host calls Refill().
 
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +13,14 @@
 
 namespace lararium::drama {
 
+// Work on this number of bytes is charged as one instruction.
+inline constexpr size_t kAllocatedBytesPerInstruction = 64;
+
 class Limits {
  public:
-  static constexpr int kHookInterval = 1000;      // instructions
-  static constexpr size_t kMaxText = 64 * 1024;   // bytes of one string
-  static constexpr size_t kReserve = 256 * 1024;  // bytes, to report a tripped limit with
+  static constexpr int kHookInterval = 1000;      // Instructions.
+  static constexpr size_t kMaxText = 64 * 1024;   // Bytes of one string.
+  static constexpr size_t kReserve = 256 * 1024;  // Extra bytes for reporting a tripped limit.
 
   Limits(size_t memory_limit, int64_t instruction_limit)
       : memory_limit_(memory_limit), instruction_limit_(instruction_limit) {
@@ -26,18 +29,18 @@ class Limits {
   Limits(const Limits&) = delete;
   Limits& operator=(const Limits&) = delete;
 
-  // Grants the instructions of another tick, or of so many.
+  // Sets the budget to the instructions of `ticks` ticks and clears a tripped limit.
   void Refill(int ticks = 1);
-  // False when no instructions are left; the limits are then tripped.
+  // Returns false if no instructions are left; the limits are then tripped.
   bool Charge(int64_t instructions);
-  // After an error was caught: it counts as tripped if want of memory caused it.
+  // Call it after an error was caught: trips the limits if a refused allocation caused the error.
   void TripIfRefused();
 
   bool tripped() const { return tripped_ != nullptr; }
-  // Which limit was passed, as a sentence for the script's author.
+  // Describes the exceeded limit to the author of the script.
   std::string Reason() const;
 
-  // A lua_Alloc; self is the Limits.
+  // A lua_Alloc; `self` is the Limits.
   static void* Allocate(void* self, void* block, size_t old_size, size_t new_size);
 
  private:
@@ -47,7 +50,7 @@ class Limits {
   int64_t instruction_limit_;
   size_t memory_ = 0;
   int64_t instructions_left_ = 0;
-  bool refused_ = false;  // the last wish for memory
+  bool refused_ = false;  // The last allocation was refused.
   const char* tripped_ = nullptr;
 };
 

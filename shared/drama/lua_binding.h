@@ -1,7 +1,7 @@
 #pragma once
 
-// What our functions for Lua share. Lua is built for C++ here: lua_error()
-// throws and is caught by lua_pcall() and lua_resume(), so that destructors run.
+// Helpers for C++ functions that Lua calls. Lua is compiled as C++: lua_error() throws, and
+// lua_pcall() and lua_resume() catch, so destructors run.
 
 #include <cstdint>
 #include <lua.hpp>
@@ -12,18 +12,18 @@
 
 namespace lararium::drama {
 
-// Every state carries its limits in the space that Lua keeps for its host.
+// The limits of a state; its extra space holds a pointer to them.
 inline Limits& LimitsOf(lua_State* lua) { return **static_cast<Limits**>(lua_getextraspace(lua)); }
 
-// Ends the running function with an error when a limit was passed.
+// Raises a Lua error if a limit was exceeded.
 inline void RaiseIfTripped(lua_State* lua) {
   if (LimitsOf(lua).tripped()) {
-    lua_pushliteral(lua, "a limit was passed");  // the host reports Limits::Reason()
+    lua_pushliteral(lua, "a limit was passed");  // The host reports Limits::Reason().
     lua_error(lua);
   }
 }
 
-// Counts work that is done in C++ as if it were instructions of the script.
+// Charges work in C++ as instructions of the script.
 inline void Charge(lua_State* lua, int64_t instructions) {
   LimitsOf(lua).Charge(instructions);
   RaiseIfTripped(lua);
@@ -39,7 +39,7 @@ inline void PushText(lua_State* lua, std::string_view text) {
   lua_pushlstring(lua, text.data(), text.size());
 }
 
-// A number that is finite; `what` is called so in the error.
+// Reads a finite number; an error calls it `what`.
 inline double CheckFinite(lua_State* lua, int argument, const char* what) {
   const double value = luaL_checknumber(lua, argument);
   if (!(value - value == 0.0)) {
@@ -48,7 +48,7 @@ inline double CheckFinite(lua_State* lua, int argument, const char* what) {
   return value;
 }
 
-// The ease of a name.
+// Returns the ease of a name.
 inline Ease CheckEase(lua_State* lua, std::string_view name) {
   const std::optional<Ease> ease = EaseNamed(name);
   if (!ease) {
@@ -57,19 +57,19 @@ inline Ease CheckEase(lua_State* lua, std::string_view name) {
   return ease.value_or(Ease::kLinear);
 }
 
-// Puts function in the place of field `name` of the table on top of the stack.
-// Its upvalue is what was there before.
+// Replaces the field `name` of the table on top of the stack by `function`, whose upvalue is the
+// old value.
 inline void WrapField(lua_State* lua, const char* name, lua_CFunction function) {
   lua_getfield(lua, -1, name);
   lua_pushcclosure(lua, function, 1);
   lua_setfield(lua, -2, name);
 }
 
-// In such a function: calls what it wraps with the same arguments.
+// Calls the wrapped function with the same arguments. Only for functions of WrapField().
 inline int CallWrapped(lua_State* lua) { return lua_tocfunction(lua, lua_upvalueindex(1))(lua); }
 
-// Calls body(lua) so that a Lua error ends it and is then dropped. For what the
-// host does outside of any script. False when there was an error.
+// Calls body(lua) in protected mode, for work of the host outside of any script. Returns false and
+// drops the error if there was one.
 template <typename Body>
 bool Protected(lua_State* lua, Body body) {
   lua_pushcfunction(lua, [](lua_State* inner) {

@@ -8,7 +8,8 @@ namespace {
 
 using Kind = LuaToken::Kind;
 
-constexpr const char* kWhatCanStand = "only numbers, texts, true, false and tables can stand here";
+constexpr const char* kWhatCanStand =
+    "only numbers, texts, true, false and tables are allowed here";
 
 }  // namespace
 
@@ -49,7 +50,7 @@ bool LuaLiterals::Value(int depth, Json& value, size_t& end) {
 
 bool LuaLiterals::Table(int depth, Json& value, size_t& end) {
   if (depth >= kMaxDepth) {
-    return Fail(token_, "tables lie too deep in one another");
+    return Fail(token_, "tables are nested too deeply");
   }
   const LuaToken open = token_;
   Json list = Json::array();
@@ -67,7 +68,7 @@ bool LuaLiterals::Table(int depth, Json& value, size_t& end) {
     return true;
   });
   if (read && !list.empty() && !fields.empty()) {
-    return Fail(open, "a table has either names or not");
+    return Fail(open, "either all entries of a table have names or none");
   }
   value = list.empty() ? std::move(fields) : std::move(list);
   return read;
@@ -78,7 +79,7 @@ bool LuaLiterals::Key(LuaEntry& entry) {
   if (token_.Is('[')) {
     Step();
     if (token_.kind != Kind::kText) {
-      return Fail(token_, "only texts can be keys");
+      return Fail(token_, "only a text can be a key");
     }
     entry.key = TextOf(Text(token_)).value_or("");
     Step();
@@ -112,7 +113,7 @@ bool LuaLiterals::Separator(const LuaToken& open) {
     return true;
   }
   if (token_.kind == Kind::kEnd) {
-    return Fail(open, "this brace never closes");
+    return Fail(open, "this brace is never closed");
   }
   return token_.Is('}') || Fail(token_, kWhatCanStand);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-// Values that stand written out in a Lua text: numbers, texts, true, false, and tables of
-// these. Read without running it.
+// Reads literals from Lua source without running it: numbers, texts, true, false, and tables of
+// these.
 
 #include <cstddef>
 #include <string>
@@ -13,23 +13,23 @@
 
 namespace lararium::drama {
 
-// One entry of a table. Offsets are bytes of the text.
+// One entry of a table. Offsets are in bytes of the text.
 struct LuaEntry {
-  std::string key;   // empty: counted
-  size_t begin = 0;  // of the whole entry
+  std::string key;   // Empty: an array entry.
+  size_t begin = 0;  // Begin of the whole entry.
   size_t value_begin = 0;
   size_t value_end = 0;
-  size_t separator = 0;  // where its comma is; 0: none
-  Json value;            // null: not kept, or a table where they are not wanted
+  size_t separator = 0;  // Offset of its comma; 0: none.
+  Json value;            // Null if values were not requested.
 };
 
-// Reads one value after another. What returns false has a problem().
+// Reads values in sequence. When a function returns false, problem() says why.
 class LuaLiterals {
  public:
-  static constexpr int kMaxDepth = 16;  // of tables in tables
+  static constexpr int kMaxDepth = 16;  // Maximum nesting of tables.
 
   struct Problem {
-    size_t offset = 0;  // bytes of the text
+    size_t offset = 0;  // Bytes.
     std::string text;
   };
 
@@ -39,15 +39,15 @@ class LuaLiterals {
   const LuaToken& token() const { return token_; }
   const Problem& problem() const { return problem_; }
 
-  // The problem at a token: the token's own, if it has one.
+  // Sets the problem at a token and returns false. The token's own problem takes precedence.
   bool Fail(const LuaToken& token, std::string problem);
 
-  // A value; steps behind it. depth: of the tables around it. end: behind its last byte.
+  // Reads a value and moves past it. `depth` is the number of enclosing tables; `end` is set to the
+  // offset after its last byte.
   bool Value(int depth, Json& value, size_t& end);
 
-  // Calls visit(entry) for each entry of the table that begins here, after its key was
-  // read and before its value: visit reads that, by Value() or itself, and says whether
-  // all was well.
+  // Calls visit(entry) for each entry of the table that begins here, after the key was read. visit
+  // must read the value, with Value() or otherwise, and return whether that succeeded.
   template <typename Visit>
   bool Entries(size_t& end, Visit visit) {
     const LuaToken open = token_;
@@ -78,8 +78,8 @@ class LuaLiterals {
   Problem problem_;
 };
 
-// The entries of the table at an offset, with their separators; those before the first
-// that cannot be read.
+// Entries of the table at an offset, with their separators, up to the first entry that cannot be
+// read.
 std::vector<LuaEntry> EntriesOf(std::string_view text, size_t offset, bool with_values);
 
 }  // namespace lararium::drama

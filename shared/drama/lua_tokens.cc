@@ -16,7 +16,7 @@ bool IsBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 int HexValue(char c) { return IsDigit(c) ? c - '0' : (c | 0x20) - 'a' + 10; }
 
-// The level of a long bracket that begins here, "[==[": 2; -1: none does.
+// Level of the long bracket that begins here, such as 2 for "[==["; -1: there is none.
 int LongLevel(std::string_view text, size_t begin) {
   if (begin >= text.size() || text[begin] != '[') {
     return -1;
@@ -28,7 +28,7 @@ int LongLevel(std::string_view text, size_t begin) {
   return at < text.size() && text[at] == '[' ? static_cast<int>(at - begin - 1) : -1;
 }
 
-// As UTF-8, of up to 31 bits as Lua has it.
+// Appends a code point as UTF-8 with up to 31 bits, like Lua.
 void AppendCodepoint(uint32_t code, std::string& out) {
   if (code < 0x80) {
     out += static_cast<char>(code);
@@ -36,7 +36,7 @@ void AppendCodepoint(uint32_t code, std::string& out) {
   }
   char reversed[6];
   int count = 0;
-  uint32_t first_limit = 0x3f;  // what fits into the first byte
+  uint32_t first_limit = 0x3f;  // Limit of the first byte.
   do {
     reversed[count++] = static_cast<char>(0x80 | (code & 0x3f));
     code >>= 6;
@@ -48,7 +48,7 @@ void AppendCodepoint(uint32_t code, std::string& out) {
   }
 }
 
-// One escape of a quoted text, `at` behind the backslash; false: there is no such.
+// Decodes one escape of a quoted text; `at` is after the backslash. False: unknown escape.
 bool AppendEscape(std::string_view text, size_t& at, std::string& out) {
   constexpr std::string_view kLetters = "abfnrtv\\\"'\n";
   constexpr std::string_view kMeanings = "\a\b\f\n\r\t\v\\\"'\n";
@@ -99,7 +99,7 @@ bool AppendEscape(std::string_view text, size_t& at, std::string& out) {
 
 }  // namespace
 
-// Behind a long bracket whose first '[' is at begin; false: it never closes.
+// Skips a long bracket whose first '[' is at begin; false: it is never closed.
 bool LuaTokens::SkipLong(size_t begin) {
   const int level = LongLevel(text_, begin);
   const std::string close = "]" + std::string(static_cast<size_t>(level), '=') + "]";
@@ -145,7 +145,7 @@ LuaToken LuaTokens::QuotedText(size_t begin) {
     if (text_[at] != '\\' || at + 1 >= text_.size()) {
       continue;
     }
-    ++at;  // what is escaped
+    ++at;  // The escaped character.
     if (text_[at] == 'z') {
       while (at + 1 < text_.size() && IsBlank(text_[at + 1])) {
         ++at;
@@ -204,7 +204,7 @@ LuaToken LuaTokens::Next() {
   if (LongLevel(text_, begin) >= 0) {
     return LongText(begin);
   }
-  // Of symbols of several characters only those matter that hold others of ours.
+  // Only those symbols of several characters matter that contain a symbol we look for.
   const std::string_view rest = text_.substr(begin);
   size_t length = 1;
   for (const std::string_view symbol : {"...", "..", "==", "~=", "<=", ">=", "::"}) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// The words of a Lua 5.4 text (reference manual, section 3.1): for reading and editing
-// scripts without running them. Comments and blanks lie between tokens.
+// Tokenizer of Lua 5.4 (reference manual, section 3.1), for reading and editing scripts without
+// running them. Comments and whitespace are skipped.
 
 #include <cstddef>
 #include <optional>
@@ -13,15 +13,15 @@ namespace lararium::drama {
 struct LuaToken {
   enum class Kind { kEnd, kName, kNumber, kText, kSymbol, kBad };
   Kind kind = Kind::kEnd;
-  size_t begin = 0;  // bytes of the text
+  size_t begin = 0;  // Offsets in bytes.
   size_t end = 0;
-  char symbol = 0;                // of kSymbol: its first character
-  const char* problem = nullptr;  // of kBad
+  char symbol = 0;                // kSymbol: its first character.
+  const char* problem = nullptr;  // kBad: why.
 
   bool Is(char c) const { return kind == Kind::kSymbol && symbol == c && end == begin + 1; }
 };
 
-// Goes through a text from an offset on. Borrows the text.
+// Iterates over the tokens of a text from an offset on. Borrows the text.
 class LuaTokens {
  public:
   explicit LuaTokens(std::string_view text, size_t offset = 0) : text_(text), next_(offset) {}
@@ -40,11 +40,12 @@ class LuaTokens {
   size_t next_;
 };
 
-// What the token says. None: a number beyond all doubles, an escape that Lua does not know.
+// Values of a number token and a text token. None: the number exceeds the range of double, or the
+// text has an escape that Lua does not know.
 std::optional<double> NumberOf(std::string_view token);
 std::optional<std::string> TextOf(std::string_view token);
 
-// Line and column, from 1; columns count bytes.
+// Line and column, both from 1; columns are in bytes.
 struct LuaPosition {
   size_t line = 1;
   size_t column = 1;

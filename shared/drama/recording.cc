@@ -8,10 +8,10 @@
 namespace lararium::drama {
 namespace {
 
-// A call: the function's number, the count of its results or kError, then each result:
-// its kind and its bytes.
+// Format of a call: number of the function, number of results or kError, then for each result its
+// kind and its bytes.
 constexpr uint8_t kError = 0xff;
-enum Kind : uint8_t { kNil, kFalse, kTrue, kInteger, kNumber, kText };
+enum RecordKind : uint8_t { kNil, kFalse, kTrue, kInteger, kNumber, kText };
 
 template <typename T>
 void AppendBytes(std::vector<uint8_t>& out, const T& value) {
@@ -35,7 +35,7 @@ void Recording::AppendText(const char* text, size_t size) {
   entry_.insert(entry_.end(), text, text + size);
 }
 
-// Puts the entry behind the position, or finds it there.
+// Appends the entry at the position, or moves past it if it is already recorded there.
 void Recording::Append() {
   if (at_.bytes < calls_.size()) {
     if (calls_.size() - at_.bytes >= entry_.size() &&
@@ -126,7 +126,7 @@ void Recording::Truncate() {
 int Recording::Replay(lua_State* lua, int function) {
   if (at_.bytes + 2 > calls_.size() || calls_[at_.bytes] != function) {
     diverged_ = true;
-    return luaL_error(lua, "the script does not do again what it did");
+    return luaL_error(lua, "the script behaves differently when it is run again");
   }
   const uint8_t count = calls_[at_.bytes + 1];
   at_.bytes += 2;

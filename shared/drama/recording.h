@@ -1,8 +1,9 @@
 #pragma once
 
-// What a script was told and when it went on, so that its coroutines, which cannot be
-// copied, can be brought to where they were by running the script again without a stage:
-// every call into the host gives what it gave, and every coroutine goes on when it did.
+// Records the results of all calls of a script into the host and the order in which its coroutines
+// resumed. Coroutines cannot be copied; with the recording they are brought to an earlier state by
+// running the script again without a stage: every call returns its recorded result, and every
+// coroutine resumes when it did.
 
 #include <cstdint>
 #include <string>
@@ -16,10 +17,10 @@ class Recording {
  public:
   static constexpr size_t kMaxBytes = 64 << 20;
 
-  // Up to where a run has come.
+  // Progress of a run.
   struct Position {
-    size_t bytes = 0;    // of calls
-    size_t resumes = 0;  // of coroutines
+    size_t bytes = 0;    // Offset into the recorded calls.
+    size_t resumes = 0;  // Index into the recorded resumes.
     friend bool operator==(const Position&, const Position&) = default;
   };
   struct Resume {
@@ -30,30 +31,30 @@ class Recording {
 
   // ---- while the drama is played ----
   //
-  // Where it has been played before, what happens is compared with what is recorded; if
-  // it is anything else, a new future begins: what was recorded behind it is dropped.
+  // A time that was played before is compared with the recording. At the first difference a new
+  // future begins: the rest of the recording is dropped.
 
-  // The topmost results of a call, or the error on top of the stack.
+  // Record the topmost `results` values as the results of a call, or the error on top of the stack.
   void NoteCall(lua_State* lua, int function, int results);
   void NoteError(lua_State* lua, int function);
   void NoteResume(int64_t tick, int64_t task);
-  // From here on it cannot be played again: its memory is full, or a call ended in a way
-  // that cannot be repeated.
+  // Whether recording has stopped: the memory is full, or a call ended in a way that cannot be
+  // repeated.
   bool closed() const { return closed_; }
-  // Nothing is recorded, until what was is forgotten.
+  // Stops recording until Truncate().
   void Close() { closed_ = true; }
-  // How often a new future has begun.
+  // Number of times that a new future has begun.
   int changes() const { return changes_; }
 
   // ---- while the script is run again ----
 
   Position position() const { return at_; }
   void GoTo(const Position& position) { at_ = position; }
-  // Forgets what lies behind the position.
+  // Drops everything after the position.
   void Truncate();
   const Resume& NextResume() { return resumes_[at_.resumes++]; }
-  // Pushes what a call gave, or raises its error. A script that calls something else
-  // than it did is an error that sets diverged().
+  // Pushes the recorded results of a call, or raises its recorded error. If the script calls
+  // another function than before, sets diverged() and raises an error.
   int Replay(lua_State* lua, int function);
   bool diverged() const { return diverged_; }
   void ForgetDivergence() { diverged_ = false; }
@@ -64,7 +65,7 @@ class Recording {
 
   std::vector<uint8_t> calls_;
   std::vector<Resume> resumes_;
-  std::vector<uint8_t> entry_;  // being written
+  std::vector<uint8_t> entry_;  // The entry that is being written.
   Position at_;
   bool closed_ = false;
   bool diverged_ = false;

@@ -9,14 +9,14 @@
 namespace lararium::drama {
 namespace {
 
-constexpr int kLoadingTicks = 64;             // whose instructions a script may use while it loads
-constexpr Scheduler::TaskId kMainBegins = 0;  // in the recording, instead of a task
+constexpr int kLoadingTicks = 64;             // The instruction budget of loading, in ticks.
+constexpr Scheduler::TaskId kMainBegins = 0;  // Marks the start of main() in the recording.
 
 Status TooLittleMemory() {
-  return Status::Error("drama", "the limits are too low to begin with", "raise them");
+  return Status::Error("drama", "the limits are too low to start a script", "raise them");
 }
 
-// A table with the same fields as the one on top, whose tables' fields are copied too.
+// Pushes a copy of the table on top of the stack. Tables in it are copied to the given depth.
 void PushCopy(lua_State* lua, int depth) {
   luaL_checkstack(lua, 8, "too many tables in tables");
   lua_newtable(lua);
@@ -32,7 +32,7 @@ void PushCopy(lua_State* lua, int depth) {
   }
 }
 
-// Gives the script's globals what lua/std added to its own.
+// Copies the globals that lua/std has added to the globals of the script.
 void ShareNewGlobals(lua_State* lua, int std_globals) {
   lua_pushglobaltable(lua);
   lua_pushnil(lua);
@@ -143,9 +143,9 @@ void Run::StartMain() {
 }
 
 Status Run::LoadStd() {
-  // One table for all of lua/std, whose files hand each other functions in it.
+  // One table for all files of lua/std, which share functions in it.
   constexpr const char* kHost = "lararium.host";
-  // What lua/std calls is not the script's to change: it has globals of its own.
+  // lua/std has its own globals, so that a script cannot change the functions that it calls.
   constexpr const char* kGlobals = "lararium.std";
   const bool made = Protected(sandbox_->lua(), [&](lua_State* lua) {
     PushHost(lua);
@@ -188,9 +188,9 @@ void Run::ApplyTracks() {
 }
 
 void Run::UpdateTriggers() {
-  const Happenings now = {stage_, state_.visitor, static_cast<float>(TimeOf(state_.lost_ticks)),
-                          passed_,
-                          tick_ > 0 ? static_cast<float>(stage::Stage::kTickSeconds) : 0.0f};
+  const TriggerContext now = {stage_, state_.visitor, static_cast<float>(TimeOf(state_.lost_ticks)),
+                              passed_,
+                              tick_ > 0 ? static_cast<float>(stage::Stage::kTickSeconds) : 0.0f};
   for (Trigger& trigger : state_.triggers) {
     UpdateTrigger(now, trigger);
     if (trigger.fired > 0 && trigger.cue < cues_.cues.size()) {
@@ -226,7 +226,7 @@ void Run::HearMessages() {
   }
 }
 
-// ---- running again ----
+// ---- replaying ----
 
 Status Run::BeginAgain(std::string_view script,
                        const std::string& place,
@@ -281,7 +281,7 @@ int Run::Call(lua_State* lua) {
   int results = 0;
   try {
     results = (self->*kMethod)(lua);
-  } catch (...) {  // Lua's way to raise an error
+  } catch (...) {  // Lua raises its errors as exceptions.
     self->recording_.NoteError(lua, function);
     throw;
   }
@@ -362,7 +362,7 @@ void Run::PushHost(lua_State* lua) {
                                      {"stop_sound", Call<&Run::StopSound>},
                                      {"describe", Call<&Run::Describe>},
                                      {nullptr, nullptr}};
-  static_assert(std::size(kFunctions) <= 255, "the recording has a byte for them");
+  static_assert(std::size(kFunctions) <= 255, "the recording stores the function in a byte");
   lua_newtable(lua);
   for (size_t i = 0; kFunctions[i].name != nullptr; ++i) {
     lua_pushlightuserdata(lua, this);
@@ -387,7 +387,7 @@ int Run::Wait(lua_State* lua) {
   return scheduler_.Wait(lua, std::llround(seconds * Drama::kTicksPerSecond));
 }
 
-// wait_until(seconds): of the drama
+// wait_until(seconds): waits until a time of the drama
 int Run::WaitUntilTime(lua_State* lua) {
   const double seconds = std::clamp(CheckFinite(lua, 1, "the time"), 0.0, Drama::kMaxTime);
   return scheduler_.Wait(lua, std::llround(seconds * Drama::kTicksPerSecond) - tick_);
@@ -417,7 +417,7 @@ int Run::Join(lua_State* lua) {
   return scheduler_.Join(lua, std::move(tasks), lua_toboolean(lua, 2) != 0);
 }
 
-// await(number of a task of the stage): until it is over
+// await(number): waits until a task of the stage is over
 int Run::Await(lua_State* lua) {
   const auto task = static_cast<stage::TaskId>(luaL_checkinteger(lua, 1));
   return scheduler_.WaitUntil(lua, "a task", [this, task] {
@@ -426,7 +426,7 @@ int Run::Await(lua_State* lua) {
   });
 }
 
-// outcome(task) -> whether it is over, whether it was done, why not
+// outcome(task) -> whether it is over, whether it succeeded, error message
 int Run::PushOutcome(lua_State* lua) {
   const Scheduler::TaskId id = luaL_checkinteger(lua, 1);
   const Scheduler::Outcome* outcome = scheduler_.OutcomeOf(id);
@@ -436,8 +436,8 @@ int Run::PushOutcome(lua_State* lua) {
   return 3;
 }
 
-// await_point(task, point, seconds): until so long after the point (or before it, where
-// that is known ahead)
+// await_point(task, point, seconds): waits until `seconds` after the point; negative seconds work
+// for points that are known in advance
 int Run::AwaitPoint(lua_State* lua) {
   const Scheduler::TaskId id = luaL_checkinteger(lua, 1);
   const auto point = SyncPointNamed(CheckText(lua, 2));
@@ -458,7 +458,7 @@ int Run::AwaitPoint(lua_State* lua) {
   });
 }
 
-// When a coroutine reaches a point; kUnknown: nobody knows yet.
+// Tick at which a coroutine reaches a point; kUnknown: not known yet.
 int64_t Run::PointTick(Scheduler::TaskId id, SyncPoint point) const {
   const auto began = scheduler_.Began(id);
   if (!began) {
@@ -475,7 +475,7 @@ int64_t Run::PointTick(Scheduler::TaskId id, SyncPoint point) const {
              : record->ticks[static_cast<size_t>(point)];
 }
 
-// Of the running coroutine; nullptr: it has one already, or none runs.
+// Adds the record of the running coroutine; nullptr: it already has one, or none is running.
 SyncRecord* Run::BeginSync() {
   const Scheduler::TaskId id = scheduler_.running();
   const bool has_one = std::any_of(state_.sync.begin(), state_.sync.end(),
@@ -488,7 +488,7 @@ SyncRecord* Run::BeginSync() {
   return &record;
 }
 
-// It does something whose points are known ...
+// The running coroutine does something whose points are known in advance.
 void Run::NoteSync(const SyncTimes& times) {
   if (SyncRecord* record = BeginSync()) {
     for (size_t i = 0; i < times.size(); ++i) {
@@ -497,7 +497,7 @@ void Run::NoteSync(const SyncTimes& times) {
   }
 }
 
-// ... or come as the stage's task goes on.
+// The running coroutine waits for a task of the stage, which determines the points.
 void Run::NoteTaskSync(stage::TaskId task) {
   if (SyncRecord* record = BeginSync()) {
     record->task = task;
@@ -524,21 +524,21 @@ void Run::UpdateSync() {
   }
 }
 
-// The script's line that runs, or that started what runs.
+// The line of the script that is running, or that started the running task.
 std::string Run::PlaceNow(lua_State* lua) const {
   std::string place = PlaceOf(lua);
   return place.empty() ? scheduler_.StartedAt() : place;
 }
 
-// warn(message): to the author, about the script's line
+// warn(message): reports a message to the author, with the line of the script
 int Run::WarnAuthor(lua_State* lua) {
   const std::string where = PlaceNow(lua);
   on_error_(tick_, {where + ": " + std::string(CheckText(lua, 1)), ""});
   return 0;
 }
 
-// attempt() -> a number: what the calling task does may fail from now on; attempt(number): no
-// longer
+// attempt() -> number: tasks of the calling coroutine may fail from now on; attempt(number): ends
+// this
 int Run::Attempt(lua_State* lua) {
   if (lua_isnoneornil(lua, 1)) {
     attempts_.push_back(scheduler_.running());
@@ -552,8 +552,8 @@ int Run::Attempt(lua_State* lua) {
   return 0;
 }
 
-// note_task(actor, action, object's name or nil, when it began, whether it failed, message,
-// seconds that it waited for its turn): one has ended, of the script's line
+// note_task(actor, action, object's name or nil, begin, whether it failed, message, seconds
+// waited): records a task that has ended
 int Run::NoteTask(lua_State* lua) {
   const stage::Actor& actor = CheckActor(lua);
   const std::string_view action = CheckText(lua, 2);
@@ -577,7 +577,7 @@ int Run::NoteTask(lua_State* lua) {
   return 0;
 }
 
-// Something whose length is known when it begins.
+// Records an action whose length is known when it begins.
 void Run::NoteBlock(lua_State* lua, const stage::Actor& actor, std::string action, double seconds) {
   TaskRecord record;
   record.began = TimeOf(tick_);
@@ -588,7 +588,7 @@ void Run::NoteBlock(lua_State* lua, const stage::Actor& actor, std::string actio
   on_task_(std::move(record));
 }
 
-// configure(whether it holds while tracking is lost, seconds, length in seconds)
+// configure(whether time stops while tracking is lost, patience in seconds, length in seconds)
 int Run::Configure(lua_State* lua) {
   if (!declaring_) {
     return luaL_error(lua, "drama: only while the script loads, not within main()");

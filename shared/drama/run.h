@@ -1,7 +1,7 @@
 #pragma once
 
-// One run of a script from its beginning: the Lua state, its coroutines, and the
-// functions that lua/std calls. Private to the room.
+// One run of a script from its beginning: the Lua state, its coroutines, and the host functions
+// that lua/std calls. Internal to shared/drama.
 
 #include <array>
 #include <functional>
@@ -26,78 +26,75 @@
 
 namespace lararium::drama {
 
-// When a coroutine's first behaviour reaches its points.
+// Ticks at which the first action of a coroutine reaches its synchronisation points.
 struct SyncRecord {
   Scheduler::TaskId coroutine = 0;
-  stage::TaskId task = 0;  // of the stage, which decides; 0: the ticks are known
-  std::array<int64_t, stage::kSyncPoints> ticks = {};  // kUnknown: not yet
+  stage::TaskId task = 0;  // Task of the stage that determines the ticks; 0: they are known.
+  std::array<int64_t, stage::kSyncPoints> ticks = {};  // kUnknown: not reached yet.
   static constexpr int64_t kUnknown = -1;
 };
 
-// All that a run remembers besides its coroutines; plain values.
+// The complete state of a run except its coroutines. Plain values.
 struct RunState {
   TimelineState timeline;
   std::vector<Trigger> triggers;
   int64_t last_trigger = 0;
   std::vector<SyncRecord> sync;
   Visitor visitor;
-  // The last message of each address: its arguments, as Message has them.
+  // Arguments of the last message of each address, in the form of Message::arguments.
   std::map<std::string, std::string, std::less<>> heard;
-  int64_t lost_ticks = 0;  // since when tracking is lost
+  int64_t lost_ticks = 0;  // Ticks since tracking was lost.
 };
 
-// Which triggers a script has armed, and which of them fired.
+// The triggers that a script has armed, and whether they fired.
 struct CueLog {
   static constexpr size_t kMost = 1000;
 
   std::vector<CueRecord> cues;
-  std::map<std::string, size_t, std::less<>> known;  // places in there
+  std::map<std::string, size_t, std::less<>> known;  // Indices into `cues`.
 
-  // The place of a trigger in there; it is new or was armed before. kMost: there are too
-  // many to remember.
+  // Index of a trigger in `cues`, added if it is new. kMost: the log is full.
   size_t Find(CueRecord cue);
 };
 
-// What a script says of itself while it loads. The same whenever it is run.
+// What a script declares while it loads. The same in every run.
 struct Declared {
   Timeline timeline;
   DramaSettings settings;
 };
 
-// Its private functions are the table `host` of lua/std, and raise Lua errors. Those that
-// ask or change anything but coroutines are recorded, and not called when the script is
-// only run again.
+// The private functions form the table `host` of lua/std and raise Lua errors. Functions that read
+// or change anything but coroutines are recorded, and are not called while the script is replayed.
 class Run {
  public:
   using OnError = std::function<void(int64_t tick, const LuaError&)>;
   using OnTask = std::function<void(TaskRecord)>;
 
-  // Borrows stage, recording, cues.
+  // Borrows stage, recording and cues.
   Run(std::unique_ptr<Sandbox> sandbox,
       stage::Stage& stage,
       Recording& recording,
       CueLog& cues,
       OnError on_error,
       OnTask on_task);
-  Run(const Run&) = delete;  // Lua knows its address
+  Run(const Run&) = delete;  // Lua keeps its address.
   Run& operator=(const Run&) = delete;
 
   // Compiles the script and plays tick 0.
   Status Begin(std::string_view script, const std::string& place);
   void Tick(const Visitor& visitor);
 
-  // Compiles the script, to be run again up to a position by FollowTo(). declared: of the
-  // run that was recorded.
+  // Compiles the script for a replay by FollowTo(). `declared` is that of the recorded run.
   Status BeginAgain(std::string_view script,
                     const std::string& place,
                     std::shared_ptr<const Declared> declared);
-  // Runs coroutines as recorded, without the stage; false where they do not do again
-  // what they did. The recording's position is then anywhere.
+  // Replays coroutines up to a position, without the stage. Returns false if they behave
+  // differently; the position of the recording is then undefined.
   bool FollowTo(const Recording::Position& position);
   Recording::Position followed() const { return followed_; }
 
   const RunState& state() const { return state_; }
-  // The stage has been brought to a tick, and the coroutines to its position.
+  // Sets state and tick, after the stage and the coroutines were brought to that tick.
   void Restore(const RunState& state, int64_t tick);
 
   std::shared_ptr<const Declared> declared() const { return declared_; }
@@ -112,12 +109,12 @@ class Run {
   void HearMessages();
   void UpdateSync();
 
-  // ---- the table `host`; what each takes and gives is written where it is defined ----
+  // ---- the table `host`; arguments and results are documented at the definitions ----
 
   template <int (Run::*kMethod)(lua_State*)>
-  static int Call(lua_State* lua);  // recorded
+  static int Call(lua_State* lua);  // Records the call.
   template <int (Run::*kMethod)(lua_State*)>
-  static int Own(lua_State* lua);  // only coroutines and time: run again
+  static int Own(lua_State* lua);  // Only coroutines and time: called again in a replay.
   void PushHost(lua_State* lua);
 
   // run.cc: time and tasks
@@ -141,7 +138,7 @@ class Run {
   std::string PlaceNow(lua_State* lua) const;
   int64_t PointTick(Scheduler::TaskId id, SyncPoint point) const;
 
-  // words_timeline.cc
+  // bindings_timeline.cc
   int AddSegment(lua_State* lua);
   int AddLane(lua_State* lua);
   std::vector<TrackSegment>& SegmentsOf(stage::ActorId id);
@@ -152,7 +149,7 @@ class Run {
   stage::ObjectId CheckObjectNamed(lua_State* lua, const char* key);
   stage::Attention::Choice CheckGaze(lua_State* lua);
 
-  // words_visitor.cc
+  // bindings_visitor.cc
   TriggerSpec CheckTrigger(lua_State* lua, int argument);
   int AddTrigger(lua_State* lua);
   int DropTrigger(lua_State* lua);
@@ -164,7 +161,7 @@ class Run {
   int PushAside(lua_State* lua);
   const Trigger* FindTrigger(int64_t id) const;
 
-  // words_actor.cc: what people do by themselves
+  // bindings_actor.cc: actors by themselves
   stage::ActorId CheckActorId(lua_State* lua, int argument);
   stage::Actor& CheckActor(lua_State* lua, int argument = 1);
   stage::Actor& CheckFreeActor(lua_State* lua, int argument = 1);
@@ -184,7 +181,7 @@ class Run {
   int SetGait(lua_State* lua);
   int Foretell(lua_State* lua);
 
-  // words_object.cc: what they do with objects and each other
+  // bindings_object.cc: actors with objects and with each other
   stage::ObjectId CheckObjectId(lua_State* lua, int argument);
   stage::Object& CheckObject(lua_State* lua, int argument = 1);
   int CheckSurface(lua_State* lua, const stage::Object& object, int argument);
@@ -207,7 +204,7 @@ class Run {
   int SetObjectState(lua_State* lua);
   int PushHolder(lua_State* lua);
 
-  // words_light.cc: time of day and lamps
+  // bindings_light.cc: time of day and lamps
   int SetHour(lua_State* lua);
   int PushHour(lua_State* lua);
   int PushHasLight(lua_State* lua);
@@ -216,7 +213,7 @@ class Run {
   int SetLightColour(lua_State* lua);
   int SetLightTemperature(lua_State* lua);
 
-  // words_sound.cc: what is played by itself
+  // bindings_sound.cc: sounds and audio description
   int CheckSound(lua_State* lua);
   int PushSound(lua_State* lua);
   int PlaySound(lua_State* lua);
@@ -231,21 +228,21 @@ class Run {
   OnTask on_task_;
   Scheduler scheduler_;
   TimelinePlayer timeline_player_;
-  std::vector<Scheduler::TaskId> attempts_;  // tasks within attempt(), once for each
-  std::shared_ptr<Declared> declaring_;      // while the script loads for the first time
+  std::vector<Scheduler::TaskId> attempts_;  // Tasks within attempt(), one entry per nesting.
+  std::shared_ptr<Declared> declaring_;      // Set only while the script first loads.
   std::shared_ptr<const Declared> declared_;
   RunState state_;
-  std::vector<std::string> passed_;  // markers of this tick
+  std::vector<std::string> passed_;  // Markers passed in this tick.
   int64_t tick_ = 0;
   bool loading_ = false;
-  bool following_ = false;  // the recording
+  bool following_ = false;  // Replaying the recording.
   Recording::Position followed_;
   Scheduler::TaskId chunk_ = 0;
 };
 
 inline double TimeOf(int64_t tick) { return static_cast<double>(tick) / Drama::kTicksPerSecond; }
 
-// Ids cross to Lua as one integer.
+// Ids are passed to Lua as one integer.
 template <typename Tag>
 int64_t PackId(Id<Tag> id) {
   return static_cast<int64_t>(uint64_t{id.generation} << 32 | id.index);

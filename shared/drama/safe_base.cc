@@ -11,13 +11,12 @@
 namespace lararium::drama {
 namespace {
 
-// ---- protected calls: an error is caught, a passed limit is not -------------
+// ---- protected calls: they catch errors, but not tripped limits -------------
 
-// To unwind an error out of deeply nested calls takes as long as so many
-// instructions, about.
+// Unwinding an error from deeply nested calls takes about as long as this many instructions.
 constexpr int64_t kErrorCost = 10'000;
 
-// After a call that failed: raises again when the failure was a limit's.
+// After a failed call: raises the error again if a limit was exceeded.
 void LetLimitsThrough(lua_State* lua) {
   LimitsOf(lua).TripIfRefused();
   Charge(lua, kErrorCost);
@@ -37,7 +36,7 @@ int FinishProtectedCall(lua_State* lua, int status, lua_KContext /*context*/) {
 
 int ProtectedCall(lua_State* lua) {
   luaL_checkany(lua, 1);
-  lua_pushboolean(lua, 1);  // the first result, should all go well
+  lua_pushboolean(lua, 1);  // The first result if the call succeeds.
   lua_insert(lua, 1);
   const int status = lua_pcallk(lua, lua_gettop(lua) - 2, LUA_MULTRET, 0, 0, FinishProtectedCall);
   return FinishProtectedCall(lua, status, 0);
@@ -49,11 +48,11 @@ lua_State* CheckCoroutine(lua_State* lua, int argument) {
   return coroutine;
 }
 
-// Resumes coroutine with the topmost `arguments` values. Leaves its results, or
-// its error, on top of lua's stack and returns their number, or -1.
+// Resumes a coroutine with the topmost `arguments` values. Leaves its results or its error on top
+// of lua's stack. Returns the number of results, or -1 on an error.
 int Resume(lua_State* lua, lua_State* coroutine, int arguments) {
-  // A fresh thread counts instructions from zero: pay ahead for those that its
-  // hook may not see.
+  // A fresh thread counts instructions from zero: charge in advance for those that its hook may
+  // miss.
   Charge(lua, Limits::kHookInterval);
   if (lua_checkstack(coroutine, arguments) == 0) {
     lua_pushliteral(lua, "too many arguments to resume");
@@ -108,7 +107,7 @@ int CoroutineWrap(lua_State* lua) {
   return 1;
 }
 
-// The upvalue is Lua's coroutine.close, which runs what is to be closed.
+// The upvalue is Lua's coroutine.close, which runs pending close handlers.
 int CoroutineClose(lua_State* lua) {
   const int results = CallWrapped(lua);
   RaiseIfTripped(lua);
@@ -120,8 +119,8 @@ int CoroutineClose(lua_State* lua) {
 struct Key {
   enum Rank { kNumber, kText, kBoolean };
   Rank rank;
-  long double number = 0.0L;  // exact for integers and floats alike
-  std::string_view text;      // borrowed from the table's key
+  long double number = 0.0L;  // Exact for integers and floats.
+  std::string_view text;      // Borrowed from the table's key.
 };
 
 bool operator<(const Key& a, const Key& b) {
@@ -153,14 +152,14 @@ Key CheckKey(lua_State* lua, int index) {
   }
 }
 
-// next(table, key): the least key that is greater.
+// next(table, key): returns the smallest key that is greater.
 int Next(lua_State* lua) {
   luaL_checktype(lua, 1, LUA_TTABLE);
   lua_settop(lua, 2);
   const bool at_start = lua_isnil(lua, 2);
   const Key after = at_start ? Key{} : CheckKey(lua, 2);
-  lua_pushnil(lua);  // 3: the best key so far
-  lua_pushnil(lua);  // 4: the table's own iteration
+  lua_pushnil(lua);  // Index 3: the best key so far.
+  lua_pushnil(lua);  // Index 4: the key of the raw iteration.
   bool found = false;
   Key best = {};
   while (lua_next(lua, 1) != 0) {
@@ -184,7 +183,7 @@ int Next(lua_State* lua) {
   return 2;
 }
 
-// Iterator of pairs. Upvalues: the sorted keys, the number of those done.
+// Iterator of pairs. Upvalues: the sorted keys, the number of visited keys.
 // Arguments: the table, the key (unused).
 int NextSorted(lua_State* lua) {
   lua_Integer done = lua_tointeger(lua, lua_upvalueindex(2));
@@ -194,7 +193,7 @@ int NextSorted(lua_State* lua) {
       return 1;
     }
     lua_pushvalue(lua, -1);
-    if (lua_rawget(lua, 1) != LUA_TNIL) {  // else it was removed meanwhile
+    if (lua_rawget(lua, 1) != LUA_TNIL) {  // Skip keys that were removed meanwhile.
       lua_pushinteger(lua, done);
       lua_replace(lua, lua_upvalueindex(2));
       return 2;
@@ -205,7 +204,7 @@ int NextSorted(lua_State* lua) {
 
 // Pushes an array of the keys of the table at index 1, in order.
 void PushSortedKeys(lua_State* lua) {
-  lua_newtable(lua);  // keeps the keys' texts alive while `keys` borrows them
+  lua_newtable(lua);  // Keeps the texts alive that `keys` borrows.
   const int unsorted = lua_gettop(lua);
   std::vector<std::pair<Key, lua_Integer>> keys;
   lua_pushnil(lua);
@@ -241,7 +240,7 @@ int Pairs(lua_State* lua) {
   return 3;
 }
 
-// ---- the rest -----------------------------------------------------------------
+// ---- other functions ---------------------------------------------------------
 
 int SetMetatable(lua_State* lua) {
   luaL_checktype(lua, 1, LUA_TTABLE);
@@ -251,7 +250,7 @@ int SetMetatable(lua_State* lua) {
     return luaL_error(lua, "cannot change a protected metatable");
   }
   if (!removes) {
-    // A finaliser would run at a time that nobody chose, outside of all limits.
+    // A finaliser would run at an undefined time and outside of all limits.
     lua_pushliteral(lua, "__gc");
     if (lua_rawget(lua, 2) != LUA_TNIL) {
       return luaL_error(lua, "a metatable may not have __gc");
@@ -268,7 +267,7 @@ int ToString(lua_State* lua) {
   return 1;
 }
 
-// The upvalue is Lua's tonumber. No number is written with so many characters.
+// The upvalue is Lua's tonumber. Texts longer than kLongest are not numbers.
 int ToNumber(lua_State* lua) {
   constexpr size_t kLongest = 400;
   if (lua_type(lua, 1) == LUA_TSTRING && lua_rawlen(lua, 1) > kLongest) {
@@ -283,7 +282,7 @@ uint64_t DrawUpTo(Random& random, uint64_t range) {
   if (range < 0xffffffffu) {
     return random.Below(static_cast<uint32_t>(range) + 1);
   }
-  uint64_t mask = range;  // the smallest 2^n - 1 that covers it
+  uint64_t mask = range;  // Becomes the smallest 2^n - 1 that is not less than `range`.
   for (int shift = 1; shift < 64; shift *= 2) {
     mask |= mask >> shift;
   }
@@ -318,7 +317,7 @@ void OpenCoroutines(lua_State* lua) {
   WrapField(lua, "resume", CoroutineResume);
   WrapField(lua, "wrap", CoroutineWrap);
   WrapField(lua, "close", CoroutineClose);
-  // It would hand out the coroutine of a task, which only the scheduler may resume.
+  // coroutine.running would expose the coroutine of a task, which only the scheduler may resume.
   lua_pushnil(lua);
   lua_setfield(lua, -2, "running");
   lua_pop(lua, 1);
@@ -347,7 +346,7 @@ void PushTextOf(lua_State* lua, int index) {
 
 void OpenSafeBase(lua_State* lua) {
   constexpr const char* kKept[] = {"assert", "error", "ipairs", "select", "type"};
-  luaL_requiref(lua, LUA_GNAME, luaopen_base, 0);  // fills the globals
+  luaL_requiref(lua, LUA_GNAME, luaopen_base, 0);  // Fills the globals.
   const int original = lua_gettop(lua);
   lua_newtable(lua);
   for (const char* name : kKept) {
@@ -361,7 +360,7 @@ void OpenSafeBase(lua_State* lua) {
                                 {"pcall", ProtectedCall}, {"setmetatable", SetMetatable},
                                 {"tostring", ToString},   {nullptr, nullptr}};
   luaL_setfuncs(lua, kOurs, 0);
-  // What is left is the table of all globals.
+  // The new table becomes the table of globals.
   lua_rawseti(lua, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
   lua_pop(lua, 1);
   OpenCoroutines(lua);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/drama/limits.h"
 #include "shared/drama/lua_binding.h"
 #include "shared/drama/safe_libraries.h"
 #include "shared/drama/text_pattern.h"
@@ -12,16 +13,14 @@
 namespace lararium::drama {
 namespace {
 
-constexpr int64_t kStepsPerInstruction = 4;  // of matching
-constexpr size_t kBytesPerInstruction = 64;
-
-// One search for a pattern, and what it may cost.
+constexpr int64_t kStepsPerInstruction = 4;  // Steps of pattern matching.
+// A pattern search that charges for its work.
 class Search {
  public:
   Search(lua_State* lua, std::string_view subject, std::string_view pattern)
       : lua_(lua), subject_(subject), pattern_(Compiled(lua, pattern)) {}
 
-  // The first match that begins at begin or later; only there when anchored.
+  // Finds the first match at `begin` or later; if anchored, only at `begin`.
   bool Find(size_t begin, bool anchored) {
     for (size_t at = begin; at <= subject_.size(); ++at) {
       if (MatchAt(at)) {
@@ -39,7 +38,7 @@ class Search {
     if (steps_left_ <= 0) {
       steps_left_ = kBatch;
     }
-    // A batch at a time is paid for; a match that needs more gets a larger one.
+    // Charges for a batch of steps in advance; a match that needs more gets a larger batch.
     for (int64_t batch = kBatch;; batch *= 4) {
       Charge(lua_, 1);
       const int64_t before = steps_left_;
@@ -67,7 +66,7 @@ class Search {
       PushText(lua_, subject_.substr(capture.begin, capture.end - capture.begin));
     }
   }
-  // All captures; of a pattern without any, the whole match.
+  // Pushes all captures, or the whole match if the pattern has none.
   int PushCaptures() const {
     if (captures_.empty()) {
       PushText(lua_, whole());
@@ -99,8 +98,8 @@ class Search {
   size_t end_ = 0;
 };
 
-// The optional argument init as an offset: from 1, from the end when negative.
-// May lie behind the end.
+// Converts the optional argument `init` to an offset: it counts from 1, or from the end if
+// negative. The offset may lie after the end.
 size_t StartOffset(lua_State* lua, int argument, size_t size) {
   const lua_Integer init = luaL_optinteger(lua, argument, 1);
   const auto length = static_cast<lua_Integer>(size);
@@ -117,8 +116,9 @@ bool TakeAnchor(std::string_view& pattern) {
 }
 
 int FindPlain(lua_State* lua, std::string_view subject, std::string_view text, size_t begin) {
-  // The library's search compares at every place in the worst case.
-  Charge(lua, static_cast<int64_t>(subject.size() / kBytesPerInstruction * (1 + text.size() / 8)));
+  // In the worst case the search compares at every offset.
+  Charge(lua, static_cast<int64_t>(subject.size() / kAllocatedBytesPerInstruction *
+                                   (1 + text.size() / 8)));
   const size_t found = subject.find(text, begin);
   if (found == std::string_view::npos) {
     lua_pushnil(lua);
@@ -129,7 +129,7 @@ int FindPlain(lua_State* lua, std::string_view subject, std::string_view text, s
   return 2;
 }
 
-// find and match differ in what they return.
+// string.find and string.match differ only in their results.
 int FindOrMatch(lua_State* lua, bool find) {
   const std::string_view subject = CheckText(lua, 1);
   std::string_view pattern = CheckText(lua, 2);
@@ -159,8 +159,8 @@ int FindOrMatch(lua_State* lua, bool find) {
 int Find(lua_State* lua) { return FindOrMatch(lua, true); }
 int Match(lua_State* lua) { return FindOrMatch(lua, false); }
 
-// Iterator of gmatch. Upvalues: subject, pattern, where to go on, the end of the
-// last match (an empty match may not be there).
+// Iterator of gmatch. Upvalues: subject, pattern, next offset, end of the last match (where no
+// empty match is allowed).
 int NextMatch(lua_State* lua) {
   const std::string_view subject = CheckText(lua, lua_upvalueindex(1));
   const std::string_view pattern = CheckText(lua, lua_upvalueindex(2));
@@ -189,7 +189,7 @@ int MatchAll(lua_State* lua) {
   return 1;
 }
 
-// The text that "%0" ... "%9" and "%%" in a replacement stand for.
+// Expands "%0" ... "%9" and "%%" of a replacement text.
 void AppendReplacement(lua_State* lua,
                        const Search& search,
                        std::string_view replacement,
@@ -215,12 +215,11 @@ void AppendReplacement(lua_State* lua,
   }
 }
 
-// Appends what gsub puts in place of the match: argument 3 is a text, a table or
-// a function.
+// Appends the replacement of a match for gsub: argument 3 is a text, a table or a function.
 void AppendSubstitute(lua_State* lua, const Search& search, std::string& result) {
   if (lua_type(lua, 3) == LUA_TTABLE) {
     search.PushCaptures();
-    lua_settop(lua, 5);  // the first capture is the key
+    lua_settop(lua, 5);  // The first capture is the key.
     lua_gettable(lua, 3);
   } else if (lua_type(lua, 3) == LUA_TFUNCTION) {
     lua_pushvalue(lua, 3);
@@ -254,8 +253,8 @@ int Substitute(lua_State* lua) {
   Search search(lua, subject, pattern);
   std::string result;
   lua_Integer count = 0;
-  size_t at = 0;                             // what is before was copied
-  size_t last_end = std::string_view::npos;  // an empty match may not be here
+  size_t at = 0;                             // Everything before it has been copied.
+  size_t last_end = std::string_view::npos;  // No empty match is allowed here.
   while (count < max_count) {
     if (search.MatchAt(at) && search.end() != last_end) {
       ++count;
@@ -293,13 +292,13 @@ int Repeat(lua_State* lua) {
     result += text;
     result.append(separator, i + 1 < count ? separator_size : 0);
   }
-  Charge(lua, static_cast<int64_t>(result.size() / kBytesPerInstruction));
+  Charge(lua, static_cast<int64_t>(result.size() / kAllocatedBytesPerInstruction));
   PushText(lua, result);
   return 1;
 }
 
-// The upvalue is Lua's format. It bounds widths itself (two digits); addresses
-// are what it must not print.
+// The upvalue is Lua's format, which limits widths itself (two digits). It must not print
+// addresses.
 int Format(lua_State* lua) {
   const std::string_view format = CheckText(lua, 1);
   int argument = 1;
@@ -327,7 +326,7 @@ int Format(lua_State* lua) {
 
 int CallOnText(lua_State* lua) {
   if (lua_type(lua, 1) == LUA_TSTRING) {
-    Charge(lua, static_cast<int64_t>(lua_rawlen(lua, 1) / kBytesPerInstruction));
+    Charge(lua, static_cast<int64_t>(lua_rawlen(lua, 1) / kAllocatedBytesPerInstruction));
   }
   const int results = CallWrapped(lua);
   if (results > kMaxResults) {
@@ -348,7 +347,7 @@ void OpenSafeString(lua_State* lua) {
   WrapField(lua, "format", Format);
   luaL_setfuncs(lua, kOurs, 0);
 
-  // The metatable of all texts: methods, but no arithmetic on digits in texts.
+  // Metatable of all texts: methods, but no arithmetic with texts of digits.
   lua_pushliteral(lua, "");
   lua_createtable(lua, 0, 2);
   lua_pushvalue(lua, -3);

@@ -1,5 +1,5 @@
-// The tables table and utf8 for scripts. Lua's functions loop in C over lengths
-// that a script chooses (a __len, two arguments), so each loop is paid for first.
+// The tables `table` and `utf8` for scripts. Lua's functions loop in C over lengths that a script
+// chooses (a __len, two arguments), so the work is charged before each loop.
 
 #include <bit>
 #include <numeric>
@@ -11,7 +11,7 @@
 namespace lararium::drama {
 namespace {
 
-// Pays for each of the indices from first to last.
+// Charges for the indices from first to last.
 void ChargeRange(lua_State* lua, lua_Integer first, lua_Integer last) {
   constexpr int64_t kMax = int64_t{1} << 40;
   if (first > last) {
@@ -21,8 +21,8 @@ void ChargeRange(lua_State* lua, lua_Integer first, lua_Integer last) {
   Charge(lua, count >= static_cast<uint64_t>(kMax) ? kMax : static_cast<int64_t>(count) + 1);
 }
 
-// concat(list, separator, i, j), with i and j made explicit so that they stay
-// what was paid for.
+// concat(list, separator, i, j). i and j are made explicit, so that Lua uses the range that was
+// charged.
 int Concat(lua_State* lua) {
   lua_settop(lua, 4);
   const lua_Integer first = luaL_optinteger(lua, 3, 1);
@@ -74,7 +74,7 @@ int Insert(lua_State* lua) {
     lua_geti(lua, 1, i - 1);
     lua_seti(lua, 1, i);
   }
-  lua_seti(lua, 1, position);  // the last argument
+  lua_seti(lua, 1, position);  // Stores the last argument.
   return 0;
 }
 
@@ -97,8 +97,8 @@ int Remove(lua_State* lua) {
   return 1;
 }
 
-// Whether element a of the array at index 3 must come before element b: by the
-// function at index 2, or else by '<'.
+// Whether element a of the array at index 3 must come before element b, by the function at index 2
+// or, without one, by '<'.
 bool ComesBefore(lua_State* lua, lua_Integer a, lua_Integer b) {
   const bool by_function = !lua_isnil(lua, 2);
   if (by_function) {
@@ -118,8 +118,7 @@ bool ComesBefore(lua_State* lua, lua_Integer a, lua_Integer b) {
   return before;
 }
 
-// Merge sort of the indices 1..count. Sound for any order function, however
-// inconsistent it is.
+// Merge sort of the indices 1..count. Safe for any order function, even an inconsistent one.
 std::vector<lua_Integer> SortedIndices(lua_State* lua, size_t count) {
   std::vector<lua_Integer> sorted(count);
   std::iota(sorted.begin(), sorted.end(), 1);
@@ -141,7 +140,7 @@ std::vector<lua_Integer> SortedIndices(lua_State* lua, size_t count) {
   return sorted;
 }
 
-// Lua's sort draws pivots from the clock, and is not stable.
+// Replaces Lua's sort, which chooses pivots by the clock and is not stable.
 int Sort(lua_State* lua) {
   luaL_checktype(lua, 1, LUA_TTABLE);
   lua_settop(lua, 2);
@@ -152,7 +151,7 @@ int Sort(lua_State* lua) {
   ChargeRange(lua, 1, size);
   const auto count = static_cast<size_t>(std::max<lua_Integer>(size, 0));
   Charge(lua, static_cast<int64_t>(count) * std::bit_width(count));
-  lua_createtable(lua, static_cast<int>(count), 0);  // 3: the elements as they were
+  lua_createtable(lua, static_cast<int>(count), 0);  // Index 3: the original elements.
   for (lua_Integer i = 1; i <= size; ++i) {
     lua_geti(lua, 1, i);
     lua_rawseti(lua, 3, i);

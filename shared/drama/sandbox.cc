@@ -9,20 +9,21 @@ namespace {
 void CountInstructions(lua_State* lua, lua_Debug* /*activation*/) {
   LimitsOf(lua).Charge(lua_gethookcount(lua));
   if (LimitsOf(lua).tripped()) {
-    // What this coroutine still has to close is then counted one by one.
+    // From now on the hook runs at each instruction, so close handlers of this coroutine are
+    // counted.
     lua_sethook(lua, CountInstructions, LUA_MASKCOUNT, 1);
     RaiseIfTripped(lua);
   }
 }
 
-// The same, or where it was started, with ": " behind it.
+// PlaceOf(coroutine), or started_at if it is empty, followed by ": ".
 std::string Where(lua_State* coroutine, const std::string& started_at) {
   const std::string place = PlaceOf(coroutine);
   return place.empty() && started_at.empty() ? "" : (place.empty() ? started_at : place) + ": ";
 }
 
-// The message on top of a coroutine's stack. What lua/std found wrong is told
-// with the place in the script that called it.
+// The message on top of a coroutine's stack. Errors of lua/std get the line of the script that
+// called it.
 std::string TopAsText(lua_State* coroutine, const std::string& started_at) {
   if (lua_type(coroutine, -1) == LUA_TSTRING) {
     const std::string text = lua_tostring(coroutine, -1);
@@ -66,7 +67,7 @@ Result<std::unique_ptr<Sandbox>> Sandbox::Create(size_t memory_limit,
     });
   }
   if (!opened) {
-    return Status::Error("drama", "the limits are too low to begin with", "raise them");
+    return Status::Error("drama", "the limits are too low to start a script", "raise them");
   }
   sandbox->limits_.Refill();
   return sandbox;
@@ -87,9 +88,9 @@ Status Sandbox::Compile(std::string_view text, const std::string& place) {
   limits_.TripIfRefused();
   const std::string problem = limits_.tripped() ? limits_.Reason() : lua_tostring(lua_, -1);
   lua_pop(lua_, 1);
-  // Lua's messages begin with a shortened name of the file and go on ":line: ".
+  // Lua's messages begin with a shortened file name and ":line: ".
   return limits_.tripped() ? Status::Error(place, problem)
-                           : Status::Error("drama", problem, "mend the script");
+                           : Status::Error("drama", problem, "correct the script");
 }
 
 LuaError Sandbox::Describe(lua_State* coroutine, const std::string& started_at) {

@@ -1,7 +1,6 @@
 #pragma once
 
-// A Lua state that holds nothing a script could do harm with: the libraries of
-// safe_libraries.h, within limits.
+// A Lua state for untrusted scripts: only the libraries of safe_libraries.h, within limits.
 
 #include <cstdint>
 #include <memory>
@@ -16,13 +15,13 @@ struct lua_State;
 
 namespace lararium::drama {
 
-// What is known of an error that ended a coroutine.
+// An error that ended a coroutine.
 struct LuaError {
-  std::string message;  // with file and line
+  std::string message;  // Includes file and line.
   std::string traceback;
 };
 
-// "drama.lua:12" of the innermost function that is not one of lua/std, or "".
+// File and line ("drama.lua:12") of the innermost function outside lua/std, or "".
 std::string PlaceOf(lua_State* coroutine);
 
 class Sandbox {
@@ -38,12 +37,12 @@ class Sandbox {
   lua_State* lua() { return lua_; }
   Limits& limits() { return limits_; }
 
-  // Compiles source text and leaves its function on the stack of lua(). Errors
-  // carry place and line. Binary chunks are refused.
+  // Compiles source text and leaves its function on the stack of lua(). Errors name `place` and the
+  // line. Refuses binary chunks.
   Status Compile(std::string_view text, const std::string& place);
 
-  // Of a coroutine that lua_resume() ended with an error. started_at: what to blame where
-  // none of the script's functions runs in it.
+  // Describes the error of a coroutine after lua_resume(). `started_at` is the location to report
+  // if no function of the script is on its stack.
   LuaError Describe(lua_State* coroutine, const std::string& started_at);
 
  private:

@@ -95,7 +95,7 @@ void Scheduler::Run(int64_t tick) {
   tick_ = tick;
   for (bool progress = true; progress;) {
     progress = false;
-    for (size_t i = 0; i < tasks_.size(); ++i) {  // grows while it runs
+    for (size_t i = 0; i < tasks_.size(); ++i) {  // tasks_ may grow meanwhile.
       Task& task = *tasks_[i];
       if (Ready(task)) {
         Resume(task);
@@ -113,8 +113,8 @@ Scheduler::Task* Scheduler::Find(TaskId id) const {
   return found == tasks_.end() ? nullptr : found->get();
 }
 
-// The running task, if it is its own thread that calls: a script's coroutine
-// cannot wait in its place.
+// The running task. Error: the caller is another coroutine of the script, which cannot wait for the
+// task.
 Scheduler::Task& Scheduler::CheckRunning(lua_State* lua, const char* function) const {
   Task* task = Find(running_);
   if (task == nullptr || task->thread != lua) {
@@ -149,7 +149,7 @@ void Scheduler::Resume(Task& task) {
   if (status == LUA_YIELD) {
     lua_pop(task.thread, results);
     if (task.wake_tick <= tick_ && task.joined.empty() && !task.join_any && !task.until) {
-      task.wake_tick = tick_ + 1;  // a bare coroutine.yield()
+      task.wake_tick = tick_ + 1;  // The script called coroutine.yield().
     }
     return;
   }
@@ -160,8 +160,8 @@ void Scheduler::Resume(Task& task) {
     on_error_(error);
   }
   KeepOutcome(std::move(outcome));
-  // A task that used everything up ends here. Closing it, and the tasks after
-  // it, get the means of a fresh tick.
+  // A task that exceeded a limit ends here. Closing it, and the tasks after it, get the budget of a
+  // new tick.
   Limits& limits = sandbox_.limits();
   const bool was_tripped = limits.tripped();
   if (was_tripped) {
@@ -176,7 +176,7 @@ void Scheduler::Resume(Task& task) {
 
 void Scheduler::End(Task& task) {
   task.ended = true;
-  lua_resetthread(task.thread);  // runs what is to be closed
+  lua_resetthread(task.thread);  // Runs pending close handlers.
   luaL_unref(sandbox_.lua(), LUA_REGISTRYINDEX, task.anchor);
 }
 

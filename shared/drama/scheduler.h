@@ -1,7 +1,7 @@
 #pragma once
 
-// Runs the coroutines of a drama, tick by tick, in the order of their start. A coroutine
-// goes on when something has happened, and only then.
+// Runs the coroutines of a drama tick by tick, in the order of their start. A coroutine resumes
+// only when the event that it waits for has happened.
 
 #include <cstdint>
 #include <deque>
@@ -17,12 +17,12 @@ namespace lararium::drama {
 
 class Scheduler {
  public:
-  using TaskId = int64_t;  // never used twice; 0 names nothing
+  using TaskId = int64_t;  // Never reused; 0: none.
   static constexpr size_t kMaxTasks = 1024;
 
-  static constexpr size_t kMaxOutcomes = 1024;  // the oldest are forgotten
+  static constexpr size_t kMaxOutcomes = 1024;  // Older outcomes are dropped.
 
-  // How a task ended.
+  // Result of a task that has ended.
   struct Outcome {
     TaskId id = 0;
     int64_t tick = 0;
@@ -30,53 +30,52 @@ class Scheduler {
     std::string message;
   };
 
-  // on_error hears of every task that ended with an error; on_resume before one goes on.
+  // on_error is called for every task that ends with an error, on_resume before a task resumes.
   // Borrows sandbox.
   Scheduler(Sandbox& sandbox,
             std::function<void(const LuaError&)> on_error,
             std::function<void(TaskId)> on_resume)
       : sandbox_(sandbox), on_error_(std::move(on_error)), on_resume_(std::move(on_resume)) {}
 
-  // Called by functions of a script, and so may raise Lua errors.
+  // These functions are called on behalf of a script and may raise Lua errors.
   //
-  // Takes the function on top of lua's stack for a new task, which begins in
-  // this tick.
+  // Pops the function on top of the stack and starts a task with it, in this tick.
   TaskId Start(lua_State* lua);
-  // Ends a task, running what it has to close. A stale id is fine.
+  // Ends a task and runs its pending close handlers. Ignores stale ids.
   void Stop(lua_State* lua, TaskId id);
-  // The calling task goes on after so many ticks (at least one) ...
+  // Suspends the calling task for a number of ticks, at least one.
   int Wait(lua_State* lua, int64_t ticks);
-  // ... or, once all of tasks have ended (any: one of them), in the same tick.
+  // Suspends it until all tasks (any: one of them) have ended; it resumes in the same tick.
   int Join(lua_State* lua, std::vector<TaskId> tasks, bool any);
-  // ... or as soon as something holds, which is asked in each tick; perhaps in this one.
+  // Suspends it until a condition holds. The condition is checked in each tick, also in this one.
   int WaitUntil(lua_State* lua, const char* function, std::function<bool()> holds);
 
   bool Alive(TaskId id) const { return Find(id) != nullptr; }
   TaskId running() const { return running_; }
-  // Where the running task was started: "drama.lua:12", or "".
+  // File and line where the running task was started ("drama.lua:12"), or "".
   std::string StartedAt() const;
-  // When a task that has not ended began.
+  // Tick in which a task began; none if it has ended.
   std::optional<int64_t> Began(TaskId id) const;
-  // nullptr: it has not ended, or that was long ago.
+  // nullptr: the task has not ended, or its outcome was dropped.
   const Outcome* OutcomeOf(TaskId id) const;
 
-  // Runs all that is due at a tick.
+  // Runs all tasks that are due at a tick.
   void Run(int64_t tick);
-  // Lets one task go on at a tick, as it did before, whatever it waits for; false: there
-  // is no such task.
+  // Resumes one task at a tick as in a recording, without checking what it waits for. Returns false
+  // if there is no such task.
   bool RunAgain(int64_t tick, TaskId id);
-  // After the last of a tick.
+  // Call it after the last task of a tick.
   void EndTick();
 
  private:
   struct Task {
     TaskId id = 0;
     lua_State* thread = nullptr;
-    int anchor = 0;         // reference in the registry that keeps the thread
-    int64_t wake_tick = 0;  // not before
+    int anchor = 0;         // Registry reference that keeps the thread alive.
+    int64_t wake_tick = 0;  // Earliest tick to resume.
     std::vector<TaskId> joined;
     bool join_any = false;
-    std::function<bool()> until;  // none: nothing
+    std::function<bool()> until;  // Empty: no condition.
     int64_t began = 0;
     std::string started_at;  // "drama.lua:12"
     bool ended = false;

@@ -6,7 +6,7 @@
 
 namespace lararium::drama {
 
-// lua/std, in the order in which its files are loaded before every drama.
+// The files of lua/std, in the order in which they are loaded before every drama.
 std::span<const EmbeddedText> StdScripts();
 
 }  // namespace lararium::drama

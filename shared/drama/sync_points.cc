@@ -7,7 +7,7 @@
 namespace lararium::drama {
 namespace {
 
-constexpr float kStrokeShare = 0.8f;  // of the furthest: from there on it is the stroke
+constexpr float kStrokeShare = 0.8f;  // Share of the largest distance at which the stroke begins.
 
 }  // namespace
 

@@ -1,8 +1,8 @@
 #pragma once
 
-// The seven moments of a behaviour by which others are timed (Behavior Markup Language
-// 1.0, section 4.2, "synchronisation points"): it starts; is ready for its stroke; the
-// stroke, the part that matters, begins, is at its height, ends; it relaxes; it ends.
+// Times of the seven synchronisation points of an action (Behavior Markup Language 1.0, section
+// 4.2): start, ready for the stroke, start, peak and end of the stroke (the essential part), relax,
+// end.
 
 #include <array>
 #include <cstdint>
@@ -18,19 +18,19 @@ namespace lararium::drama {
 
 using stage::SyncPoint;
 
-// Seconds after its start at which a behaviour reaches each point; ascending.
+// Seconds from the start of an action to each of its points; ascending.
 using SyncTimes = std::array<double, stage::kSyncPoints>;
 
-// Of a clip: the stroke is while its joints are furthest from where they were at first,
-// within a share of the largest distance; its height is the moment of the largest.
-// turned: human::TurnedFromFirst of the clip. fade: seconds that it takes to come and go.
+// Points of a clip. The stroke lasts while the joints are near their largest distance from the
+// first frame; its peak is the moment of the largest distance. turned: human::TurnedFromFirst of
+// the clip. fade: duration of fade-in and fade-out, seconds.
 SyncTimes GestureTimes(const human::Clip& clip, std::span<const float> turned, double fade);
 
-// Of speech: the stroke lasts from the first sound to the last; its height is the middle
-// of the longest open sound.
+// Points of speech. The stroke lasts from the first sound to the last; its peak is the middle of
+// the longest open sound.
 SyncTimes SpeechTimes(const human::VisemeTrack& track);
 
-// What takes so many seconds and has no stroke of its own: all is there in the end.
+// Points of an action of given duration without a stroke of its own: the stroke is at its end.
 SyncTimes PlainTimes(double seconds);
 
 std::optional<SyncPoint> SyncPointNamed(std::string_view name);

@@ -6,13 +6,13 @@ namespace lararium::drama {
 namespace {
 
 constexpr size_t kNoMatch = static_cast<size_t>(-1);
-constexpr size_t kMaxRepeats = 200;  // bounds the recursion
+constexpr size_t kMaxRepeats = 200;  // Limits the recursion.
 
 bool IsBetween(uint8_t c, char low, char high) {
   return c >= static_cast<uint8_t>(low) && c <= static_cast<uint8_t>(high);
 }
 
-// Whether c is in the class of the lower-case letter; nullopt: no such class.
+// Whether c is in the class of the lower-case letter; nullopt: the class does not exist.
 std::optional<bool> InClass(uint8_t c, char letter) {
   const bool lower = IsBetween(c, 'a', 'z');
   const bool upper = IsBetween(c, 'A', 'Z');
@@ -44,7 +44,7 @@ std::optional<bool> InClass(uint8_t c, char letter) {
   }
 }
 
-// What "%letter" stands for: a class, its complement, or the character itself.
+// The set of "%letter": a class, its complement, or the character itself.
 std::bitset<256> EscapedSet(char letter) {
   const bool complement = letter >= 'A' && letter <= 'Z';
   const char lower = complement ? static_cast<char>(letter - 'A' + 'a') : letter;
@@ -163,7 +163,7 @@ class TextPattern::Compiler {
     return Status();
   }
 
-  // One character, class or [set].
+  // Reads one character, class or [set].
   Status ReadSet(Item& item) {
     const char c = pattern_[at_++];
     if (c == '[') {
@@ -186,7 +186,7 @@ class TextPattern::Compiler {
     const bool complement = at_ < pattern_.size() && pattern_[at_] == '^';
     at_ += complement ? 1 : 0;
     const size_t first = at_;
-    // A ']' that comes first stands for itself.
+    // A ']' at the beginning is an ordinary character.
     while (at_ < pattern_.size() && (pattern_[at_] != ']' || at_ == first)) {
       if (pattern_[at_] == '%') {
         if (at_ + 1 == pattern_.size()) {
@@ -223,7 +223,7 @@ class TextPattern::Compiler {
     if (++repeats_ > kMaxRepeats) {
       return Malformed("more than 200 repetitions");
     }
-    if (c == '+') {  // x+ is xx*
+    if (c == '+') {  // x+ means xx*.
       result_.items_.push_back(result_.items_.back());
     }
     result_.items_.back().repeat = c == '?'   ? Repeat::kOptional
@@ -234,13 +234,13 @@ class TextPattern::Compiler {
 
   std::string_view pattern_;
   size_t at_ = 0;
-  std::vector<size_t> open_;  // captures, innermost last
+  std::vector<size_t> open_;  // Indices of open captures, innermost last.
   size_t repeats_ = 0;
   TextPattern result_;
 };
 
-// Backtracking search. Items follow one another without alternatives, so each
-// path sets a capture before it uses it, and nothing need be undone.
+// Backtracking search. There are no alternatives, so each path sets a capture before it uses it,
+// and nothing has to be undone.
 class TextPattern::Run {
  public:
   Run(const std::vector<Item>& items,
@@ -249,7 +249,7 @@ class TextPattern::Run {
       std::vector<TextCapture>& captures)
       : items_(items), subject_(subject), steps_left_(steps_left), captures_(captures) {}
 
-  // The end of a match of the items from index on, with the subject from s on.
+  // Returns the end of a match of the items from `index` on with the subject from s on.
   size_t Match(size_t index, size_t s) {
     for (; index < items_.size() && s != kNoMatch; ++index) {
       if (--steps_left_ < 0) {

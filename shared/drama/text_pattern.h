@@ -1,8 +1,7 @@
 #pragma once
 
-// Lua's text patterns (Lua 5.4 reference manual, 6.4.1) with a bound on their
-// work: Lua's own matcher can run for years inside one instruction. Character
-// classes are those of ASCII.
+// Lua's text patterns (Lua 5.4 reference manual, 6.4.1) with a limit on their work: Lua's own
+// matcher can run for years inside one instruction. Character classes are ASCII.
 
 #include <bitset>
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace lararium::drama {
 
-// A part of the subject; of a position capture "()", only begin has a meaning.
+// A part of the subject. For a position capture "()", only `begin` is meaningful.
 struct TextCapture {
   size_t begin = 0;
   size_t end = 0;
@@ -25,12 +24,11 @@ class TextPattern {
  public:
   static constexpr size_t kMaxCaptures = 32;
 
-  // Errors are those of the pattern, without a place.
+  // Errors describe the problem of the pattern, without file and line.
   static Result<TextPattern> Compile(std::string_view pattern);
 
-  // The end of the match that begins at begin, if there is one. Every look at a
-  // character takes one of steps_left; at none left it gives up, and steps_left
-  // is negative. Captures are then those of the match.
+  // Returns the end of the match that begins at `begin`, if there is one, and its captures. Each
+  // inspected character decrements steps_left; the search gives up when it becomes negative.
   std::optional<size_t> MatchAt(std::string_view subject,
                                 size_t begin,
                                 int64_t& steps_left,
@@ -40,7 +38,7 @@ class TextPattern {
 
  private:
   enum class Kind { kSet, kOpen, kPosition, kClose, kBalance, kFrontier, kRepeatCapture, kEnd };
-  enum class Repeat { kOnce, kOptional, kMost, kFewest };  // nothing ? * -
+  enum class Repeat { kOnce, kOptional, kMost, kFewest };  // No suffix, ?, *, -.
 
   struct Item {
     Kind kind = Kind::kSet;

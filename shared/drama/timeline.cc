@@ -6,7 +6,7 @@
 namespace lararium::drama {
 namespace {
 
-constexpr double kNow = 1e-6;  // seconds: what is due within a tick's rounding is due
+constexpr double kNow = 1e-6;  // Seconds; tolerance for rounding when an item is due.
 
 std::string_view NameOf(Cue::Act act) {
   constexpr std::string_view kNames[] = {"",     "walk_to", "hide", "use",
@@ -85,7 +85,7 @@ void TimelinePlayer::Fail(
   on_problem_(lane.where + ": track: " + what + ": " + std::move(problem));
 }
 
-// Tasks that are over.
+// Reports and forgets tasks that are over.
 void TimelinePlayer::Follow(const CueLane& lane, double time, TimelineState::Lane& state) {
   std::erase_if(state.pending, [&](const TimelineState::Pending& pending) {
     const stage::TaskReport report = stage_.tasks().report(pending.task);
@@ -116,7 +116,7 @@ void TimelinePlayer::End(const CueLane& lane, TimelineState::Lane& state) {
     actor->attention.told.reset();
     actor->attention.seconds_left = 0.0f;
   } else if (lane.kind == LaneKind::kExpressions) {
-    human::SetExpression(actor->state.performance.face, human::Expression::kNeutral, 0.0f,
+    human::SetExpression(actor->state.animation_state.face, human::Expression::kNeutral, 0.0f,
                          lane.cues[state.next - 1].fade, lane.cues[state.next - 1].ease);
   }
 }
@@ -180,8 +180,9 @@ void TimelinePlayer::Begin(const CueLane& lane,
       actor->attention.told = cue.gaze;
       break;
     case LaneKind::kExpressions:
-      human::SetExpression(actor->state.performance.face, static_cast<human::Expression>(cue.index),
-                           cue.value, cue.fade, cue.ease);
+      human::SetExpression(actor->state.animation_state.face,
+                           static_cast<human::Expression>(cue.index), cue.value, cue.fade,
+                           cue.ease);
       break;
     case LaneKind::kCaptions:
       length = cue.length > 0.0 ? cue.length : stage_.SpeechSeconds(cue.index);
@@ -205,7 +206,7 @@ void TimelinePlayer::Begin(const CueLane& lane,
       } else {
         Fail(lane, cue, time, time, task.message());
       }
-      return;  // told when it is over
+      return;  // Follow() reports the task when it is over.
     }
     default:
       break;

@@ -1,7 +1,7 @@
 #pragma once
 
-// The declarative part of a drama as it is played: items of lanes, begun when their time
-// has come. What it remembers are plain values, so that seeking need not play it.
+// Playback of the declarative part of a drama: the items of its lanes start when their time has
+// come. Its state is plain values, so seeking can restore it.
 
 #include <cstdint>
 #include <functional>
@@ -18,44 +18,44 @@
 
 namespace lararium::drama {
 
-// What an item of a lane tells its actor. Which members count depends on the lane.
+// One item of a lane. Which members are used depends on the kind of the lane.
 struct Cue {
   enum class Act : uint8_t { kNone, kWalk, kHide, kUse, kTake, kPut, kGive, kStand };
 
-  double at = 0.0;      // seconds of the drama
-  double length = 0.0;  // seconds; 0: as long as it takes
-  std::string id;       // for messages
+  double at = 0.0;      // Time of the drama, seconds.
+  double length = 0.0;  // Seconds; 0: as long as the action takes.
+  std::string id;       // Used in messages.
   Act act = Act::kNone;
-  int index = -1;  // the clip, the speech or the expression
+  int index = -1;  // Index of the clip, the speech or the expression.
   human::BodyPart part = human::BodyPart::kUpper;
-  float value = 0.0f;  // metres per second, or the intensity
-  float fade = 0.0f;   // seconds
+  float value = 0.0f;  // Walking speed (m/s) or intensity of an expression.
+  float fade = 0.0f;   // Seconds.
   Ease ease = Ease::kLinear;
-  std::string name;  // of the action, the surface or the marker
+  std::string name;  // Name of the action, the surface or the marker.
   stage::ObjectId object;
-  stage::ObjectId other;  // on which it is put
+  stage::ObjectId other;  // kPut: the object to put it on.
   stage::ActorId partner;
-  bool places = false;  // at `from` first
+  bool places = false;  // Place the actor at `from` first.
   glm::vec3 from = glm::vec3(0.0f);
   float from_heading = 0.0f;
   glm::vec3 to = glm::vec3(0.0f);
-  std::optional<float> heading;  // radians
+  std::optional<float> heading;  // Radians.
   stage::Attention::Choice gaze;
 };
 
 struct CueLane {
   LaneKind kind = LaneKind::kMarkers;
-  stage::ActorId actor;   // zero: the stage's
+  stage::ActorId actor;   // Zero: a lane of the stage.
   std::string where;      // "drama.lua:12"
-  std::vector<Cue> cues;  // `at` increases
+  std::vector<Cue> cues;  // Sorted by `at`.
 };
 
 struct Timeline {
-  std::vector<Track> tracks;  // of actors who are led
+  std::vector<Track> tracks;  // One for each actor that is led by a track.
   std::vector<CueLane> lanes;
 };
 
-// How far a timeline has been played.
+// Playback state of a timeline.
 struct TimelineState {
   struct Pending {
     stage::TaskId task = 0;
@@ -63,9 +63,9 @@ struct TimelineState {
     double began = 0.0;
   };
   struct Lane {
-    size_t next = 0;               // cue that has not begun
-    std::optional<double> ends;    // when what the last one set is set back
-    std::vector<Pending> pending;  // tasks that are not over
+    size_t next = 0;               // Index of the next cue to start.
+    std::optional<double> ends;    // Time at which the effect of the last cue ends.
+    std::vector<Pending> pending;  // Tasks that are not over.
   };
   std::vector<Lane> lanes;
 };
@@ -76,12 +76,12 @@ class TimelinePlayer {
   using OnTask = std::function<void(TaskRecord)>;
   using OnProblem = std::function<void(std::string)>;
 
-  // Borrows all of it.
+  // Borrows the stage.
   TimelinePlayer(stage::Stage& stage, OnTask on_task, OnProblem on_problem)
       : stage_(stage), on_task_(std::move(on_task)), on_problem_(std::move(on_problem)) {}
 
-  // Begins and ends what is due at a time that is not before the last one. passed: gets
-  // the names of the markers that it passes.
+  // Starts and ends the items that are due. Times must not decrease. Appends the names of passed
+  // markers to `passed`.
   void Advance(const Timeline& timeline,
                double time,
                TimelineState& state,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The kinds of items that a timeline holds.
+// The kinds of lanes of a timeline.
 
 #include <array>
 #include <cstdint>
@@ -12,11 +12,11 @@
 namespace lararium::drama {
 
 enum class LaneKind : uint8_t {
-  kClips,     // the whole body follows clips along paths; nothing else moves it
-  kGestures,  // a clip once, with a part of the body
+  kClips,     // Clips of the whole body along paths; the actor is led by the track.
+  kGestures,  // Clips that play once on a part of the body.
   kSpeech,
   kWalks,
-  kUses,  // of objects: also taking, putting, giving, sitting
+  kUses,  // Using, taking, putting and giving objects, and sitting.
   kGaze,
   kExpressions,
   kLights,
@@ -29,7 +29,7 @@ inline constexpr int kLaneKinds = 12;
 
 struct LaneName {
   LaneKind kind;
-  std::string_view name;  // the field of track{...}
+  std::string_view name;  // Name of the field of track{...}.
   bool of_actor;
 };
 inline constexpr std::array<LaneName, kLaneKinds> kLaneNames = {{

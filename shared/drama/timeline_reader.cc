@@ -1,4 +1,4 @@
-// How a timeline is read; timeline_text.cc has what it answers and how it is edited.
+// Reading a timeline; queries and edits are in timeline_text.cc.
 
 #include <utility>
 
@@ -9,14 +9,14 @@
 namespace lararium::drama {
 namespace {
 
-using Kind = LuaToken::Kind;
+using ReaderKind = LuaToken::Kind;
 
 constexpr size_t kMaxProblems = 100;
 constexpr std::string_view kRemedy = "write it out, or leave it to the script";
 
 }  // namespace
 
-// Finds the calls of track in a text.
+// Finds and reads the calls of track in a text.
 class TimelineReader {
  public:
   explicit TimelineReader(TimelineText& out) : out_(out) {}
@@ -25,14 +25,14 @@ class TimelineReader {
     LuaTokens tokens(out_.text_);
     LuaToken before;
     LuaToken last;
-    for (LuaToken token = tokens.Next(); token.kind != Kind::kEnd; token = tokens.Next()) {
-      if (token.kind == Kind::kBad) {
+    for (LuaToken token = tokens.Next(); token.kind != ReaderKind::kEnd; token = tokens.Next()) {
+      if (token.kind == ReaderKind::kBad) {
         return Status::Error(At(token.begin), token.problem);
       }
-      const bool is_behind =
-          last.kind == Kind::kName && Text(last) == "track" && !before.Is('.') && !before.Is(':');
+      const bool is_behind = last.kind == ReaderKind::kName && Text(last) == "track" &&
+                             !before.Is('.') && !before.Is(':');
       if (is_behind && token.Is('(')) {
-        continue;  // track({...}) is the same call
+        continue;  // track({...}) is the same call.
       }
       if (is_behind && token.Is('{')) {
         LARARIUM_ASSIGN_OR_RETURN(const size_t end, ReadCall(token.begin));
@@ -65,7 +65,7 @@ class TimelineReader {
     uint32_t close = 0;
   };
 
-  // The call whose table opens at an offset: where to read on.
+  // Reads the call whose table opens at an offset. Returns the offset to continue from.
   Result<size_t> ReadCall(size_t open) {
     LuaLiterals literals(out_.text_, open);
     std::vector<Lane> lanes;
@@ -79,17 +79,17 @@ class TimelineReader {
           return false;
         }
         actor = name.is_string() ? name.get<std::string>() : "";
-        return !actor.empty() || literals.Fail(token, "the actor's name is no text");
+        return !actor.empty() || literals.Fail(token, "the name of the actor must be a text");
       }
       const auto kind = LaneNamed(entry.key);
       if (!kind) {
-        return literals.Fail(literals.token(), "track knows no '" + entry.key + "'");
+        return literals.Fail(literals.token(), "track has no lane '" + entry.key + "'");
       }
       lanes.emplace_back().lane.kind = *kind;
       return ReadLane(literals, lanes.back());
     });
     if (!read) {
-      if (literals.token().kind == Kind::kBad || literals.token().kind == Kind::kEnd) {
+      if (literals.token().kind == ReaderKind::kBad || literals.token().kind == ReaderKind::kEnd) {
         return Status::Error(At(literals.problem().offset), literals.problem().text);
       }
       Report(literals.problem().offset, literals.problem().text, kRemedy);
@@ -114,13 +114,13 @@ class TimelineReader {
   static bool ReadLane(LuaLiterals& literals, Lane& lane) {
     const LuaToken open = literals.token();
     if (!open.Is('{')) {
-      return literals.Fail(open, "a list of items {...} belongs here");
+      return literals.Fail(open, "write a list of items {...} here");
     }
     lane.open = static_cast<uint32_t>(open.begin);
     size_t end = 0;
     const bool read = literals.Entries(end, [&](LuaEntry& entry) {
       if (!entry.key.empty() || !literals.token().Is('{')) {
-        return literals.Fail(literals.token(), "an item {at = 0, ...} belongs here");
+        return literals.Fail(literals.token(), "write an item {at = 0, ...} here");
       }
       return ReadItem(literals, lane.lane);
     });
@@ -136,7 +136,7 @@ class TimelineReader {
     const bool read = literals.Entries(end, [&](LuaEntry& entry) {
       const LuaToken token = literals.token();
       if (entry.key.empty()) {
-        return literals.Fail(token, "what an item says needs a name");
+        return literals.Fail(token, "every value of an item needs a name");
       }
       Json value;
       if (!literals.Value(1, value, entry.value_end)) {
@@ -157,7 +157,7 @@ class TimelineReader {
       return false;
     }
     if (at < 0.0) {
-      return literals.Fail(open, "this item does not say `at` what time it begins");
+      return literals.Fail(open, "this item has no `at`; add the time in seconds when it begins");
     }
     lane.at.push_back(at);
     lane.length.push_back(length);

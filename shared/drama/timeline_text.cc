@@ -23,12 +23,12 @@ bool IsName(std::string_view text) {
          std::find(std::begin(kKeywords), std::end(kKeywords), text) == std::end(kKeywords);
 }
 
-// A key as it stands before '=': bare where Lua lets it.
+// A key as Lua source before '=': without brackets if it is a valid name.
 std::string LuaKey(const std::string& key) {
   return IsName(key) ? key : "[" + LuaLiteral(key) + "]";
 }
 
-// Behind blanks, but not line ends.
+// Skips blanks, but not line ends.
 size_t SkipSpaces(std::string_view text, size_t at) {
   while (at < text.size() && (text[at] == ' ' || text[at] == '\t' || text[at] == '\r')) {
     ++at;
@@ -36,7 +36,7 @@ size_t SkipSpaces(std::string_view text, size_t at) {
   return at;
 }
 
-// Where the line ends if but blanks and a short comment follow; else at.
+// Offset of the line end if only blanks and a short comment follow; otherwise `at`.
 size_t RestOfLine(std::string_view text, size_t at) {
   const size_t next = SkipSpaces(text, at);
   if (next >= text.size() || text[next] == '\n') {
@@ -57,7 +57,7 @@ bool BeginsLine(std::string_view text, size_t at) {
 }
 
 std::string ItemLiteral(const Json& fields) {
-  // What says when and what comes first, as one would write it.
+  // The time and the action come first, as an author would write them.
   std::string out = "{";
   const auto add = [&](const std::string& key, const Json& value) {
     out += (out.size() > 1 ? ", " : "") + LuaKey(key) + " = " + LuaLiteral(value);
@@ -156,7 +156,7 @@ Status TimelineText::Check(TimelineItem item) const {
              : Status::Error(place_, "there is no such item on the timeline");
 }
 
-// Replaces a part of the text; everything behind it moves.
+// Replaces a part of the text and moves the offsets of everything after it.
 TextEdit TimelineText::Change(size_t begin, size_t end, std::string_view with) {
   TextEdit edit = {begin, text_.substr(begin, end - begin), std::string(with)};
   text_.replace(begin, end - begin, with);
@@ -186,7 +186,7 @@ TextEdit TimelineText::Change(size_t begin, size_t end, std::string_view with) {
   return edit;
 }
 
-// A change inside of one item's braces.
+// Makes a change inside the braces of one item.
 Result<TextEdit> TimelineText::ReplaceWithin(TimelineItem item,
                                              size_t begin,
                                              size_t end,
@@ -206,7 +206,7 @@ Result<TextEdit> TimelineText::ReplaceWithin(TimelineItem item,
   return edit;
 }
 
-// A new item before the item `place` of a lane, with what surrounds it.
+// Inserts a new item before the item `place` of a lane, with the surrounding text.
 Result<TextEdit> TimelineText::InsertAt(TimelineItem place,
                                         size_t begin,
                                         size_t end,
@@ -232,7 +232,7 @@ Status TimelineText::CheckRoom(size_t bytes) const {
 
 namespace {
 
-// A part of a text that becomes another.
+// A part of a text and its replacement.
 struct Replacement {
   size_t begin = 0;
   size_t end = 0;
@@ -259,13 +259,13 @@ Status CheckField(const std::string& place, std::string_view key, const Json& va
   return Status();
 }
 
-// What sets a field of the item whose braces open at an offset.
+// The replacement that sets a field of the item whose brace opens at an offset.
 Replacement SetField(std::string_view text,
                      size_t offset,
                      std::string_view key,
                      const Json& value) {
   const std::vector<LuaEntry> entries = EntriesOf(text, offset, false);
-  // The last of several of one name is the one that counts.
+  // If a name occurs more than once, the last one counts.
   const auto known = std::find_if(entries.rbegin(), entries.rend(),
                                   [key](const LuaEntry& entry) { return entry.key == key; });
   if (known != entries.rend()) {
@@ -296,7 +296,7 @@ Result<TextEdit> TimelineText::SetAll(std::span<const TimelineChange> changes) {
     growth += replacements.back().with.size();
   }
   LARARIUM_RETURN_IF_ERROR(CheckRoom(growth));
-  // Two new fields of one item have one place, and stay in their order.
+  // Two new fields of one item have the same offset and must keep their order.
   std::stable_sort(replacements.begin(), replacements.end(),
                    [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; });
   std::string text;
@@ -304,7 +304,7 @@ Result<TextEdit> TimelineText::SetAll(std::span<const TimelineChange> changes) {
   size_t copied = 0;
   for (const Replacement& replacement : replacements) {
     if (replacement.begin < copied) {
-      return Status::Error(place_, "a field is to be changed twice at once");
+      return Status::Error(place_, "the same field would be changed twice");
     }
     text.append(text_, copied, replacement.begin - copied);
     text += replacement.with;
@@ -325,9 +325,9 @@ Result<TextEdit> TimelineText::Unset(TimelineItem item, std::string_view key) {
     return Status::Error(place_, "the item has no '" + std::string(key) + "'");
   }
   if (key == "at") {
-    return Status::Error(place_, "an item must say `at` what time it begins");
+    return Status::Error(place_, "the `at` of an item cannot be removed");
   }
-  // With its comma, but not with a comment before that.
+  // Remove the comma as well, but keep a comment before it.
   std::string kept;
   size_t end = known->value_end;
   if (known->separator != 0) {
@@ -341,7 +341,7 @@ Result<TextEdit> TimelineText::Unset(TimelineItem item, std::string_view key) {
   return ReplaceWithin(item, known->begin, end, kept);
 }
 
-// What the line begins with.
+// The whitespace at the beginning of the line.
 std::string TimelineText::IndentOf(size_t offset) const {
   const size_t line = LineBegin(text_, offset);
   return text_.substr(line, SkipSpaces(text_, line) - line);
@@ -352,7 +352,7 @@ Result<TextEdit> TimelineText::Insert(size_t lane, const Json& fields) {
     return Status::Error(place_, "there is no such lane on the timeline");
   }
   if (!fields.is_object() || !fields.contains("at")) {
-    return Status::Error(place_, "a new item must say `at` what time it begins");
+    return Status::Error(place_, "a new item needs `at`, the time in seconds when it begins");
   }
   for (const auto& [key, value] : fields.items()) {
     LARARIUM_RETURN_IF_ERROR(CheckField(place_, key, value));
@@ -362,12 +362,12 @@ Result<TextEdit> TimelineText::Insert(size_t lane, const Json& fields) {
   item.at = fields["at"].get<double>();
   item.length = fields.value("length", 0.0);
   const TimelineLane& in = lanes_[lane];
-  size_t before = in.size();  // the item behind which it comes; size(): none
+  size_t before = in.size();  // The item to insert after; size(): none.
   for (size_t i = 0; i < in.size(); ++i) {
     before = in.at[i] <= item.at ? i : before;
   }
   if (in.size() == 0) {
-    // Alone, on a line of its own.
+    // The only item gets a line of its own.
     const size_t close = close_[lane];
     const std::string outer = IndentOf(open_[lane]);
     const bool own_line = BeginsLine(text_, close);
@@ -388,7 +388,7 @@ Result<TextEdit> TimelineText::Insert(size_t lane, const Json& fields) {
   const LuaToken next = tokens.Next();
   const bool has_comma = next.Is(',') || next.Is(';');
   const size_t from = has_comma ? next.end : end;
-  // A comment behind an item belongs to it.
+  // A comment after an item belongs to it.
   const size_t to = own_line ? RestOfLine(text_, from) : from;
   item.lead = (has_comma ? "" : ",") + text_.substr(from, to - from) +
               (own_line ? "\n" + IndentOf(begin) : " ");
@@ -410,7 +410,7 @@ Result<TextEdit> TimelineText::Remove(TimelineItem item) {
   }
   if (kept.find_first_not_of(" \t\r\n") == std::string::npos) {
     kept.clear();
-    // An empty line of its own goes with it.
+    // Also remove the line if it becomes empty.
     const size_t rest = SkipSpaces(text_, end);
     if (BeginsLine(text_, begin) && rest < text_.size() && text_[rest] == '\n') {
       begin = LineBegin(text_, begin);
@@ -431,12 +431,13 @@ Result<TextEdit> TimelineText::Remove(TimelineItem item) {
 
 Result<TextEdit> TimelineText::AddLane(LaneKind kind, const std::string& actor) {
   if (IsOfActor(kind) == actor.empty()) {
-    return Status::Error(place_, actor.empty() ? "such a lane is an actor's; name one"
-                                               : "such a lane is the stage's, not an actor's");
+    return Status::Error(place_, actor.empty()
+                                     ? "this lane needs an actor; name one"
+                                     : "this lane belongs to the stage; it cannot have an actor");
   }
   for (const TimelineLane& lane : lanes_) {
     if (lane.kind == kind && lane.actor == actor) {
-      return Status::Error(place_, "the timeline has that lane already");
+      return Status::Error(place_, "the timeline already has this lane");
     }
   }
   const std::string who = actor.empty() ? "" : "actor = " + LuaLiteral(actor) + ", ";

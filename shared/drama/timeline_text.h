@@ -1,8 +1,8 @@
 #pragma once
 
-// The declarative part of a drama as it is written: the calls track{...} of a script.
-// They are read without running the script, shown as lanes of items, and edited in
-// place: what an edit does not mean stays as it is, byte for byte, comments included.
+// Source text of the declarative part of a drama: the calls track{...} of a script. They are read
+// without running the script, shown as lanes of items, and edited in place. An edit changes no
+// other byte of the text, comments included.
 //
 //   track{ actor = "keeper",
 //     speech = {
@@ -25,36 +25,36 @@
 
 namespace lararium::drama {
 
-// One list of items in one call of track.
+// One list of items in one call of track{...}.
 struct TimelineLane {
   LaneKind kind = LaneKind::kMarkers;
-  std::string actor;  // whose; empty: the stage's
-  // Of each item, in the order of the file.
-  std::vector<double> at;       // seconds of the drama, at least 0
-  std::vector<double> length;   // seconds, at least 0; 0 where none is given
-  std::vector<uint32_t> begin;  // where its braces open and close: bytes of the text
-  std::vector<uint32_t> end;    // behind the closing one
+  std::string actor;  // Name of the actor; empty: a lane of the stage.
+  // One element per item, in the order of the file.
+  std::vector<double> at;       // Time of the drama, seconds, at least 0.
+  std::vector<double> length;   // Seconds, at least 0; 0 if none is given.
+  std::vector<uint32_t> begin;  // Byte offset of the opening brace.
+  std::vector<uint32_t> end;    // Byte offset after the closing brace.
 
   size_t size() const { return at.size(); }
 };
 
-// One item: a lane of TimelineText::lanes() and its place in there. Edits move items.
+// One item: index into TimelineText::lanes() and index of the item in that lane. Edits change these
+// indices.
 struct TimelineItem {
   size_t lane = 0;
   size_t item = 0;
   friend auto operator<=>(const TimelineItem&, const TimelineItem&) = default;
 };
 
-// One thing that an item says.
+// One field of an item.
 struct TimelineField {
   std::string key;
-  Json value;          // null where it is nothing that can be edited
-  uint32_t begin = 0;  // of the value in the text, bytes
+  Json value;          // Null if the value cannot be edited.
+  uint32_t begin = 0;  // Byte offsets of the value.
   uint32_t end = 0;
 };
 
-// What an edit did: [offset, offset + removed.size()) became inserted. Undone by its
-// reverse.
+// An edit: [offset, offset + removed.size()) was replaced by `inserted`. Reverse() undoes it.
 struct TextEdit {
   size_t offset = 0;
   std::string removed;
@@ -63,10 +63,10 @@ struct TextEdit {
   TextEdit Reverse() const { return {offset, inserted, removed}; }
 };
 
-// The shortest single edit that makes one text of another.
+// The shortest single edit that turns `before` into `after`.
 TextEdit Difference(std::string_view before, std::string_view after);
 
-// What one field of an item is to say.
+// A new value for one field of an item.
 struct TimelineChange {
   TimelineItem item;
   std::string key;
@@ -77,50 +77,50 @@ class TimelineText {
  public:
   static constexpr size_t kMaxBytes = 64 << 20;
 
-  // place: what messages call the text. Errors: texts and comments that never end, a
-  // call of track whose braces do not close. A call that is not written out (that
-  // computes, or holds what no lane knows) is left to the script alone: problems().
+  // Messages begin with `place`. Errors: texts or comments that never end, a call of track whose
+  // braces do not close. A call that is not written as literals, or that has unknown lanes, cannot
+  // be edited; problems() lists it.
   static Result<TimelineText> Read(std::string text, std::string place);
 
   const std::string& text() const { return text_; }
   const std::string& place() const { return place_; }
   std::span<const TimelineLane> lanes() const { return lanes_; }
-  // "drama.lua:12:5: ...": what cannot be edited, or is wrong.
+  // Calls and items that cannot be edited or are wrong: "drama.lua:12:5: ...".
   std::span<const std::string> problems() const { return problems_; }
 
-  // What an item says, in the order of the file.
+  // The fields of an item, in the order of the file.
   std::vector<TimelineField> Fields(TimelineItem item) const;
   std::optional<Json> Field(TimelineItem item, std::string_view key) const;
-  // Line of the text, from 1.
+  // Line number of an item, from 1.
   size_t LineOf(TimelineItem item) const;
-  // The items of a lane that touch [from, to), by their beginnings.
+  // Appends the items of a lane that touch [from, to), ordered by their begins.
   void Query(size_t lane, double from, double to, std::vector<uint32_t>& found) const;
-  // The text with lanes of these kinds empty, and each line where it was.
+  // The text with empty lanes of these kinds. Line numbers do not change.
   std::string WithoutItems(std::span<const LaneKind> kinds) const;
-  // When the last item ends, seconds.
+  // The end of the last item, seconds.
   double Duration() const;
 
   // ---- edits ----
 
-  // Each either does all of what it is asked, or fails and does nothing.
+  // Each edit either succeeds completely or fails and changes nothing.
   Result<TextEdit> Set(TimelineItem item, std::string_view key, const Json& value);
-  // Many at once, in the time of reading the text. Items keep their numbers.
+  // Makes many changes in the time of one read of the text. Indices of items do not change.
   Result<TextEdit> SetAll(std::span<const TimelineChange> changes);
   Result<TextEdit> Unset(TimelineItem item, std::string_view key);
-  // Behind the last item of the lane that does not begin later. fields: an object with
-  // `at`.
+  // Inserts an item after the last item of the lane that does not start later. `fields` is an
+  // object with `at`.
   Result<TextEdit> Insert(size_t lane, const Json& fields);
   Result<TextEdit> Remove(TimelineItem item);
-  // At the end of the text. Fails where there is such a lane.
+  // Adds an empty lane at the end of the text. Error: the lane exists.
   Result<TextEdit> AddLane(LaneKind kind, const std::string& actor);
-  // Any edit, such as the reverse of another one.
+  // Applies any edit, such as the reverse of another one.
   Status Apply(const TextEdit& edit);
 
  private:
   friend class TimelineReader;
 
   struct NewItem {
-    std::string lead;  // what comes before it
+    std::string lead;  // Text before the item, such as a comma and the indentation.
     std::string text;
     std::string tail;
     double at = 0.0;
@@ -140,14 +140,15 @@ class TimelineText {
   std::string text_;
   std::string place_;
   std::vector<TimelineLane> lanes_;
-  std::vector<uint32_t> open_;   // of each lane: where its own braces open and close
-  std::vector<uint32_t> close_;  // the closing one itself
+  // Byte offsets of the opening and the closing brace of each lane.
+  std::vector<uint32_t> open_;
+  std::vector<uint32_t> close_;
   std::vector<std::string> problems_;
-  mutable std::vector<IntervalIndex> indexes_;  // of each lane, once it was asked for
+  mutable std::vector<IntervalIndex> indexes_;  // One per lane, built on first use.
   mutable std::vector<uint8_t> indexed_;
 };
 
-// A value as Lua writes it: numbers so that they read back the same.
+// A value as Lua source. Numbers read back exactly.
 std::string LuaLiteral(const Json& value);
 
 }  // namespace lararium::drama

@@ -8,7 +8,8 @@
 namespace lararium::drama {
 namespace {
 
-constexpr double kTurnSeconds = 0.5;  // from one segment's heading to the next
+constexpr double kTurnSeconds =
+    0.5;  // Duration of the turn from one segment's heading to the next.
 
 double Fraction(double time, double length) {
   return length > 0.0 ? std::clamp(time / length, 0.0, 1.0) : 1.0;
@@ -22,7 +23,7 @@ void ApplyTrack(std::span<const TrackSegment> segments, double time, stage::Acto
                        [](double t, const TrackSegment& segment) { return t < segment.begin; });
   state.visible = next != segments.begin();
   if (!state.visible) {
-    state.performance.locomotion.placed = false;
+    state.animation_state.locomotion.placed = false;
     return;
   }
   const TrackSegment& now = *(next - 1);
@@ -32,7 +33,7 @@ void ApplyTrack(std::span<const TrackSegment> segments, double time, stage::Acto
   const double way = Eased(now.ease, Fraction(elapsed, now.length));
   state.position = glm::mix(now.from, now.to, static_cast<float>(way));
   state.heading = now.heading;
-  human::Animation& animation = state.performance.animation;
+  human::Animation& animation = state.animation_state.animation;
   animation = human::Animation();
   animation.clip = now.clip;
   animation.rate = now.rate;

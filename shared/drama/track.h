@@ -1,7 +1,7 @@
 #pragma once
 
-// A declarative track: what an actor does over the drama's time, as a pure
-// function of that time.
+// A declarative track: position, heading and clip of an actor as a pure function of the drama's
+// time.
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -12,27 +12,27 @@
 
 namespace lararium::drama {
 
-// From begin on until the next segment begins. Over length the actor moves from
-// one point to the other in a straight line, as its ease says, and then stays.
+// A segment lasts until the next one begins. During `length` the actor moves in a straight line
+// from `from` to `to`, eased by `ease`, and then stays.
 struct TrackSegment {
-  double begin = 0.0;   // seconds of the drama
-  double length = 0.0;  // seconds
+  double begin = 0.0;   // Time of the drama, seconds.
+  double length = 0.0;  // Seconds.
   int clip = human::Animation::kNoClip;
-  double rate = 1.0;  // of the clip
-  double fade = 0.0;  // seconds, from the segment before
+  double rate = 1.0;  // Playback rate of the clip.
+  double fade = 0.0;  // Crossfade from the segment before, seconds.
   glm::vec3 from = glm::vec3(0.0f);
   glm::vec3 to = glm::vec3(0.0f);
-  float heading = 0.0f;       // radians
-  Ease ease = Ease::kLinear;  // of the way from one point to the other
+  float heading = 0.0f;  // Radians.
+  Ease ease = Ease::kLinear;
 };
 
 struct Track {
   stage::ActorId actor;
-  std::vector<TrackSegment> segments;  // begin increases
+  std::vector<TrackSegment> segments;  // Sorted by `begin`.
 };
 
-// Sets where the actor is, which clip it plays, and that it is seen: before the first
-// segment it is hidden. What its body does besides is left alone.
+// Sets position, heading, clip and visibility of the actor at a time; before the first segment it
+// is hidden. Does not change anything else.
 void ApplyTrack(std::span<const TrackSegment> segments, double time, stage::ActorState& state);
 
 }  // namespace lararium::drama

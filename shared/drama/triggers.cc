@@ -8,12 +8,13 @@
 namespace lararium::drama {
 namespace {
 
-using Kind = TriggerSpec::Kind;
+using TriggerKind = TriggerSpec::Kind;
 
-constexpr float kLookAwayShare = 1.3f;  // of the angle: between the two nothing changes
-constexpr float kGlance = 0.3f;         // seconds that a look elsewhere does not count
+constexpr float kLookAwayShare =
+    1.3f;                        // Share of the angle; hysteresis between looking and looking away.
+constexpr float kGlance = 0.3f;  // Seconds; shorter looks elsewhere are ignored.
 
-// The upright line that stands for a target: of a person from its knees to its eyes.
+// A vertical line that represents a target; for a person, from the knees to the eyes.
 struct Upright {
   glm::vec3 low;
   glm::vec3 high;
@@ -49,14 +50,14 @@ float FloorDistance(const glm::vec3& a, const glm::vec3& b) {
   return std::hypot(a.x - b.x, a.z - b.z);
 }
 
-// The least angle between the visitor's look and a target, radians.
-std::optional<float> AngleTo(const Happenings& now, const TriggerSpec& spec) {
+// The smallest angle between the visitor's viewing direction and a target, radians.
+std::optional<float> AngleTo(const TriggerContext& now, const TriggerSpec& spec) {
   const auto upright = UprightOf(now.stage, spec);
   if (!upright) {
     return std::nullopt;
   }
   constexpr int kSamples = 8;
-  float best = -1.0f;  // cosine
+  float best = -1.0f;  // Cosine of the smallest angle.
   for (int i = 0; i <= kSamples; ++i) {
     const float share = static_cast<float>(i) / kSamples;
     const glm::vec3 way =
@@ -69,26 +70,26 @@ std::optional<float> AngleTo(const Happenings& now, const TriggerSpec& spec) {
 
 void Fire(Trigger& trigger) { ++trigger.fired; }
 
-void UpdateNear(const Happenings& now, Trigger& trigger) {
+void UpdateNear(const TriggerContext& now, Trigger& trigger) {
   const auto distance = DistanceTo(now.stage, trigger.spec, now.visitor.position);
   if (!distance || !now.visitor.tracked) {
     return;
   }
   const bool was_near = trigger.on;
   trigger.on = *distance < trigger.spec.metres || (was_near && *distance <= trigger.spec.leave);
-  if (trigger.on != was_near && trigger.on == (trigger.spec.kind == Kind::kNear)) {
+  if (trigger.on != was_near && trigger.on == (trigger.spec.kind == TriggerKind::kNear)) {
     Fire(trigger);
   }
 }
 
-// `on`: it is being looked at; `held`: for how long that is contradicted, or confirmed
-// before it is so.
-void UpdateLook(const Happenings& now, Trigger& trigger) {
+// `on`: the visitor looks at the target. `held`: seconds for which the opposite of `on` has been
+// true.
+void UpdateLook(const TriggerContext& now, Trigger& trigger) {
   const auto angle = AngleTo(now, trigger.spec);
   if (!angle || !now.visitor.tracked) {
     return;
   }
-  const bool fires_on_look = trigger.spec.kind == Kind::kLooksAt;
+  const bool fires_on_look = trigger.spec.kind == TriggerKind::kLooksAt;
   const float limit = trigger.on ? kLookAwayShare * trigger.spec.angle : trigger.spec.angle;
   const bool looks = *angle <= limit;
   trigger.held = looks != trigger.on ? trigger.held + now.passed : 0.0f;
@@ -102,7 +103,7 @@ void UpdateLook(const Happenings& now, Trigger& trigger) {
   }
 }
 
-void UpdateStay(const Happenings& now, Trigger& trigger) {
+void UpdateStay(const TriggerContext& now, Trigger& trigger) {
   if (!now.visitor.tracked) {
     return;
   }
@@ -126,7 +127,7 @@ void UpdateStay(const Happenings& now, Trigger& trigger) {
   }
 }
 
-void UpdateTimeout(const Happenings& now, Trigger& trigger) {
+void UpdateTimeout(const TriggerContext& now, Trigger& trigger) {
   trigger.held += now.passed;
   if (!trigger.on && trigger.held >= trigger.spec.seconds - 0.5f * now.passed) {
     trigger.on = true;
@@ -143,7 +144,8 @@ bool HasKey(std::string_view keys, std::string_view key) {
   return false;
 }
 
-// Whole arguments: what is asked for ends where one of the message ends.
+// Counts the messages that match. Only whole arguments match: the requested text must end where an
+// argument of the message ends.
 int64_t CountMessages(std::string_view keys, std::string_view asked) {
   int64_t count = 0;
   for (std::string_view word = TakeKey(keys); !word.empty(); word = TakeKey(keys)) {
@@ -153,20 +155,21 @@ int64_t CountMessages(std::string_view keys, std::string_view asked) {
   return count;
 }
 
-// Tracking is lost once it has been for so long; back once it was lost.
-void UpdateTracking(const Happenings& now, Trigger& trigger) {
+// kLost fires when tracking has been lost for `seconds`; kBack fires when it returns after that.
+void UpdateTracking(const TriggerContext& now, Trigger& trigger) {
   const bool was_lost = trigger.on;
   trigger.on = !now.visitor.tracked && now.lost_seconds >= trigger.spec.seconds;
-  if (trigger.on != was_lost && trigger.on == (trigger.spec.kind == Kind::kLost)) {
+  if (trigger.on != was_lost && trigger.on == (trigger.spec.kind == TriggerKind::kLost)) {
     Fire(trigger);
   }
 }
 
-void UpdateClock(const Happenings& now, Trigger& trigger) {
+void UpdateClock(const TriggerContext& now, Trigger& trigger) {
   if (now.visitor.hour < 0.0f) {
     return;
   }
-  // Half a day from the hour on counts as behind it; `held`: whether it was ever before.
+  // The half day after the hour counts as after it. `held`: whether the time was ever before the
+  // hour.
   const float behind = std::remainder(now.visitor.hour - trigger.spec.seconds / 3600.0f, 24.0f);
   const bool was_before = trigger.held > 0.0f && !trigger.on;
   trigger.on = behind >= 0.0f;
@@ -187,8 +190,8 @@ Status TriggerSpec::Validate() const {
     return Status::Error("trigger", "a distance, an angle or a time is out of range");
   }
   const bool has_target = target != Target::kNone;
-  const bool needs_target = kind == Kind::kNear || kind == Kind::kLeaves ||
-                            kind == Kind::kLooksAt || kind == Kind::kLooksAway;
+  const bool needs_target = kind == TriggerKind::kNear || kind == TriggerKind::kLeaves ||
+                            kind == TriggerKind::kLooksAt || kind == TriggerKind::kLooksAway;
   if (needs_target && !has_target) {
     return Status::Error("trigger", "name an actor, an object or a point");
   }
@@ -202,32 +205,32 @@ std::optional<float> DistanceTo(const stage::Stage& stage,
   return upright ? std::optional(FloorDistance(upright->low, visitor)) : std::nullopt;
 }
 
-void UpdateTrigger(const Happenings& now, Trigger& trigger) {
+void UpdateTrigger(const TriggerContext& now, Trigger& trigger) {
   switch (trigger.spec.kind) {
-    case Kind::kNear:
-    case Kind::kLeaves:
+    case TriggerKind::kNear:
+    case TriggerKind::kLeaves:
       return UpdateNear(now, trigger);
-    case Kind::kLooksAt:
-    case Kind::kLooksAway:
+    case TriggerKind::kLooksAt:
+    case TriggerKind::kLooksAway:
       return UpdateLook(now, trigger);
-    case Kind::kStays:
+    case TriggerKind::kStays:
       return UpdateStay(now, trigger);
-    case Kind::kTimeout:
+    case TriggerKind::kTimeout:
       return UpdateTimeout(now, trigger);
-    case Kind::kLost:
-    case Kind::kBack:
+    case TriggerKind::kLost:
+    case TriggerKind::kBack:
       return UpdateTracking(now, trigger);
-    case Kind::kKey:
+    case TriggerKind::kKey:
       if (HasKey(now.visitor.keys, trigger.spec.text)) {
         Fire(trigger);
       }
       return;
-    case Kind::kClock:
+    case TriggerKind::kClock:
       return UpdateClock(now, trigger);
-    case Kind::kMarker:
+    case TriggerKind::kMarker:
       trigger.fired += std::count(now.markers.begin(), now.markers.end(), trigger.spec.text);
       return;
-    case Kind::kMessage:
+    case TriggerKind::kMessage:
       trigger.fired += CountMessages(now.visitor.keys, trigger.spec.text);
       return;
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-// What a drama waits for: something that the visitor does, a moment of its timeline.
-// Plain values, brought up to date once in a tick; each counts how often it fired.
+// Triggers: conditions that a drama waits for, such as an action of the visitor or a marker of its
+// timeline. Plain values, updated once per tick; each counts how often it fired.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -16,18 +16,20 @@ namespace lararium::drama {
 
 struct TriggerSpec {
   enum class Kind : uint8_t {
-    kNear,       // comes within `metres`; again once it was further than `leave`
-    kLeaves,     // goes further than `leave`, having been within `metres`
-    kLooksAt,    // looks within `angle` of it for `seconds`; again once it looked elsewhere
-    kLooksAway,  // having looked at it, looks elsewhere for `seconds`
-    kStays,      // moves no further than `metres` for `seconds`; with a target: from that
-    kTimeout,    // `seconds` have passed; once
-    kLost,       // tracking is lost, for `seconds` already
-    kBack,       // tracking is back
-    kKey,        // the key `text` is pressed
-    kClock,      // it is `seconds` of the day, where the visitor is
-    kMarker,     // the timeline passes the marker `text`
-    kMessage,    // the message `text` comes: its address, or with its first arguments
+    kNear,       // The visitor comes within `metres`; fires again after going beyond `leave`.
+    kLeaves,     // The visitor goes beyond `leave` after having been within `metres`.
+    kLooksAt,    // The visitor looks within `angle` of the target for `seconds`; fires again after
+                 // looking away.
+    kLooksAway,  // The visitor looks elsewhere for `seconds` after having looked at the target.
+    kStays,    // The visitor moves at most `metres` for `seconds`, or stays within `metres` of the
+               // target.
+    kTimeout,  // `seconds` have passed; fires once.
+    kLost,     // Tracking has been lost for `seconds`.
+    kBack,     // Tracking is back.
+    kKey,      // The key `text` is pressed.
+    kClock,    // The local time of day is `seconds`.
+    kMarker,   // The timeline passes the marker `text`.
+    kMessage,  // A message arrives whose address, or address and first arguments, are `text`.
   };
   static constexpr int kKinds = 12;
   enum class Target : uint8_t { kNone, kActor, kObject, kPoint };
@@ -36,10 +38,10 @@ struct TriggerSpec {
   Target target = Target::kNone;
   stage::ActorId actor;
   stage::ObjectId object;
-  glm::vec3 point = glm::vec3(0.0f);  // stage
+  glm::vec3 point = glm::vec3(0.0f);  // Stage frame.
   float metres = 0.0f;
-  float leave = 0.0f;  // at least metres: between the two nothing changes
-  float angle = 0.0f;  // radians
+  float leave = 0.0f;  // Metres, at least `metres`: hysteresis.
+  float angle = 0.0f;  // Radians.
   float seconds = 0.0f;
   std::string text;
 
@@ -49,27 +51,27 @@ struct TriggerSpec {
 struct Trigger {
   int64_t id = 0;
   TriggerSpec spec;
-  size_t cue = 0;     // its place in CueLog::cues
-  int64_t fired = 0;  // how often
-  // Of its kind: near enough, looking, on the other side of an hour.
+  size_t cue = 0;     // Index into CueLog::cues.
+  int64_t fired = 0;  // Number of times that it fired.
+  // State that depends on the kind, such as near, looking, or past the hour.
   bool on = false;
-  float held = 0.0f;                 // seconds that it has been so
-  glm::vec3 from = glm::vec3(0.0f);  // where the visitor came to a stand
+  float held = 0.0f;                 // Seconds that the state has lasted.
+  glm::vec3 from = glm::vec3(0.0f);  // kStays: where the visitor stopped.
 };
 
-// What happens in a tick, for triggers.
-struct Happenings {
+// Input of UpdateTrigger() in one tick.
+struct TriggerContext {
   const stage::Stage& stage;
   const Visitor& visitor;
-  float lost_seconds = 0.0f;                // since when tracking is lost
-  const std::vector<std::string>& markers;  // that the timeline passes
-  float passed = 0.0f;                      // seconds since the moment before
+  float lost_seconds = 0.0f;                // Seconds since tracking was lost.
+  const std::vector<std::string>& markers;  // Markers that the timeline passes in this tick.
+  float passed = 0.0f;                      // Seconds since the tick before.
 };
 
-void UpdateTrigger(const Happenings& now, Trigger& trigger);
+void UpdateTrigger(const TriggerContext& now, Trigger& trigger);
 
-// Metres on the floor between the visitor and a trigger's target; none: the target is
-// not there.
+// Distance on the floor between the visitor and a trigger's target, metres; none: the target is not
+// there.
 std::optional<float> DistanceTo(const stage::Stage& stage,
                                 const TriggerSpec& spec,
                                 const glm::vec3& visitor);

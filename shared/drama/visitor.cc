@@ -14,7 +14,7 @@ constexpr std::string_view kHeader = "lararium visitor 1\n";
 constexpr size_t kMaxEntries = 10'000'000;
 constexpr int64_t kMaxTick = int64_t{24} * 3600 * 120;
 
-// Words of a line.
+// Reads the words of a line.
 class Words {
  public:
   explicit Words(std::string_view line) : rest_(line) {}
@@ -142,7 +142,7 @@ std::optional<std::string> ReadMessageText(std::string_view argument) {
 
 Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view place) {
   if (!text.starts_with(kHeader)) {
-    return Status::Error(place, "is no visitor log", "record one with --visitor-log");
+    return Status::Error(place, "is not a visitor log", "record one with --visitor-log");
   }
   VisitorLog log;
   text.remove_prefix(kHeader.size());
@@ -152,7 +152,7 @@ Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view plac
     if (!ParseLine(text.substr(0, end), entry) || log.entries_.size() >= kMaxEntries ||
         (!log.entries_.empty() && entry.tick <= log.entries_.back().tick)) {
       return Status::Error(std::string(place) + ":" + std::to_string(line),
-                           "is not the next line of a visitor log", "record it again");
+                           "is not a valid line of a visitor log", "record it again");
     }
     log.entries_.push_back(std::move(entry));
     text.remove_prefix(std::min(end + 1, text.size()));

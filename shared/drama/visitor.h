@@ -1,8 +1,7 @@
 #pragma once
 
-// What a drama knows of its visitor: where the camera is and looks, which keys were
-// pressed, which messages came from elsewhere, what time it is where they stand. It may be
-// recorded and played again.
+// The input of a drama from its visitor: pose of the camera, keys, messages of other programs,
+// local time of day. It can be recorded and replayed.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,40 +17,40 @@
 namespace lararium::drama {
 
 struct Visitor {
-  bool tracked = false;                  // else position and direction are those last known
-  glm::vec3 position = glm::vec3(0.0f);  // of the eyes; stage, metres
-  glm::vec3 direction = glm::vec3(0.0f, 0.0f, -1.0f);  // in which they look; unit length
-  float hour = -1.0f;                                  // of the day, 0..24; below 0: unknown
-  // Pressed since the tick before: names with a blank between. Among them are messages of
-  // other programs (OSC), which begin with '/'.
+  bool tracked = false;                  // False: position and direction are the last known ones.
+  glm::vec3 position = glm::vec3(0.0f);  // Eyes, stage frame, metres.
+  glm::vec3 direction = glm::vec3(0.0f, 0.0f, -1.0f);  // Viewing direction, unit length.
+  float hour = -1.0f;                                  // Time of day, 0..24; negative: unknown.
+  // Names of the keys pressed since the tick before, separated by blanks. Messages of other
+  // programs (OSC) are among them and begin with '/'.
   std::string keys = {};
 
   friend bool operator==(const Visitor&, const Visitor&) = default;
 };
 
-// Of the keys of one tick; more are not heard.
+// Limit of the keys of one tick; further keys are ignored.
 inline constexpr size_t kMaxKeyBytes = 16384;
 
-// Adds a word to keys, unless there are too many.
+// Adds a word to `keys` unless the limit would be exceeded.
 void AddKey(std::string_view word, std::string& keys);
-// Takes the first word off keys; "" where there is none.
+// Removes the first word of `keys` and returns it; "" if there is none.
 std::string_view TakeKey(std::string_view& keys);
 
-// A message as a word: its address, and each argument behind a comma: a number, T, F or N
-// (true, false, nothing), or an apostrophe and a text in which everything but letters, digits
-// and "_.-" is written as %HEX. "/door/open,1,'oak" is the address /door/open with 1 and "oak".
+// A message encoded as one word: its address and, after a comma each, its arguments. An argument is
+// a number, T, F or N (true, false, nil), or an apostrophe followed by a text in which everything
+// but letters, digits and "_.-" is written as %HEX. Example: "/door/open,1,'oak" is the address
+// /door/open with the arguments 1 and "oak".
 struct Message {
   std::string_view address;
-  std::string_view arguments;  // from the first comma on; may be empty
+  std::string_view arguments;  // Starts with the first comma; may be empty.
 };
-// None: a key, or not a message's word.
+// None: the word is a key or not a valid message.
 std::optional<Message> ParseMessage(std::string_view word);
-// A text as an argument, and back; nothing where it is not one.
+// Encode and decode a text argument; none: it is not a text.
 std::string MessageText(std::string_view text);
 std::optional<std::string> ReadMessageText(std::string_view argument);
 
-// The visitor of each tick, from 0 on: an entry holds until the next one, but for its
-// keys.
+// The visitor of each tick from 0 on. An entry is valid until the next one, except for its keys.
 class VisitorLog {
  public:
   struct Entry {
@@ -60,17 +59,17 @@ class VisitorLog {
     friend bool operator==(const Entry&, const Entry&) = default;
   };
 
-  // Lines "tick tracked x y z dx dy dz hour keys...", ticks ascending. place: what
-  // errors call the text; they name the line.
+  // Reads lines "tick tracked x y z dx dy dz hour keys..." with ascending ticks. Errors name
+  // `place` and the line.
   static Result<VisitorLog> Read(std::string_view text, std::string_view place);
   static Result<VisitorLog> Load(const std::filesystem::path& path);
   std::string Write() const;
 
-  // From a tick on, which is not before that of the last entry. What is equal to what
-  // holds anyhow is not kept.
+  // Sets the visitor from a tick on, which must not be before the last entry. A value equal to the
+  // present one is not stored.
   void Set(int64_t tick, const Visitor& visitor);
   Visitor At(int64_t tick) const;
-  // Forgets what is later than a tick.
+  // Removes entries after a tick.
   void Truncate(int64_t tick);
   std::span<const Entry> entries() const { return entries_; }
 

@@ -10,7 +10,7 @@
 namespace lararium::geometry {
 namespace {
 
-// Distorts a point on the plane z = 1; fills the 2x2 Jacobian when asked.
+// Distorts a point on the plane z = 1. Computes the 2x2 Jacobian unless `jacobian` is nullptr.
 Eigen::Vector2d Distort(const CameraModel& c, const Eigen::Vector2d& p, Eigen::Matrix2d* jacobian) {
   const double x = p.x();
   const double y = p.y();
@@ -66,7 +66,7 @@ Status CameraModel::Validate() const {
     return Status::Error(kPlace, "the principal point is far outside the image",
                          "give cx and cy in pixels");
   }
-  // Undistorting a pixel must lead back to it, also in the corners.
+  // Undistorting and distorting a pixel must return it, also in the corners.
   for (const double x : {-0.5, 0.5 * width, width - 0.5}) {
     for (const double y : {-0.5, 0.5 * height, height - 0.5}) {
       const Eigen::Vector2d pixel(x, y);
@@ -155,8 +155,7 @@ CameraModel CameraModel::DisplayPinhole() const {
   if (!HasDistortion()) {
     return display;
   }
-  // The largest rectangle, about the axis, of which every border point lies
-  // inside the undistorted image border.
+  // The largest rectangle around the axis that lies completely inside the undistorted image border.
   std::array<double, 4> inner = {-1e9, 1e9, -1e9, 1e9};  // left, right, top, bottom on z = 1
   constexpr int kSteps = 64;
   for (int i = 0; i <= kSteps; ++i) {
@@ -167,7 +166,7 @@ CameraModel CameraModel::DisplayPinhole() const {
     inner[2] = std::max(inner[2], PlaneFromPixel({x, -0.5}).y());
     inner[3] = std::min(inner[3], PlaneFromPixel({x, height - 0.5}).y());
   }
-  // One focal length keeps pixels square; the window is cut to the aspect.
+  // A single focal length keeps pixels square; the window is cut to the aspect ratio.
   const double focal = std::max(width / (inner[1] - inner[0]), height / (inner[3] - inner[2]));
   display.fx = display.fy = focal;
   display.cx = 0.5 * (width - 1) - focal * 0.5 * (inner[0] + inner[1]);

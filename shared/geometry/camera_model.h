@@ -13,51 +13,52 @@
 namespace lararium::geometry {
 
 struct CameraModel {
-  int width = 0;  // of the image, pixels
+  int width = 0;  // size of the image, pixels
   int height = 0;
   double fx = 0.0;  // focal lengths, pixels
   double fy = 0.0;
-  double cx = 0.0;  // principal point, a raw pixel
+  double cx = 0.0;  // principal point, raw pixel
   double cy = 0.0;
-  // Of a point on the plane z = 1 at distance r from the axis, without unit: it moves out to
-  // r (1 + k1 r^2 + k2 r^4), and aside by the tangential p1 and p2.
+  // Distortion coefficients without unit. A point on the plane z = 1 at distance r from the axis
+  // moves to r (1 + k1 r^2 + k2 r^4), and sideways by the tangential p1 and p2.
   double k1 = 0.0;
   double k2 = 0.0;
   double p1 = 0.0;
   double p2 = 0.0;
 
-  // From fx, fy, cx, cy[, k1, k2, p1, p2], as people type them; checked.
+  // Creates and checks a model from the numbers that people type: fx, fy, cx, cy[, k1, k2, p1, p2].
   static Result<CameraModel> FromNumbers(std::span<const double> numbers, int width, int height);
 
-  // Says which field is impossible: sizes, focal lengths, non-finite numbers, or
-  // a distortion that folds the image over itself.
+  // Reports an impossible field: sizes, focal lengths, non-finite numbers, or a distortion that
+  // folds the image over itself.
   Status Validate() const;
 
   bool HasDistortion() const { return k1 != 0.0 || k2 != 0.0 || p1 != 0.0 || p2 != 0.0; }
   // Mean focal length: turns lengths on the plane z = 1 into pixels.
   double Focal() const { return 0.5 * (fx + fy); }
 
-  // Raw pixel of a point in camera coordinates, which may lie outside the image; nullopt behind
-  // the camera and where the distortion folds back.
+  // Returns the raw pixel of a point in camera coordinates; it may lie outside the image. Returns
+  // nullopt behind the camera and where the distortion folds back.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& point_in_camera) const;
-  // Whether the radial distortion folds back before it reaches a point (x, y) on the plane z = 1:
-  // what lies there is not seen, but the polynomial may put it into the image again.
+  // True if the radial distortion folds back before it reaches a point (x, y) on the plane z = 1.
+  // Such a point is invisible, but the polynomial may map it into the image.
   bool FoldsBackAt(const Eigen::Vector2d& plane) const;
-  // Raw pixel of a point (x, y) on the plane z = 1; meaningless where the distortion folds back.
+  // Returns the raw pixel of a point (x, y) on the plane z = 1; meaningless where the distortion
+  // folds back.
   Eigen::Vector2d PixelFromPlane(const Eigen::Vector2d& plane) const;
-  // Point (x, y) on the plane z = 1 that is seen at a raw pixel: distortion
-  // inverted by Newton's method, to 1e-10.
+  // Returns the point (x, y) on the plane z = 1 that is seen at a raw pixel. Inverts the distortion
+  // by Newton's method, to 1e-10.
   Eigen::Vector2d PlaneFromPixel(const Eigen::Vector2d& pixel) const;
 
-  // The same camera for the image resized to width x height, c' = s (c + 0.5) - 0.5.
+  // Returns the camera for images resized to width x height: c' = s (c + 0.5) - 0.5.
   CameraModel Resized(int new_width, int new_height) const;
 
-  // The same, where the proportions agree to a pixel; otherwise an error that
-  // names both sizes.
+  // Same as Resized(), but returns an error with both sizes if the aspect ratios differ by more
+  // than a pixel.
   Result<CameraModel> ForImages(int new_width, int new_height) const;
 
-  // The undistorted pinhole of the same size whose whole image is covered by
-  // this camera's: the largest field of view without blank corners.
+  // Returns the undistorted pinhole of the same size whose image is completely covered by this
+  // camera's image: the largest field of view without blank corners.
   CameraModel DisplayPinhole() const;
 
   bool Contains(const Eigen::Vector2d& pixel) const {

@@ -5,8 +5,7 @@
 
 namespace lararium::geometry {
 
-// One image of a camera, video or folder. Immutable once published; copies
-// share the pixels.
+// One image of a camera, video or folder. Immutable once published; copies share the pixels.
 struct Frame {
   int64_t index = -1;         // counts from 0 within its source
   double capture_time = 0.0;  // seconds, monotonic within the source

@@ -1,6 +1,6 @@
 #pragma once
 
-// The one place where Eigen's types meet GLM's.
+// Conversions between Eigen's and GLM's types; no other file has them.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Depth vectors d along the rays with d' (quadric[i]) d = squared_length[i];
-// i-th side of the triangle: between the two points other than i.
+// The depth vector d along the rays satisfies d' (quadric[i]) d = squared_length[i]. Side i of the
+// triangle is opposite to point i.
 struct Triangle {
   std::array<Matrix3d, 3> quadric;
   Vector3d squared_length;
@@ -34,9 +34,8 @@ Triangle TriangleOf(const std::array<Vector3d, 3>& rays, const std::array<Vector
   return triangle;
 }
 
-// A real root of x^3 + b x^2 + c x + d, the one of steepest slope where there
-// is a choice: outside the two stationary points, where Newton's method
-// converges from any start.
+// Returns a real root of x^3 + b x^2 + c x + d. If there are several, the one of steepest slope: it
+// is outside the two stationary points, where Newton's method converges from any start.
 double CubicRoot(double b, double c, double d) {
   const auto value = [&](double x) { return ((x + b) * x + c) * x + d; };
   double x = -b / 3.0;
@@ -71,7 +70,7 @@ Matrix3d Adjugate(const Matrix3d& m) {
   return adjugate;
 }
 
-// A degenerate member of the pencil of a and b, and another member.
+// Returns a degenerate member of the pencil of a and b, and another member.
 std::optional<std::pair<Matrix3d, Matrix3d>> DegenerateConic(Matrix3d a, Matrix3d b) {
   double c0 = a.determinant();
   double c3 = b.determinant();
@@ -91,8 +90,8 @@ std::optional<std::pair<Matrix3d, Matrix3d>> DegenerateConic(Matrix3d a, Matrix3
   return std::pair<Matrix3d, Matrix3d>(a + x * b, std::abs(x) < 1.0 ? b : a);
 }
 
-// Real ratios (x : y) with a x^2 + 2 b x y + c y^2 = 0. A slightly negative
-// discriminant is a double root, blurred by rounding.
+// Finds the real ratios (x : y) with a x^2 + 2 b x y + c y^2 = 0. A slightly negative discriminant
+// counts as a double root with rounding errors.
 int QuadraticRatios(double a, double b, double c, std::array<std::pair<double, double>, 2>& out) {
   const double scale = std::max({std::abs(a), std::abs(b), std::abs(c)});
   double discriminant = b * b - a * c;
@@ -106,7 +105,7 @@ int QuadraticRatios(double a, double b, double c, std::array<std::pair<double, d
   return 2;
 }
 
-// Newton's method on the three quadrics.
+// Refines the depths by Newton's method on the three quadrics.
 bool PolishDepths(const Triangle& triangle, Vector3d& depths) {
   for (int iteration = 0; iteration < 5; ++iteration) {
     Matrix3d jacobian;
@@ -120,7 +119,7 @@ bool PolishDepths(const Triangle& triangle, Vector3d& depths) {
       break;
     }
     const Vector3d step = jacobian.inverse() * residual;
-    // At a double root the Jacobian is singular; what is there is good enough.
+    // At a double root the Jacobian is singular; the present depths are good enough.
     if (!(step.norm() < 0.1 * depths.norm())) {
       break;
     }
@@ -230,7 +229,7 @@ P3pSolutions SolveP3p(const std::array<Vector3d, 3>& rays, const std::array<Vect
       }
     }
     if (larger == 0.0) {
-      break;  // both planes are one
+      break;  // The two planes coincide.
     }
   }
   return solutions;

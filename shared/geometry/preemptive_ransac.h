@@ -22,17 +22,19 @@ struct PreemptiveRansacOptions {
   uint64_t seed = 1;
 };
 
-// Scores all hypotheses breadth first, block after block of the observations in
-// random order, and keeps f(i) = floor(M 2^-floor(i / B)) of them before
-// observation i, the best first. Keeps its memory from call to call.
+// Scores all hypotheses breadth-first, block after block of the observations in random order, and
+// keeps the best f(i) = floor(M 2^-floor(i / B)) of them before observation i. Reuses its memory
+// between calls.
 template <typename Hypothesis>
 class PreemptiveRansac {
  public:
-  // generate(random, hypotheses): appends what a random minimal sample gives,
-  //   perhaps nothing. Called at most options.hypotheses times.
-  // cost(hypothesis, observation): of one observation, truncated, lower is better.
-  // The best; nullopt when no sample gave a hypothesis. The time is bounded by the options
-  // whatever the observations are; the same input gives the same winner.
+  // generate(random, hypotheses) appends the hypotheses of one random minimal sample, perhaps none.
+  // It is called at most options.hypotheses times.
+  //
+  // cost(hypothesis, observation) returns the truncated cost of one observation; lower is better.
+  //
+  // Returns the best hypothesis, or nullopt if no sample gave one. The options bound the run time
+  // for all inputs. Equal input gives equal results.
   template <typename Generate, typename Cost>
   std::optional<Hypothesis> Run(size_t observation_count,
                                 const PreemptiveRansacOptions& options,

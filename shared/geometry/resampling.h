@@ -1,6 +1,6 @@
 #pragma once
 
-// From one camera's image to what another would have taken from the same place.
+// Resamples one camera's image into the image of another camera at the same position.
 
 #include <opencv2/core/mat.hpp>
 
@@ -8,8 +8,8 @@
 
 namespace lararium::geometry {
 
-// For each pixel of to's image the raw pixel at which from sees the same ray, as cv::remap has it:
-// CV_32FC2, of to's size. Spread over the cores.
+// For each pixel of to's image, returns the raw pixel at which `from` sees the same ray, in the
+// format of cv::remap: CV_32FC2 with to's size. Runs on all cores.
 cv::Mat PixelsSeenBy(const CameraModel& from, const CameraModel& to);
 
 }  // namespace lararium::geometry

@@ -29,13 +29,13 @@ struct Rigid3 {
     const Eigen::Quaterniond inverse = rotation.conjugate();
     return {inverse, -(inverse * translation)};
   }
-  // [R | t], row by row.
+  // Returns [R | t].
   Eigen::Matrix<double, 3, 4> Matrix3x4() const;
 
-  // Of camera_from_world: where the camera is, in world coordinates.
+  // For camera_from_world: the camera's centre in world coordinates.
   Eigen::Vector3d Center() const { return -(rotation.conjugate() * translation); }
 
-  // The same numbers. A quaternion and its negative, which turn alike, differ.
+  // Compares the numbers: q and -q differ although they are the same rotation.
   friend bool operator==(const Rigid3& a, const Rigid3& b) {
     return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
   }
@@ -59,25 +59,25 @@ struct Similarity3 {
     return {1.0 / scale, inverse, -(inverse * translation) / scale};
   }
 
-  // The same numbers, as for Rigid3.
+  // Compares the numbers, as for Rigid3.
   friend bool operator==(const Similarity3& a, const Similarity3& b) {
     return a.scale == b.scale && a.rotation.coeffs() == b.rotation.coeffs() &&
            a.translation == b.translation;
   }
 };
 
-// A camera pose in b, from the pose in a and the similarity a_from_b. The
-// result is rigid and measures in b's units: with b = stage it is metric.
-// Projections of a point agree through either path.
+// Converts a camera pose from world a to world b with the similarity a_from_b. The result is rigid
+// in b's units; if b is the stage it is metric. A point projects to the same pixel through both
+// poses.
 Rigid3 CameraFromB(const Rigid3& camera_from_a, const Similarity3& a_from_b);
 
-// Least-squares a_from_b of corresponding points (Umeyama, "Least-squares
-// estimation of transformation parameters between two point patterns", PAMI
-// 1991). Needs three points that are not on a line.
+// Estimates a_from_b from corresponding points by least squares (Umeyama, "Least-squares estimation
+// of transformation parameters between two point patterns", PAMI 1991). Needs three points that are
+// not collinear.
 Result<Similarity3> EstimateSimilarity(std::span<const Eigen::Vector3d> points_in_a,
                                        std::span<const Eigen::Vector3d> points_in_b);
 
-// The rotation by |w| radians about w, and its inverse. |w| <= pi.
+// Rotation by |w| radians about w, and its inverse. |w| <= pi.
 Eigen::Quaterniond RotationFromVector(const Eigen::Vector3d& w);
 Eigen::Vector3d VectorFromRotation(const Eigen::Quaterniond& rotation);
 

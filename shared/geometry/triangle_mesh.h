@@ -15,11 +15,11 @@ struct TriangleMesh {
   std::vector<glm::vec3> normals;    // unit; empty, or one for each position
   std::vector<uint32_t> indices;     // three for each triangle
 
-  // Says what is inconsistent: sizes, indices out of range, non-finite numbers.
+  // Reports inconsistent sizes, indices out of range and non-finite numbers.
   Status Validate(const std::string& place) const;
 };
 
-// Angle-weighted vertex normals; zero-area triangles add nothing.
+// Computes angle-weighted vertex normals; triangles without area contribute nothing.
 void ComputeNormals(TriangleMesh& mesh);
 
 }  // namespace lararium::geometry

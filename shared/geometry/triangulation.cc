@@ -10,14 +10,14 @@
 namespace lararium::geometry {
 namespace {
 
-// The direction X of homogeneous points that minimises the sum of squares of
-// x (p3 X) - p1 X and y (p3 X) - p2 X; nullopt for points at infinity.
+// Returns the homogeneous point X that minimises the sum of squares of x (p3 X) - p1 X and y (p3 X)
+// - p2 X, or nullopt for points at infinity.
 std::optional<Eigen::Vector3d> TriangulateLinear(std::span<const Rigid3> camera_from_world,
                                                  std::span<const Eigen::Vector2d> plane_points) {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   for (size_t i = 0; i < plane_points.size(); ++i) {
     const Eigen::Matrix<double, 3, 4> projection = camera_from_world[i].Matrix3x4();
-    // Rows per view weigh alike whatever the viewing direction.
+    // Normalises the rows, so that the weight of a view does not depend on its direction.
     const double scale = 1.0 / plane_points[i].homogeneous().norm();
     for (int axis = 0; axis < 2; ++axis) {
       const Eigen::Vector4d row =
@@ -33,7 +33,8 @@ std::optional<Eigen::Vector3d> TriangulateLinear(std::span<const Rigid3> camera_
   return smallest.hnormalized();
 }
 
-// Squared error on the plane and its normal equations; false behind a camera.
+// Computes the squared error on the plane and its normal equations. Returns false if the point is
+// behind a camera.
 bool Linearise(std::span<const Rigid3> camera_from_world,
                std::span<const Eigen::Vector2d> plane_points,
                const Eigen::Vector3d& point,
@@ -85,7 +86,7 @@ std::optional<Eigen::Vector3d> TriangulatePoint(std::span<const Rigid3> camera_f
     const Eigen::LDLT<Eigen::Matrix3d> factors(hessian);
     const Eigen::Vector3d pivots = factors.vectorD();
     if (!(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) {
-      return std::nullopt;  // the rays leave the depth open
+      return std::nullopt;  // The rays do not determine the depth.
     }
     const Eigen::Vector3d step = factors.solve(gradient);
     const Eigen::Vector3d next = point - step;
@@ -108,7 +109,7 @@ double TriangulationAngle(const Eigen::Vector3d& center_a,
                           const Eigen::Vector3d& point) {
   const Eigen::Vector3d a = center_a - point;
   const Eigen::Vector3d b = center_b - point;
-  return std::atan2(a.cross(b).norm(), a.dot(b));  // exact for small angles too
+  return std::atan2(a.cross(b).norm(), a.dot(b));  // exact for small angles
 }
 
 }  // namespace lararium::geometry

@@ -6,27 +6,27 @@
 
 namespace lararium::human {
 
-// Which clip plays and how far it has come. Times count on past the end of a
-// clip: looping is the sampler's business, so that times interpolate.
+// The playing clip and its time. Times continue past the end of a clip, so that they can be
+// interpolated; sampling handles the loop.
 struct Animation {
   static constexpr int kNoClip = -1;
 
-  int clip = kNoClip;                // index into Human::clips; none: the body moves by itself
-  double clip_time = 0.0;            // seconds into the clip
-  double rate = 1.0;                 // how fast it plays
-  BodyPart part = BodyPart::kWhole;  // what the clip moves
-  int previous_clip = kNoClip;       // fades out while weight < 1
+  int clip = kNoClip;      // Index into Human::clips; kNoClip: gait, seat and reach pose the body.
+  double clip_time = 0.0;  // seconds into the clip
+  double rate = 1.0;       // speed factor
+  BodyPart part = BodyPart::kWhole;  // The part of the body that the clip moves.
+  int previous_clip = kNoClip;       // Fades out while weight is below 1.
   double previous_time = 0.0;
   double previous_rate = 1.0;
   BodyPart previous_part = BodyPart::kWhole;
-  float weight = 1.0f;             // of clip against previous_clip, 0..1
-  float weight_per_second = 0.0f;  // how fast weight grows
+  float weight = 1.0f;             // Weight of clip against previous_clip, 0..1.
+  float weight_per_second = 0.0f;  // Rate at which weight grows.
 
   friend bool operator==(const Animation&, const Animation&) = default;
 };
 
-// Fades from what plays to clip (kNoClip: to no clip), from its beginning, over
-// fade_seconds. A fade that was still going on is cut short.
+// Fades from the current clip to `clip` (kNoClip: to no clip), which starts at its beginning, over
+// fade_seconds. A fade that is still running is cut short.
 void StartClip(Animation& animation,
                int clip,
                double rate,
@@ -35,7 +35,8 @@ void StartClip(Animation& animation,
 
 void UpdateAnimation(Animation& animation, double seconds);
 
-// Between two neighbouring ticks, alpha 0..1; current where it plays something else.
+// Interpolates between two neighbouring ticks, alpha 0..1. Returns current where it plays another
+// clip.
 Animation Interpolate(const Animation& previous, const Animation& current, float alpha);
 
 }  // namespace lararium::human

@@ -9,7 +9,7 @@
 namespace lararium::human {
 namespace {
 
-// A joint's own weight, or its parent's where it has none of its own.
+// Fills joints that have no weight of their own with their parent's weight.
 void FillDown(const Skeleton& skeleton, JointMask& mask) {
   for (size_t i = 0; i < mask.size(); ++i) {
     if (mask[i] < 0.0f) {
@@ -29,22 +29,22 @@ void Mark(JointMask& mask, JointIndex joint, float weight) {
 
 }  // namespace
 
-JointMasks MakeJointMasks(const Skeleton& skeleton, const Body& body) {
+JointMasks MakeJointMasks(const Skeleton& skeleton, const BodyRig& body) {
   JointMasks masks;
   for (JointMask& mask : masks) {
     mask.assign(skeleton.size(), kAsParent);
   }
   masks[static_cast<size_t>(BodyPart::kWhole)].assign(skeleton.size(), 1.0f);
   JointMask& upper = masks[static_cast<size_t>(BodyPart::kUpper)];
-  // The trunk takes over gradually, so that the pelvis keeps walking below it.
+  // The weight grows along the spine, so that the pelvis keeps walking below it.
   for (size_t i = 0; i < body.spine.size(); ++i) {
     Mark(upper, body.spine[i], static_cast<float>(i + 1) / static_cast<float>(body.spine.size()));
   }
-  for (const Body::Leg& leg : body.legs) {
+  for (const BodyRig::Leg& leg : body.legs) {
     Mark(upper, leg.hip, 0.0f);
   }
   JointMask& arms = masks[static_cast<size_t>(BodyPart::kArms)];
-  for (const Body::Arm& arm : body.arms) {
+  for (const BodyRig::Arm& arm : body.arms) {
     Mark(arms, arm.clavicle != kNoJoint ? arm.clavicle : arm.shoulder, 1.0f);
   }
   JointMask& head = masks[static_cast<size_t>(BodyPart::kHead)];

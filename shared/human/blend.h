@@ -7,28 +7,28 @@
 #include <span>
 #include <vector>
 
-#include "shared/human/body.h"
+#include "shared/human/body_rig.h"
 #include "shared/human/skeleton.h"
 
 namespace lararium::human {
 
-// Of a body, for what a clip moves.
+// The part of a body that a clip moves.
 enum class BodyPart : uint8_t { kWhole, kUpper, kArms, kHead };
 inline constexpr int kBodyPartCount = 4;
 
 // A weight 0..1 for each joint.
 using JointMask = std::vector<float>;
-using JointMasks = std::array<JointMask, kBodyPartCount>;  // by BodyPart
-JointMasks MakeJointMasks(const Skeleton& skeleton, const Body& body);
+using JointMasks = std::array<JointMask, kBodyPartCount>;  // index: BodyPart
+JointMasks MakeJointMasks(const Skeleton& skeleton, const BodyRig& body);
 
-// pose = (1 - w) * pose + w * other with w = weight * mask of each joint, rotations on
-// the shorter arc.
+// Blends joint by joint: pose = (1 - w) * pose + w * other, with w = weight * mask[joint].
+// Rotations take the shorter arc.
 void BlendPose(std::span<JointTransform> pose,
                std::span<const JointTransform> other,
                float weight,
                std::span<const float> mask);
 
-// pose = pose followed by weight times the way from reference to layer, joint by joint
+// Adds a layer: each joint's pose is followed by `weight` times the motion from reference to layer,
 // in the joint's own frame.
 void AddPose(std::span<JointTransform> pose,
              std::span<const JointTransform> reference,

@@ -50,14 +50,14 @@ Status Clip::Validate(size_t joint_count, const std::string& place) const {
   }
   if (!std::isfinite(duration) || duration < 0.0f || !std::isfinite(stride) ||
       !std::isfinite(keys_per_second) || keys_per_second <= 0.0f) {
-    return Status::Error(clip_place, "duration, rate or stride is not a possible number");
+    return Status::Error(clip_place, "the duration, rate or stride is not valid");
   }
   const double intervals = static_cast<double>(KeyCount(joint_count) - 1);
   if (std::abs(intervals - static_cast<double>(duration) * keys_per_second) > 0.5) {
     return Status::Error(clip_place, "the number of keys does not fit duration and rate");
   }
   if (!std::all_of(keys.begin(), keys.end(), Valid)) {
-    return Status::Error(clip_place, "a key holds an impossible transform");
+    return Status::Error(clip_place, "a key has an invalid transform");
   }
   return Status();
 }

@@ -15,8 +15,8 @@ struct Clip {
   float duration = 0.0f;  // seconds
   float keys_per_second = 30.0f;
   bool loops = false;  // the last key equals the first
-  // Metres by which a walking clip moves the actor forward (-Z) in one pass; the
-  // joints themselves stay in place.
+  // Metres by which a walking clip moves the actor forward (-Z) in one pass; its joints do not move
+  // forward.
   float stride = 0.0f;
   std::vector<JointTransform> keys;  // [key][joint]
 
@@ -26,18 +26,18 @@ struct Clip {
   Status Validate(size_t joint_count, const std::string& place) const;
 };
 
-// How far the joints of each key have turned from those of the first: the sum of their angles,
+// For each key, the sum of the angles by which its joints differ from those of the first key, in
 // radians.
 std::vector<float> TurnedFromFirst(const Clip& clip, size_t joint_count);
 
-// A time within a clip: wraps where it loops, stays at the ends otherwise; seconds.
+// Returns the time within a clip in seconds: looping clips wrap, others stop at the ends.
 double ClipTime(double time, float duration, bool loops);
 
-// The pose at a time: wraps where the clip loops, holds the last key otherwise.
-// A pure function of time: seeking equals playing.
+// Computes the pose at a time; times outside the clip are treated as in ClipTime(). A pure function
+// of time, so seeking gives the same pose as playing.
 void SampleClip(const Clip& clip, double time, std::span<JointTransform> pose);
 
-// pose = (1 - weight) * pose + weight * other, rotations on the shorter arc.
+// Blends pose = (1 - weight) * pose + weight * other; rotations take the shorter arc.
 void BlendPose(std::span<JointTransform> pose, std::span<const JointTransform> other, float weight);
 
 }  // namespace lararium::human

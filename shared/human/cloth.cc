@@ -17,18 +17,18 @@ namespace {
 using Model = ClothModel::Data;
 using State = ClothState::Data;
 
-constexpr float kLongestFrame = 0.25f;    // seconds; a longer one is a cut
-constexpr float kLeapSpeed = 6.0f;        // m/s, of the body as a whole
-constexpr float kLeap = 0.08f;            // metres beyond that speed
-constexpr float kSamePose = 0.03f;        // metres by which the skin may differ within the actor
-constexpr float kFarthestPlace = 1e4f;    // metres from the origin: not a possible one
-constexpr float kOriginRange = 4.0f;      // metres after which the origin follows the actor
-constexpr float kFastest = 12.0f;         // m/s, of cloth relative to its wearer
+constexpr float kLongestFrame = 0.25f;  // seconds; a longer frame counts as a cut
+constexpr float kLeapSpeed = 6.0f;      // m/s, mean speed of the body
+constexpr float kLeap = 0.08f;          // metres in addition to that speed
+constexpr float kSamePose = 0.03f;  // Metres by which the skin may differ within the actor frame.
+constexpr float kFarthestPlace = 1e4f;    // Metres from the origin; positions beyond are invalid.
+constexpr float kOriginRange = 4.0f;      // Metres after which the origin follows the actor.
+constexpr float kFastest = 12.0f;         // m/s, cloth relative to its wearer
 constexpr float kQuietSpeed = 0.02f;      // m/s
 constexpr float kSettlingDamping = 8.0f;  // 1/s
 constexpr float kSettlingSeconds = 2.0f;
-constexpr float kFadeSeconds = 0.4f;     // between cloth and plain skin
-constexpr float kContactMargin = 0.02f;  // metres, for what moves within a beat
+constexpr float kFadeSeconds = 0.4f;     // Duration of the fade between cloth and plain skin.
+constexpr float kContactMargin = 0.02f;  // Metres for motion within a beat.
 constexpr float kSelfFriction = 0.3f;
 
 int StepsPerBeat(ClothDetail detail) {
@@ -44,15 +44,15 @@ int StepsPerBeat(ClothDetail detail) {
   return 1;
 }
 
-// What one step of constraints needs to know.
+// Parameters of one step of constraints.
 struct StepContext {
   float seconds = 0.0f;
   float square = 0.0f;          // s^2
   float inverse_square = 0.0f;  // 1/s^2
-  int steps_between_bends = 1;  // bending is soft: it needs fewer steps
-  float damping = 0.0f;         // share of the relative velocity that remains
-  float farthest = 0.0f;        // metres that cloth moves relative to the skin in a step
-  float floor = 0.0f;           // local
+  int steps_between_bends = 1;  // Bending is soft and needs fewer steps.
+  float damping = 0.0f;         // Share of the relative velocity that remains.
+  float farthest = 0.0f;        // Largest motion of cloth relative to the skin in a step, metres.
+  float floor = 0.0f;           // height of the floor in the local frame
   bool touches_itself = false;
 };
 
@@ -73,7 +73,7 @@ void ShiftBy(const Float4& shift, std::vector<Float4>& places) {
   }
 }
 
-// Keeps coordinates small, so that floats stay exact to micrometres.
+// Moves the origin with the actor. Small coordinates keep floats exact to micrometres.
 void FollowActor(const glm::vec3& actor_in_stage, State& state) {
   if (state.started &&
       glm::length(actor_in_stage - state.origin_in_stage) < kOriginRange * state.scale) {
@@ -103,7 +103,7 @@ void SkinParticles(const Model& model, const glm::mat4& local_from_actor, State&
   }
 }
 
-// Reads the pose into state.next. False where it leads out of any possible place.
+// Reads the pose into state.next. Returns false if a position is out of the valid range.
 bool TakePose(const Model& model, const ClothStep& step, State& state) {
   const glm::mat4& stage_from_actor = step.stage_from_actor;
   state.scale = glm::length(glm::vec3(stage_from_actor[0]));
@@ -140,7 +140,7 @@ void MixInto(const std::vector<Float4>& from,
   }
 }
 
-// The body between the last frame and this one.
+// Interpolates state.target between the last frame and this one.
 void AimAt(float share, State& state) {
   MixInto(state.frame.skin, state.next.skin, share, state.target.skin);
   MixInto(state.frame.ends, state.next.ends, share, state.target.ends);
@@ -155,14 +155,14 @@ float MeanDistance(const std::vector<Float4>& a, const std::vector<Float4>& b) {
   return a.empty() ? 0.0f : sum / static_cast<float>(a.size());
 }
 
-// The body moved further than people do.
+// True if the body moved further than people can.
 bool HasLeapt(float elapsed, const State& state) {
   return MeanDistance(state.frame.skin, state.next.skin) > kLeap + kLeapSpeed * elapsed;
 }
 
 // --- One step -----------------------------------------------------------------
 
-// The skin, and the particles by their velocity over the last step.
+// Moves pinned particles with the skin, and free particles by their velocity over the last step.
 void Predict(const Model& model, const StepContext& context, State& state) {
   const Float4 gravity(glm::vec3(0.0f, -model.settings.gravity, 0.0f));
   for (const uint32_t i : model.free) {
@@ -186,7 +186,7 @@ void Predict(const Model& model, const StepContext& context, State& state) {
 }
 
 void SolveHinges(const Model& model, const StepContext& context, State& state) {
-  // What is solved in every n-th step gives n steps' impulse to one.
+  // A constraint that is solved in every n-th step needs the impulse of n steps.
   const float inverse_square =
       context.inverse_square / static_cast<float>(context.steps_between_bends);
   Float4* x = state.positions.data();
@@ -212,8 +212,8 @@ void SolveEdges(const Model& model, const StepContext& context, State& state) {
   const float* w = model.inverse_mass.data();
   for (const ClothEdge& edge : model.edges) {
     const Float4 along = x[edge.b] - x[edge.a];
-    // (length - rest) / length to first order, without a root (Jakobsen, "Advanced
-    // Character Physics", GDC 2001).
+    // (length - rest) / length to first order, without a square root (Jakobsen, "Advanced Character
+    // Physics", GDC 2001).
     const float square = Dot(along, along);
     const float rest = edge.length * edge.length;
     const float weight = w[edge.a] + w[edge.b] + edge.compliance * context.inverse_square;
@@ -223,7 +223,7 @@ void SolveEdges(const Model& model, const StepContext& context, State& state) {
   }
 }
 
-// Draws a particle onto a ball that it has left.
+// Moves a particle that is outside a ball onto its surface.
 void KeepWithin(const Float4& centre, float radius, Float4& position) {
   const Float4 out = position - centre;
   const float square = Dot(out, out);
@@ -242,7 +242,7 @@ void SolveTethersAndReach(const Model& model, State& state) {
   }
 }
 
-// Two particles that touch: kept apart, and rubbing (Coulomb).
+// Keeps touching particles apart and applies Coulomb friction between them.
 void SolvePairs(const Model& model, State& state) {
   Float4* x = state.positions.data();
   Float4* before = state.before.data();
@@ -267,9 +267,9 @@ void SolvePairs(const Model& model, State& state) {
   }
 }
 
-// Puts a particle onto a surface that moved by `motion` and along whose normal it lies
-// `depth` too deep. Friction is Coulomb's, the impact inelastic: what pushes it out
-// gives it no speed beyond the surface's.
+// Moves a particle that is `depth` inside a surface to the surface along its normal; `motion` is
+// the motion of the surface. Friction is Coulomb's, and the impact is inelastic: pushing the
+// particle out gives it no speed beyond the surface's.
 void PushOut(const Float4& normal,
              float depth,
              const Float4& motion,
@@ -310,7 +310,7 @@ void SolveContacts(const Model& model, const StepContext& context, State& state)
   }
 }
 
-// The capsules move on by one of the steps that are left of this beat.
+// Moves the capsules by one of the steps that are left in this beat.
 void MoveCapsules(const Model& model, int steps_left, State& state) {
   const float share = 1.0f / static_cast<float>(steps_left);
   for (size_t c = 0; c < model.capsules.size(); ++c) {
@@ -325,7 +325,7 @@ void MoveCapsules(const Model& model, int steps_left, State& state) {
   }
 }
 
-// Steps take velocities as positions before and after: from one form to the other.
+// Steps store velocities as positions before and after. Converts to that form.
 void PrepareSteps(const StepContext& context, State& state) {
   const float share = context.seconds / kBeat;
   for (size_t i = 0; i < state.positions.size(); ++i) {
@@ -363,7 +363,7 @@ std::span<const uint32_t> ParticlesOf(size_t block, const Model& model) {
       .subspan(first, std::min(ClothBlock::kSize, model.free.size() - first));
 }
 
-// Where the particles will be in the middle of the beat.
+// Returns the position of a particle in the middle of the beat.
 Float4 HalfwayPlace(uint32_t i, const State& state) {
   return state.positions[i] + state.velocities[i] * (0.5f * kBeat);
 }
@@ -386,7 +386,7 @@ void MeasureBlocks(const Model& model, State& state) {
   }
 }
 
-// A capsule in the middle of the beat, wide enough for what moves within it.
+// A capsule in the middle of the beat, enlarged to cover motion within the beat.
 struct WideCapsule {
   Float4 a;
   Float4 axis;
@@ -416,7 +416,7 @@ WideCapsule MakeWideCapsule(const Model& model, size_t c, const State& state) {
   return wide;
 }
 
-// Which particles may touch which capsules during this beat.
+// Finds which particles may touch which capsules during this beat.
 void FindContacts(const Model& model, State& state) {
   state.contacts.clear();
   MeasureBlocks(model, state);
@@ -436,7 +436,7 @@ void FindContacts(const Model& model, State& state) {
   }
 }
 
-// The chord that a hinge rests at, along its normal as it is now.
+// Computes the rest chord of each hinge along its current normal.
 void AimHinges(const Model& model, State& state) {
   const Float4* x = state.positions.data();
   for (size_t h = 0; h < model.hinges.size(); ++h) {
@@ -477,7 +477,7 @@ void TakeOffsets(State& state) {
   }
 }
 
-// Runs from the last beat to state.target. False where the cloth had to be reset.
+// Runs from the last beat to state.target. Returns false if the cloth had to be reset.
 bool Beat(
     const Model& model, const ClothStep& step, ClothDetail detail, float damping, State& state) {
   const int steps = StepsPerBeat(detail);
@@ -516,7 +516,8 @@ bool Beat(
   return whole;
 }
 
-// Over the last beat, relative to the body; steps within a beat ripple.
+// Returns the largest speed over the last beat, relative to the body. A whole beat is used because
+// velocities oscillate within it.
 float FastestParticle(const State& state) {
   float square = 0.0f;
   for (size_t i = 0; i < state.offsets.size(); ++i) {
@@ -526,7 +527,7 @@ float FastestParticle(const State& state) {
   return std::sqrt(square) / kBeat;
 }
 
-// The body holds still at state.next.
+// Settles the cloth while the body stays at state.next.
 bool Settle(const Model& model, const ClothStep& step, float seconds, State& state) {
   state.frame = state.next;
   state.beat = state.next;
@@ -544,8 +545,8 @@ bool Settle(const Model& model, const ClothStep& step, float seconds, State& sta
   return whole;
 }
 
-// Carries the cloth to a new place of its wearer, or, where the pose is another one
-// too, back to the skin.
+// Moves the cloth to its wearer's new position. If the pose has changed too, the cloth returns to
+// the skin.
 void Carry(State& state) {
   std::fill(state.velocities.begin(), state.velocities.end(), Float4());
   if (!state.started) {
@@ -566,7 +567,7 @@ void Carry(State& state) {
   }
 }
 
-// After a cut the body has no motion yet; the first frame gives it one.
+// The body has no velocity just after a cut; the next frame provides it.
 void AdoptMotion(float elapsed, State& state) {
   for (size_t i = 0; i < state.velocities.size(); ++i) {
     state.velocities[i] = (state.next.skin[i] - state.frame.skin[i]) * (1.0f / elapsed);
@@ -612,7 +613,7 @@ void Fade(const ClothStep& step, State& state) {
   state.weight = std::clamp(state.weight + towards, 0.0f, 1.0f);
 }
 
-// Plain skin: the cloth waits there, ready to move with it.
+// Keeps the cloth on the plain skin, ready to continue from there.
 void FollowSkin(State& state) {
   state.frame = state.next;
   state.beat = state.next;

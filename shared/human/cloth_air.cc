@@ -10,15 +10,15 @@
 namespace lararium::human {
 namespace {
 
-// Coefficients of a plate across and along the flow.
+// Drag coefficients of a plate across and along the flow.
 constexpr float kNormalDrag = 1.3f;
 constexpr float kTangentDrag = 0.05f;
 constexpr float kStrongestWind = 40.0f;  // m/s, a gale
 constexpr int kGusts = 4;
-constexpr float kSlowestGust = 0.2f;  // 1/s; each next one is 2.3 times as fast
+constexpr float kSlowestGust = 0.2f;  // 1/s; each further wave is faster by kGustRatio
 constexpr float kGustRatio = 2.3f;
 
-// Waves of air that travel with the mean wind: cheap, endless and seekable.
+// Waves of air that travel with the mean wind. They are cheap, endless and allow seeking.
 struct Gusts {
   float frequency[kGusts] = {};  // radians/s
   float phase[kGusts] = {};
@@ -40,7 +40,7 @@ Gusts MakeGusts(const Wind& wind) {
   return gusts;
 }
 
-// Sum of waves of equal power; the mean of the squares is `gust` squared.
+// Returns the wind as a sum of waves of equal power; the RMS of the gusts is `gust`.
 glm::vec3 WindAt(const Wind& wind, const Gusts& gusts, float time, const glm::vec3& place) {
   const float speed = glm::length(wind.velocity);
   if (speed < 1e-3f) {
@@ -71,14 +71,14 @@ void SetAir(const ClothModel::Data& model, const Wind& wind, ClothState::Data& s
   const float speed = glm::length(local.velocity);
   local.velocity *= speed > kStrongestWind ? kStrongestWind / speed : 1.0f;
   const auto time = static_cast<float>(double(state.beats) * double(kBeat));
-  // The gust is the same for the whole person: it is larger than one.
+  // One gust value serves the whole person, because gusts are larger than a person.
   const Float4 air(WindAt(local, MakeGusts(local), time,
                           state.next.place + state.origin_in_stage / state.scale));
   for (size_t t = 0; t < model.triangles.size(); ++t) {
     const std::array<uint32_t, 3>& corner = model.triangles[t];
     const Float4 origin = state.positions[corner[0]];
     const Float4 normal = Cross(state.positions[corner[1]] - origin,
-                                state.positions[corner[2]] - origin);  // twice the area long
+                                state.positions[corner[2]] - origin);  // length: twice the area
     const Float4 velocity =
         (state.velocities[corner[0]] + state.velocities[corner[1]] + state.velocities[corner[2]]) *
         (1.0f / 3.0f);
@@ -87,7 +87,7 @@ void SetAir(const ClothModel::Data& model, const Wind& wind, ClothState::Data& s
     const float speed = Length(flow);
     const Float4 across = normal * (Dot(flow, normal) / square);
     const Float4 drag = across * kNormalDrag + (flow - across) * kTangentDrag;
-    // The pull until the next evaluation must not turn the flow around.
+    // The impulse until the next evaluation must not reverse the flow.
     const float rate = half_density * speed * kNormalDrag / model.triangle_density[t];
     const float area = 0.5f * std::sqrt(square);
     const Float4 force = drag * (half_density * speed * area /

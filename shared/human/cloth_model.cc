@@ -14,19 +14,21 @@ namespace {
 
 constexpr uint32_t kNone = 0xffffffffu;
 constexpr float kTetherSlack = 1.01f;
-// A diagonal of a quad of threads: cloth shears far more easily than it stretches.
+// Edges that are this much longer count as diagonals of a quad of threads, along which cloth shears
+// far more easily than it stretches.
 constexpr float kDiagonalRatio = 1.15f;
 constexpr float kShearCompliance = 2e-3f;  // m/N
-constexpr float kHighestBulge = 0.03f;     // metres of skin outside its capsule
+constexpr float kHighestBulge = 0.03f;     // Metres of skin outside its capsule.
 constexpr float kBulgeWidth = 0.03f;       // metres
-constexpr float kBodyNear = 0.15f;         // metres from cloth within which bulges count
-constexpr float kThickest = 0.015f;        // metres added to the thickness
-// Places of cloth keep this far apart, in edges: half the diagonal of a quad is 0.62 of
-// its mean edge, so that no particle slips between four others.
+constexpr float kBodyNear = 0.15f;         // Metres from the cloth within which bulges count.
+constexpr float kThickest = 0.015f;        // Largest addition to the thickness, metres.
+// Distance that parts of the cloth keep from each other, as a share of the edge length. Half the
+// diagonal of a quad is 0.62 of its mean edge, so no particle slips between four others.
 constexpr float kContactShare = 0.65f;
-// A hinge of flatter triangles says nothing about the cloth's shape.
-constexpr float kLeastHeight = 0.05f;  // of the edge
-// Stiffer hinges than those of felt would fight the edges, and gain nothing.
+// Hinges of triangles that are lower than this share of the edge are left out: they do not describe
+// the cloth's shape.
+constexpr float kLeastHeight = 0.05f;
+// Hinges stiffer than those of felt would work against the edges without benefit.
 constexpr float kStiffestHinge = 10.0f;  // rad/(N m)
 
 struct MeshEdge {
@@ -56,11 +58,11 @@ std::vector<MeshEdge> FindEdges(const std::vector<std::array<uint32_t, 3>>& tria
   return list;
 }
 
-// Reorders constraints into batches that share no particle (greedy colouring), so
-// that the processor works on several at once. particles(c): those of a constraint.
+// Reorders constraints into batches that share no particle (greedy colouring), so that the
+// processor works on several at once. particles(c) returns the particles of a constraint.
 template <typename Constraint, typename Particles>
 void SortIntoBatches(std::vector<Constraint>& constraints, size_t count, Particles particles) {
-  std::vector<uint64_t> used(count, 0);  // colours taken at a particle
+  std::vector<uint64_t> used(count, 0);  // Bit set of the colours used at each particle.
   std::vector<std::pair<uint32_t, Constraint>> coloured;
   for (const Constraint& constraint : constraints) {
     uint64_t taken = 0;
@@ -83,7 +85,7 @@ void SortIntoBatches(std::vector<Constraint>& constraints, size_t count, Particl
   }
 }
 
-// The part of Human's cloths that Build turns into constraints.
+// Converts the cloths of a Human into particles and constraints.
 class Builder {
  public:
   Builder(const Human& human, ClothModel::Data& model) : human_(human), model_(model) {}
@@ -155,14 +157,14 @@ class Builder {
       }
     }
     for (uint32_t i = 0; i < range.count; ++i) {
-      // What no triangle holds has no mass and stays with the skin.
+      // Particles without a triangle have no mass and stay with the skin.
       const bool is_free = cloth.reach[i] > 0.0f && mass[i] > 1e-9f;
       model_.inverse_mass.push_back(is_free ? 1.0f / mass[i] : 0.0f);
       (is_free ? model_.free : model_.pinned).push_back(range.first + i);
     }
   }
 
-  // The longest side of both its triangles.
+  // True if the edge is the longest side of both its triangles.
   bool IsDiagonal(const MeshEdge& e) const {
     if (e.opposite[1] == kNone) {
       return false;
@@ -195,8 +197,8 @@ class Builder {
     }
   }
 
-  // The foot of each opposite corner on the edge lies at share[i]; from corner to foot,
-  // over the height, is a unit vector. The two cancel where the hinge is flat.
+  // The foot of each opposite corner on the edge is at share[i]. The vector from the corner to its
+  // foot, divided by the height, is a unit vector; the two vectors cancel if the hinge is flat.
   void AddHinge(const Cloth& cloth, const std::array<uint32_t, 4>& particles) {
     const std::vector<Float4>& x = model_.rest;
     const Float4 edge = x[particles[1]] - x[particles[0]];
@@ -230,13 +232,14 @@ class Builder {
     }
     const float steepness = Length(normal);
     hinge.rest = steepness > 1e-3f ? Dot(chord, normal) / steepness : 0.0f;
-    // Stiffness grows with edge^2 / area (Bergou et al.); 1 for equilateral triangles.
+    // Stiffness grows with edge^2 / area (Bergou et al.); the factor is 1 for equilateral
+    // triangles.
     hinge.compliance = std::max(cloth.bend_compliance, kStiffestHinge) *
                        std::clamp(0.57735f * height_sum / length, 0.1f, 10.0f);
     model_.hinges.push_back(hinge);
   }
 
-  // Dijkstra from all pins at once, along edges and across flattened hinges.
+  // Dijkstra's algorithm from all pins at once, along edges and across flattened hinges.
   void AddTethers(const std::vector<MeshEdge>& edges, const ClothRange& range) {
     std::vector<std::vector<std::pair<uint32_t, float>>> ways(range.count);
     const auto connect = [&](uint32_t a, uint32_t b, float length) {
@@ -289,8 +292,8 @@ class Builder {
     }
   }
 
-  // Between the opposite corners of an edge whose triangles are laid into one plane;
-  // infinite where the straight way does not cross the edge.
+  // Distance between the opposite corners of an edge whose triangles are unfolded into one plane.
+  // Infinite if the straight line does not cross the edge.
   float DistanceAcross(const MeshEdge& e) const {
     const float edge = std::max(Distance(e.a, e.b), 1e-9f);
     std::array<float, 2> along, aside;
@@ -301,15 +304,15 @@ class Builder {
       aside[side] = std::sqrt(std::max(from_a * from_a - along[side] * along[side], 0.0f));
     }
     const float width = aside[0] + aside[1];
-    const float crossing = along[0] * aside[1] + along[1] * aside[0];  // times width
+    const float crossing = along[0] * aside[1] + along[1] * aside[0];  // multiplied by width
     if (crossing < 0.0f || crossing > edge * width) {
       return std::numeric_limits<float>::infinity();
     }
     return std::hypot(along[1] - along[0], width);
   }
 
-  // Of each vertex the first one at the same place: seams are bound as one, so that they
-  // stay closed.
+  // For each vertex, the first vertex at the same position. Both sides of a seam are thus bound
+  // alike, and the seam stays closed.
   static std::vector<uint32_t> FindTwins(const std::vector<glm::vec3>& positions) {
     std::map<std::array<float, 3>, uint32_t> first_at;
     std::vector<uint32_t> twins;
@@ -347,8 +350,8 @@ class Builder {
     }
   }
 
-  // The vector as a sum of a normal and two sides of a triangle; the plain normal where
-  // they span nothing.
+  // Expresses the vector as a sum of the normal and two sides of a triangle. A degenerate triangle
+  // gives the normal alone.
   std::array<float, 3> SharesOf(const glm::vec3& vector,
                                 const glm::vec3& normal,
                                 const std::array<uint32_t, 3>& corners) const {
@@ -404,7 +407,7 @@ class Builder {
     }
   }
 
-  // In the bind pose, actor frame.
+  // Returns the capsule's cone in the bind pose, actor frame.
   RoundCone BoundCone(const ClothCapsule& capsule) const {
     const glm::mat4 actor_from_joint = glm::inverse(model_.joint_from_actor[capsule.joint]);
     const auto to_actor = [&](const glm::vec3& p) {
@@ -414,8 +417,8 @@ class Builder {
                          capsule.radius_b);
   }
 
-  // How much nearer to a capsule the drawn cloth lies than the triangles between
-  // particles: the depth of its folds. Of each particle, metres.
+  // For each particle: metres by which the drawn cloth comes nearer to a capsule than the triangles
+  // between particles, that is, the depth of its folds.
   std::vector<float> MeasureDrops(const RoundCone& cone) const {
     const auto height = [&cone](const Float4& place) {
       const NearestSphere sphere = FindNearestSphere(cone, place);
@@ -443,13 +446,13 @@ class Builder {
     return drops;
   }
 
-  // A place of the skin outside all capsules.
+  // A point of the skin outside all capsules.
   struct Bulge {
     Float4 place;
     float height = 0.0f;  // metres above the nearest capsule
   };
 
-  // The skin that is drawn, by the capsule that it lies nearest to.
+  // Points of the drawn skin, grouped by the nearest capsule.
   std::vector<std::vector<Bulge>> FindBulges(const std::vector<RoundCone>& cones) const {
     std::vector<std::vector<Bulge>> bulges(cones.size());
     for (const SkinnedMesh& mesh : human_.meshes) {
@@ -487,7 +490,7 @@ class Builder {
     }
   }
 
-  // The highest of those about where the particle lies on the body.
+  // Height of the highest bulge around the particle's position on the body.
   float HeightOfBulge(size_t particle, const std::vector<Bulge>& bulges) const {
     const Float4& x = model_.rest[particle];
     float least = kBodyNear * kBodyNear;
@@ -506,7 +509,7 @@ class Builder {
     return highest;
   }
 
-  // At each particle, metres.
+  // Longest edge at each particle, metres.
   std::vector<float> LongestEdges() const {
     std::vector<float> longest(model_.rest.size(), 0.0f);
     for (const ClothEdge& edge : model_.edges) {

@@ -6,12 +6,12 @@
 namespace lararium::human {
 namespace {
 
-constexpr float kPairMargin = 0.02f;  // metres, for what moves otherwise than foretold
+constexpr float kPairMargin = 0.02f;  // Metres, for motion that differs from the prediction.
 constexpr float kForesight = 0.5f * kBeatsBetweenPairs * kBeat;  // seconds
-// What lies closer together at rest is left to bending: pushed apart, a small crease
-// would lock.
-constexpr float kCellSize = 1.5f;    // of the distance sought
-constexpr float kNearAtRest = 6.0f;  // contact distances
+constexpr float kCellSize = 1.5f;  // Edge of a cell, as a multiple of the search distance.
+// Particles that are closer than this in the rest shape form no pair, and bending alone keeps them
+// apart. Pushing them apart would lock small creases. In contact distances.
+constexpr float kNearAtRest = 6.0f;
 
 // Indices along x, y and z, 21 bits each.
 using Cell = uint64_t;
@@ -23,7 +23,7 @@ Cell MakeCell(int64_t x, int64_t y, int64_t z) {
          (static_cast<uint64_t>(y) & kAxisMask) << 21 | (static_cast<uint64_t>(z) & kAxisMask);
 }
 
-// A particle that is lost may be anywhere, or nowhere.
+// An invalid particle may have any coordinate, including NaN.
 int64_t IndexOf(float scaled) {
   constexpr float kLimit = 1e6f;
   return scaled > -kLimit && scaled < kLimit ? static_cast<int64_t>(std::floor(scaled)) : 0;
@@ -39,7 +39,7 @@ Cell Neighbour(Cell cell, int x, int y, int z) {
   return MakeCell(axis(42) + x, axis(21) + y, axis(0) + z);
 }
 
-// The slot of a cell, or the free one where it would be (Fibonacci hashing).
+// Returns the slot of a cell, or the free slot for it (Fibonacci hashing).
 uint32_t SlotOf(Cell cell, const ClothGrid& grid) {
   const auto mask = static_cast<uint32_t>(grid.slots.size() - 1);
   uint32_t slot = static_cast<uint32_t>((cell * 0x9e3779b97f4a7c15ull) >> 40) & mask;
@@ -89,7 +89,7 @@ void AddPair(const ClothModel::Data& model, uint32_t i, uint32_t j, ClothState::
   }
 }
 
-// reach: the square of the distance within which two are a pair.
+// reach is the square of the distance within which two particles form a pair.
 inline void AddPairIfNear(
     const ClothModel::Data& model, uint32_t i, uint32_t j, float reach, ClothState::Data& state) {
   const Float4 apart = state.before[j] - state.before[i];
@@ -121,7 +121,7 @@ void FindPairs(const ClothModel::Data& model, ClothState::Data& state) {
   ClothGrid& grid = state.grid;
   const float distance = model.contact_distance + kPairMargin;
   const float reach = distance * distance;
-  // Where they will be halfway to the next search; `before` is free between steps.
+  // Predicted positions halfway to the next search. `before` is unused between steps.
   for (size_t i = 0; i < state.positions.size(); ++i) {
     state.before[i] = state.positions[i] + state.velocities[i] * kForesight;
   }
@@ -133,7 +133,7 @@ void FindPairs(const ClothModel::Data& model, ClothState::Data& state) {
         AddPairIfNear(model, own[k], own[l], reach, state);
       }
     }
-    // Half of the 26 neighbours: the others find this one.
+    // Checks half of the 26 neighbours; the other half find this cell from their side.
     for (int n = 14; n < 27; ++n) {
       const Cell at = Neighbour(grid.cells[c], n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
       const uint32_t other = grid.slots[SlotOf(at, grid)];

@@ -15,7 +15,7 @@ void Resize(ClothBody& body, size_t particles, size_t capsules) {
 
 }  // namespace
 
-// All that a step ever needs, so that none allocates.
+// Allocates all memory that steps need, so that no step allocates.
 ClothState::ClothState(const ClothModel& model) : data_(std::make_unique<Data>()) {
   const ClothModel::Data& m = model.data();
   Data& d = *data_;

@@ -10,11 +10,11 @@
 namespace lararium::human {
 namespace {
 
-constexpr float kComponentRange = 0.70710678f;  // the three smaller ones are within
+constexpr float kComponentRange = 0.70710678f;  // bound of the three smaller components
 constexpr float kRotationSteps = 32767.0f;      // 15 bits
 constexpr float kVectorSteps = 65535.0f;
 
-// Nearly as slerp for neighbouring keys, at a fraction of its time.
+// A close approximation of slerp for neighbouring keys at a fraction of its time.
 glm::quat Between(const glm::quat& a, const glm::quat& b, float t) {
   const float cosine = glm::dot(a, b);
   if (std::abs(cosine) < 0.995f) {
@@ -44,7 +44,7 @@ void CompressedClip::PackRotations(const Clip& clip) {
   for (size_t joint = 0; joint < still_.size(); ++joint) {
     for (size_t key = 1; key < key_count_; ++key) {
       const glm::quat& rotation = clip.keys[key * still_.size() + joint].rotation;
-      // Of small angles the cosine says nothing; the difference does.
+      // For small angles the cosine is not precise enough, but the difference is.
       const glm::quat& first = still_[joint].rotation;
       const float sign = glm::dot(first, rotation) < 0.0f ? -1.0f : 1.0f;
       const glm::quat difference = first - rotation * sign;

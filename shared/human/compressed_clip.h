@@ -1,6 +1,6 @@
 #pragma once
 
-// A clip as it is played: only what moves, in few bytes.
+// A clip in the form that is played: only joints that move are stored, in few bytes.
 
 #include <array>
 #include <cstdint>
@@ -12,30 +12,30 @@
 
 namespace lararium::human {
 
-// Structures of arrays, key by key, so that a sample reads two rows of memory. Against
-// the clip it was made from, at its keys: rotations within kRotationError, translations
-// and scales within kShareError of the range through which they move. Between keys the
-// error grows by that of a chord against its arc, below 1e-4 radians.
+// Structures of arrays, key by key, so that a sample reads two rows of memory. At the keys of the
+// original clip, rotations are within kRotationError, and translations and scales within
+// kShareError of the range through which they move. Between keys the error grows by that of a chord
+// against its arc, below 1e-4 radians.
 class CompressedClip {
  public:
   static constexpr float kRotationError = 2.5e-4f;  // radians
   static constexpr float kShareError = 1.0e-5f;
-  // What moves less than this does not move: radians, metres or share of scale.
+  // Channels that move less than this are stored as constant: radians, metres or share of scale.
   static constexpr float kStill = 1.0e-4f;
 
   CompressedClip() = default;
-  // clip must be valid for a skeleton of so many joints.
+  // Requires a clip that is valid for a skeleton of joint_count joints.
   CompressedClip(const Clip& clip, size_t joint_count);
 
-  // As SampleClip of the clip it was made from.
+  // Equivalent to SampleClip() of the original clip, within the errors above.
   void Sample(double time, std::span<JointTransform> pose) const;
 
   size_t bytes() const;
   size_t joint_count() const { return still_.size(); }
 
  private:
-  // The three smaller components of a unit quaternion in 15 bits each and which one is
-  // missing in the two highest bits of the first two.
+  // The three smaller components of a unit quaternion in 15 bits each. The two highest bits of the
+  // first two values tell which component is missing.
   using PackedRotation = std::array<uint16_t, 3>;
   using PackedVector = std::array<uint16_t, 3>;
   // Vectors of one kind: translations or scales.
@@ -64,13 +64,13 @@ class CompressedClip {
   float keys_per_second_ = 30.0f;
   bool loops_ = false;
   size_t key_count_ = 0;
-  std::vector<JointTransform> still_;      // the first key
-  std::vector<uint16_t> rotating_;         // joints
+  std::vector<JointTransform> still_;      // first key of the clip
+  std::vector<uint16_t> rotating_;         // joints that rotate
   std::vector<PackedRotation> rotations_;  // [key][track]
   VectorTracks translations_, scales_;
 };
 
-// One person's sample of many; outputs are apart.
+// One sample of a batch, which writes its own pose.
 struct SampleJob {
   const CompressedClip* clip = nullptr;
   double time = 0.0;

@@ -16,16 +16,17 @@ constexpr std::array<std::string_view, kVisemeCount> kVisemeNames = {
 constexpr std::array<std::string_view, kExpressionCount> kExpressionNames = {
     "neutral", "joy", "sadness", "anger", "fear", "disgust", "surprise"};
 
-// How much a viseme insists on its shape: lips must close for PP and touch the teeth
-// for FF; what tongue and palate do shows little (ours, in the order of Cohen &
-// Massaro's magnitudes).
+// Dominance of each viseme: lips must close for PP and touch the teeth for FF, while shapes of
+// tongue and palate are hardly visible. The values are ours, in the order of Cohen & Massaro's
+// magnitudes.
 constexpr std::array<float, kVisemeCount> kDominance = {
     0.7f, 3.0f, 2.4f, 1.4f, 1.0f, 0.7f, 1.8f, 1.2f, 0.8f, 1.1f, 1.3f, 1.2f, 1.0f, 1.5f, 1.7f};
-constexpr float kSpread = 0.055f;  // seconds in which dominance falls to 1/e
-// A segment is fully dominant but for so much at either end: a share, at most seconds.
+constexpr float kSpread = 0.055f;  // Seconds in which dominance falls to 1/e.
+// A segment is fully dominant except at its two ends: the share of its duration that each end
+// takes, and the upper limit in seconds.
 constexpr float kEdgeShare = 0.2f;
 constexpr float kLongestEdge = 0.04f;
-constexpr float kWindow = 0.35f;  // seconds beyond which a segment has no say
+constexpr float kWindow = 0.35f;  // Seconds beyond which a segment has no influence.
 
 template <size_t N>
 std::optional<size_t> IndexOf(const std::array<std::string_view, N>& names, std::string_view name) {
@@ -94,9 +95,9 @@ Motion MouthMotion(const Human& human, const FaceModel& model) {
   return motion;
 }
 
-// The share of a morph's motion that lies where speech moves the face.
+// Returns the share of a morph's motion that is at vertices that speech moves.
 float MouthShare(const MorphTarget& morph, const Motion& mouth) {
-  constexpr float kMoved = 0.002f;  // metres by which the mouth clearly moves
+  constexpr float kMoved = 0.002f;  // metres that count as clear motion of the mouth
   float inside = 0.0f, all = 0.0f;
   for (const MorphTarget::Part& part : morph.parts) {
     for (size_t i = 0; i < part.vertices.size(); ++i) {
@@ -131,7 +132,7 @@ Status VisemeTrack::Validate(const std::string& place) const {
   for (size_t i = 0; i < keys.size(); ++i) {
     const std::string key = place + ": viseme " + std::to_string(i);
     if (static_cast<int>(keys[i].viseme) >= kVisemeCount) {
-      return Status::Error(key, "it is none of the fifteen");
+      return Status::Error(key, "it is not one of the fifteen visemes");
     }
     if (!(keys[i].time >= before) || !(keys[i].time <= duration)) {
       return Status::Error(key, "its time is not between its neighbours'");
@@ -142,13 +143,13 @@ Status VisemeTrack::Validate(const std::string& place) const {
     before = keys[i].time;
   }
   if (!std::isfinite(duration) || duration < 0.0f) {
-    return Status::Error(place, "the visemes' duration is not a possible number");
+    return Status::Error(place, "the duration of the visemes is not valid");
   }
   return Status();
 }
 
 std::array<float, kVisemeCount> SampleVisemes(const VisemeTrack& track, double time) {
-  // Silence lies before and after.
+  // Before and after the track there is silence.
   const float now =
       static_cast<float>(std::clamp(time, -1.0, static_cast<double>(track.duration) + 1.0));
   const float begin = track.keys.empty() ? track.duration : track.keys.front().time;
@@ -157,7 +158,7 @@ std::array<float, kVisemeCount> SampleVisemes(const VisemeTrack& track, double t
   mix.Add(Viseme::kSil, 1.0f, track.duration, std::max(track.duration, now) + 1.0f);
   auto key = std::lower_bound(track.keys.begin(), track.keys.end(), now - kWindow,
                               [](const VisemeTrack::Key& k, float t) { return k.time < t; });
-  key -= key != track.keys.begin() ? 1 : 0;  // it may last until now
+  key -= key != track.keys.begin() ? 1 : 0;  // The key before may last until now.
   for (; key != track.keys.end() && key->time < now + kWindow; ++key) {
     const float end = key + 1 == track.keys.end() ? track.duration : (key + 1)->time;
     mix.Add(key->viseme, key->strength, key->time, end);
@@ -175,7 +176,7 @@ void SetExpression(Face& face, Expression expression, float intensity, float sec
 }
 
 void UpdateFace(Face& face, float seconds) {
-  // A speech that begins or breaks off does not make the mouth jump.
+  // Limits the speed, so that the mouth does not jump when speech begins or stops.
   constexpr float kMouthPerSecond = 18.0f;
   for (size_t i = 0; i < face.visemes.size(); ++i) {
     const float step = kMouthPerSecond * seconds;

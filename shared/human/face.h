@@ -1,6 +1,6 @@
 #pragma once
 
-// Speech, feelings and blinks on a face.
+// Speech, expressions and blinks of a face.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace lararium::human {
 
 struct Human;
 
-// The common set of fifteen: sil PP FF TH DD kk CH SS nn RR aa E ih oh ou.
+// The common set of fifteen visemes: sil PP FF TH DD kk CH SS nn RR aa E ih oh ou.
 enum class Viseme : uint8_t {
   kSil,
   kPP,
@@ -45,32 +45,33 @@ inline constexpr int kExpressionCount = 7;
 std::optional<Expression> ExpressionNamed(std::string_view name);
 std::string_view NameOf(Expression expression);
 
-// What a mouth does while something is said.
+// The mouth shapes of a spoken line over time.
 struct VisemeTrack {
   struct Key {
-    float time = 0.0f;  // seconds; it lasts until the next key
+    float time = 0.0f;  // seconds; the key lasts until the next one
     Viseme viseme = Viseme::kSil;
     float strength = 1.0f;  // 0..1
   };
   std::vector<Key> keys;  // ascending in time
-  float duration = 0.0f;  // seconds; where the last key ends
+  float duration = 0.0f;  // seconds; the last key ends here
 
   Status Validate(const std::string& place) const;
 };
 
-// The share of each viseme at a time, each 0..1, together at most 1: neighbours
-// run into one another by dominance functions (Cohen & Massaro, Modeling
-// Coarticulation in Synthetic Visual Speech, 1993). A pure function of time.
+// Returns the share of each viseme at a time, each 0..1 and together at most 1. Neighbouring
+// visemes overlap by dominance functions (Cohen & Massaro, Modeling Coarticulation in Synthetic
+// Visual Speech, 1993). A pure function of time.
 std::array<float, kVisemeCount> SampleVisemes(const VisemeTrack& track, double time);
 
-// All that a face remembers; plain values.
+// The complete state of a face, as plain values.
 struct Face {
-  std::array<float, kVisemeCount> visemes = {};  // set before each update
-  std::array<float, kVisemeCount> mouth = {};    // shown: follows within hundredths of a second
-  std::array<float, kExpressionCount> expressions = {};  // shown
-  std::array<float, kExpressionCount> goals = {};        // what they go to
+  std::array<float, kVisemeCount> visemes = {};  // Target shares; set them before each update.
+  // Shares shown; they follow `visemes` within hundredths of a second.
+  std::array<float, kVisemeCount> mouth = {};
+  std::array<float, kExpressionCount> expressions = {};  // Intensities shown.
+  std::array<float, kExpressionCount> goals = {};  // Intensities that `expressions` moves towards.
   float change_per_second = 2.0f;
-  // Where the change is eased: what it goes from, and how far it is.
+  // For an eased change: the intensities at its start, and how long it has run.
   std::array<float, kExpressionCount> from = {};
   float changed_for = 0.0f;  // seconds
   Ease ease = Ease::kLinear;
@@ -78,26 +79,27 @@ struct Face {
   friend bool operator==(const Face&, const Face&) = default;
 };
 
-// Goes to one expression of an intensity 0..1 over so many seconds.
+// Moves to one expression at an intensity 0..1 within the given number of seconds.
 void SetExpression(
     Face& face, Expression expression, float intensity, float seconds, Ease ease = Ease::kLinear);
 void UpdateFace(Face& face, float seconds);
 Face Interpolate(const Face& previous, const Face& current, float alpha);
 
-// What a face knows of one person; build once.
+// Constants of one person's face; build once.
 struct FaceModel {
   static constexpr int kNone = -1;
 
   std::array<int, kVisemeCount> visemes;  // indices into Human::face
   std::array<int, kExpressionCount> expressions;
-  std::array<int, 2> blinks;       // by side: right, left
-  std::vector<float> mouth_share;  // of each morph: how much of its motion is the mouth's
+  std::array<int, 2> blinks;  // index: side (kRight, kLeft)
+  // For each morph: the share of its motion that is near the mouth.
+  std::vector<float> mouth_share;  // Share of each morph's motion that visemes move too.
 };
 FaceModel MakeFaceModel(const Human& human);
 
-// Weights of the shapes of Human::face, and of the morphs they add up to. Speech takes
-// the mouth: an expression's morphs give way as far as they move what visemes move.
-// lids: 0 open .. 1 closed.
+// Computes the weights of the shapes of Human::face and of the morphs that they combine. Speech has
+// priority at the mouth: an expression's morph is reduced by the share of its motion that visemes
+// also move. lids: 0 is open, 1 is closed.
 void ComputeFaceWeights(const FaceModel& model,
                         const Human& human,
                         const Face& face,
@@ -105,7 +107,7 @@ void ComputeFaceWeights(const FaceModel& model,
                         std::span<float> shape_weights,
                         std::span<float> morph_weights);
 
-// Turns jaw, lids and whatever else shapes turn.
+// Turns the joints that shapes turn, such as jaw and lids.
 void ApplyFaceTurns(const Human& human,
                     std::span<const float> shape_weights,
                     std::span<JointTransform> pose);

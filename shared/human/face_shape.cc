@@ -26,7 +26,7 @@ Status MorphTarget::Validate(const std::vector<SkinnedMesh>& meshes,
   std::vector<bool> seen(meshes.size(), false);
   for (const Part& part : parts) {
     if (part.mesh >= meshes.size() || seen[part.mesh]) {
-      return Status::Error(at, "names a part that does not exist, or one twice");
+      return Status::Error(at, "names a part that does not exist, or names one twice");
     }
     seen[part.mesh] = true;
     if (part.position_deltas.size() != part.vertices.size() ||
@@ -48,12 +48,13 @@ Status FaceShape::Validate(size_t morph_count, size_t joint_count, const std::st
   const std::string at = place + ": face shape '" + name + "'";
   for (const Morph& morph : morphs) {
     if (morph.morph >= morph_count || !std::isfinite(morph.weight)) {
-      return Status::Error(at, "names a morph target that does not exist, or no possible weight");
+      return Status::Error(at,
+                           "names a morph target that does not exist, or has an invalid weight");
     }
   }
   for (const Turn& turn : turns) {
     if (turn.joint >= joint_count || !(std::abs(glm::length(turn.rotation) - 1.0f) < 1e-3f)) {
-      return Status::Error(at, "turns a joint that does not exist, or by no possible rotation");
+      return Status::Error(at, "turns a joint that does not exist, or has an invalid rotation");
     }
   }
   return Status();

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a face can be told to do, and how its vertices follow.
+// Named movements of a face and the vertex displacements behind them.
 
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
@@ -14,24 +14,25 @@ namespace lararium::human {
 
 struct SkinnedMesh;
 
-// Displacements of some vertices in the bind pose; weighted ones add up.
+// Displacements of some vertices in the bind pose. Weighted targets add up.
 struct MorphTarget {
   struct Part {
     uint32_t mesh = 0;                       // index into Human::meshes
-    std::vector<uint32_t> vertices;          // of it, ascending
+    std::vector<uint32_t> vertices;          // Vertex indices of the mesh, ascending.
     std::vector<glm::vec3> position_deltas;  // metres, parallel to vertices
-    std::vector<glm::vec3> normal_deltas;    // likewise; the sum is normalised
+    // Parallel to vertices; the summed normal is renormalised.
+    std::vector<glm::vec3> normal_deltas;
   };
 
   std::string name;
-  std::vector<Part> parts;  // at most one for each mesh
+  std::vector<Part> parts;  // A mesh has no more than one part.
 
   Status Validate(const std::vector<SkinnedMesh>& meshes, const std::string& place) const;
 };
 
-// A named movement of the face, from 0 (rest) to 1. Names: the visemes sil, PP, FF,
-// TH, DD, kk, CH, SS, nn, RR, aa, E, ih, oh, ou; the expressions joy, sadness, anger,
-// fear, disgust, surprise; blink_l, blink_r; others as the figure has them.
+// A named movement of the face, from 0 (rest) to 1. Standard names are the visemes sil, PP, FF, TH,
+// DD, kk, CH, SS, nn, RR, aa, E, ih, oh, ou, the expressions joy, sadness, anger, fear, disgust,
+// surprise, and blink_l, blink_r. A character may have further shapes with other names.
 struct FaceShape {
   struct Morph {
     uint32_t morph = 0;  // index into Human::morphs

@@ -24,7 +24,8 @@ inline bool Finite(const glm::mat4& m) {
   return Finite(m[0]) && Finite(m[1]) && Finite(m[2]) && Finite(m[3]);
 }
 
-// Finite, with a rotation of unit length to within what float files keep.
+// True if all values are finite and the rotation has unit length within the precision of floats in
+// files.
 inline bool Valid(const JointTransform& transform) {
   const float length = glm::length(transform.rotation);
   return std::abs(length - 1.0f) < 1e-3f && Finite(transform.translation) &&

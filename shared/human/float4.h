@@ -1,8 +1,7 @@
 #pragma once
 
-// Four floats in one register: a vector of three and a lane that is zero. The loops
-// over constraints of cloth gather particles by index, so that one particle to a
-// register needs neither gathers nor scatters.
+// Four floats in one register: a 3-vector and a lane that is zero. The loops over the cloth's
+// constraints access particles by index; one particle in each register avoids gathers and scatters.
 
 #include <cmath>
 #include <glm/vec3.hpp>

@@ -26,7 +26,7 @@ class FourierCurve {
     for (int h = 0; h <= kHarmonics; ++h) {
       const float scale = (h == 0 ? 1.0f : 2.0f) / static_cast<float>(kSamples);
       for (int i = 0; i < kSamples; ++i) {
-        const float angle = 2.0f * kPi * static_cast<float>(h * i) / static_cast<float>(kSamples);
+        const float angle = 2.0f * kPiF * static_cast<float>(h * i) / static_cast<float>(kSamples);
         const float value = scale * glm::radians(samples[static_cast<size_t>(i)]);
         cosine_[static_cast<size_t>(h)] += value * std::cos(angle);
         sine_[static_cast<size_t>(h)] += value * std::sin(angle);
@@ -37,7 +37,7 @@ class FourierCurve {
   float At(float phase) const {
     float sum = 0.0f;
     for (size_t h = 0; h <= kHarmonics; ++h) {
-      const float angle = 2.0f * kPi * static_cast<float>(h) * phase;
+      const float angle = 2.0f * kPiF * static_cast<float>(h) * phase;
       sum += cosine_[h] * std::cos(angle) + sine_[h] * std::sin(angle);
     }
     return sum;
@@ -47,29 +47,29 @@ class FourierCurve {
   std::array<float, kHarmonics + 1> cosine_ = {}, sine_ = {};
 };
 
-// Share of the stride in which the curves have the foot on the floor.
+// Share of the stride in which the foot is on the floor in these curves.
 constexpr float kCurveStance = 0.61f;
-// Segments of the leg (Drillis & Contini, 1966, in Winter, 2009), over hip height.
+// Lengths of leg segments (Drillis & Contini, 1966, in Winter, 2009), as shares of the hip height.
 constexpr float kThighLength = 0.245f / 0.53f;
 constexpr float kShankLength = 0.246f / 0.53f;
-// Of the flat foot through a stance: fitted to the curves (the line through the ankle's
-// way against the hip between 3 % and 58 %, the foot's roll taken out).
+// Constants of the flat foot through a stance, fitted to the curves: the line through the ankle's
+// path against the hip between 3 % and 58 %, without the foot's roll.
 constexpr float kStrideLength = 1.547f;
 constexpr float kAheadShare = 0.333f;
-constexpr float kHipRise = 0.02f;  // half of its motion
+constexpr float kHipRise = 0.02f;  // half of the hip's vertical motion
 
 constexpr int kTableSize = 33;
 template <typename T>
 using Table = std::array<T, kTableSize>;
 
 template <typename T>
-struct Between {
+struct PhaseBetween {
   const T& a;
   const T& b;
   float t;
 };
 template <typename T>
-Between<T> Lookup(const Table<T>& table, float x) {
+PhaseBetween<T> Lookup(const Table<T>& table, float x) {
   const float position = std::clamp(x, 0.0f, 1.0f) * (kTableSize - 1);
   const size_t first = std::min(static_cast<size_t>(position), size_t{kTableSize - 2});
   return {table[first], table[first + 1], position - static_cast<float>(first)};
@@ -84,14 +84,14 @@ Table<T> Tabulate(const F& function) {
   return table;
 }
 
-// The ankle against where the hip was at phase 0: forward and up.
+// Position of the ankle relative to the hip at phase 0: forward and up.
 struct Planar {
   float forward, up;
 };
 Planar AnkleWay(float phase) {
   const float thigh = ThighInclination(phase);
   const float shank = thigh - KneeFlexion(phase);
-  const float hip = kHipRise * std::cos(4.0f * kPi * (phase - 0.8f));
+  const float hip = kHipRise * std::cos(4.0f * kPiF * (phase - 0.8f));
   return {kThighLength * std::sin(thigh) + kShankLength * std::sin(shank) + kStrideLength * phase,
           hip - kThighLength * std::cos(thigh) - kShankLength * std::cos(shank)};
 }
@@ -106,9 +106,9 @@ SwingPoint ComputeSwing(float swing) {
 }
 
 // The sole meets the floor at 20 degrees and is flat after a ninth of the stride (Perry &
-// Burnfield, 2010); the heel rises as the curves have it.
+// Burnfield, 2010); the heel rises as in the curves.
 float ComputeStancePitch(float stance) {
-  constexpr float kFlat = 0.18f;  // of the stance
+  constexpr float kFlat = 0.18f;  // share of the stance
   const float landing = glm::radians(20.0f) * (1.0f - glm::smoothstep(0.0f, kFlat, stance));
   const float rise = stance > kFlat ? std::min(SolePitch(kCurveStance * stance), 0.0f) : 0.0f;
   return landing + rise * glm::smoothstep(glm::radians(7.0f), glm::radians(16.0f), -rise);
@@ -140,7 +140,7 @@ Stride StrideAt(
   constexpr float kGravity = 9.81f;
   constexpr float kWalkRatio = 0.838f;    // 6.4 mm per step a minute with legs of 0.9 m
   constexpr float kStepInPlace = 0.24f;   // strides per sqrt(leg length / g)
-  constexpr float kTurnPerStride = 1.5f;  // radians on the spot
+  constexpr float kTurnPerStride = 1.5f;  // radians per stride when turning on the spot
   const float clock = std::sqrt(kGravity / leg_length);
   const float pace = speed / std::sqrt(kGravity * leg_length);
   const float by_speed = 0.5f * kWalkRatio * std::sqrt(pace) * (1.0f + 0.7f * (1.0f - forwardness));
@@ -150,7 +150,8 @@ Stride StrideAt(
                      std::max(by_speed, on_the_spot * std::max(kStepInPlace, by_turn));
   Stride stride;
   stride.per_second = rate * clock;
-  // 62 % at a comfortable speed, less when faster (Murray et al., 1964, 1966).
+  // The stance is 62 % of the stride at a comfortable speed and less at higher speeds (Murray et
+  // al., 1964, 1966).
   stride.stance_share = std::clamp(0.62f - 0.16f * (pace - 0.43f), 0.56f, 0.68f);
   const float length = rate > 0.0f ? pace / rate : 0.0f;
   const float begins = glm::smoothstep(0.02f, 0.12f, pace);

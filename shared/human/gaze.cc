@@ -5,29 +5,28 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "shared/core/units.h"
 #include "shared/human/turns.h"
 
 namespace lararium::human {
 namespace {
+constexpr glm::vec3 kGazeForward(0.0f, 0.0f, -1.0f);
 
-constexpr float kDegree = kPi / 180.0f;
-constexpr glm::vec3 kForward(0.0f, 0.0f, -1.0f);
-
-// Yaw to the left and pitch up of a direction.
+// Returns yaw (to the left) and pitch (upwards) of a direction.
 glm::vec2 Angles(const glm::vec3& direction) {
   return {std::atan2(-direction.x, -direction.z),
           std::atan2(direction.y, std::hypot(direction.x, direction.z))};
 }
 
 glm::vec3 AlongAngles(const glm::vec2& angles) {
-  return TurnY(angles.x) * (TurnX(angles.y) * kForward);
+  return TurnY(angles.x) * (TurnX(angles.y) * kGazeForward);
 }
 
 float AngleBetween(const glm::vec3& a, const glm::vec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// One tick of one pair of eyes.
+// Computes one tick of one person's gaze.
 class Looker {
  public:
   Looker(
@@ -42,7 +41,7 @@ class Looker {
     state_.random = seed * 0x9e3779b97f4a7c15ull + 1;
     state_.next_blink = Uniform(0.5f, 4.0f);
     state_.aversion_left = -Uniform(2.0f, 4.0f);
-    state_.fixation = eyes_ + 3.0f * (TurnY(heading_) * kForward);
+    state_.fixation = eyes_ + 3.0f * (TurnY(heading_) * kGazeForward);
   }
 
   void Update() {
@@ -67,7 +66,7 @@ class Looker {
     return Angles(TurnY(-heading_) * (point - eyes_));
   }
 
-  // What is right behind is not looked at: whoever wants to see it turns first.
+  // A target directly behind is ignored, because a person turns the body to look there.
   void ChooseAttention() {
     const float yaw = std::abs(BodyAngles(state_.target).x);
     const bool near = glm::distance(state_.target, eyes_) < 0.1f;
@@ -88,15 +87,15 @@ class Looker {
     return eyes_ + glm::length(way) * AlongAngles(angles);
   }
 
-  // Eyes never rest: over a face or a thing within half a degree or so, far around
-  // where there is nothing to look at.
+  // The eyes never rest: the wandering covers about half a degree on a target, and wide angles
+  // without one.
   void Wander() {
     state_.wander_left -= seconds_;
     if (state_.wander_left > 0.0f) {
       return;
     }
-    const float wide = attends_ ? 0.7f * kDegree : 14.0f * kDegree;
-    const float down = attends_ ? 0.0f : -6.0f * kDegree;
+    const float wide = attends_ ? 0.7f * kRadiansPerDegreeF : 14.0f * kRadiansPerDegreeF;
+    const float down = attends_ ? 0.0f : -6.0f * kRadiansPerDegreeF;
     state_.wander = {Uniform(-wide, wide), down + Uniform(-0.5f * wide, 0.5f * wide)};
     state_.wander_left = attends_ ? Uniform(0.4f, 1.6f) : Uniform(0.8f, 3.5f);
   }
@@ -115,7 +114,8 @@ class Looker {
     } else if (before <= 0.0f && state_.aversion_left >= 0.0f) {
       state_.aversion_left = Uniform(0.6f, 1.6f);
       const float side = Uniform(0.0f, 1.0f) < 0.5f ? -1.0f : 1.0f;
-      state_.aversion = {side * Uniform(6.0f, 16.0f) * kDegree, Uniform(-9.0f, 3.0f) * kDegree};
+      state_.aversion = {side * Uniform(6.0f, 16.0f) * kRadiansPerDegreeF,
+                         Uniform(-9.0f, 3.0f) * kRadiansPerDegreeF};
     }
     return state_.aversion_left > 0.0f ? state_.aversion : glm::vec2(0.0f);
   }
@@ -127,31 +127,31 @@ class Looker {
     }
     state_.latency -= seconds_;
     const float error = AngleBetween(state_.fixation - eyes_, aim - eyes_);
-    constexpr float kSaccade = 0.35f * kDegree;
+    constexpr float kSaccade = 0.35f * kRadiansPerDegreeF;
     if (error > kSaccade && state_.latency <= 0.0f && !Follows(error)) {
       StartSaccade(error);
       return;
     }
-    // Smooth pursuit, up to 40 degrees a second.
-    const float most = 40.0f * kDegree * seconds_;
+    // Smooth pursuit at up to 40 degrees a second.
+    const float most = 40.0f * kRadiansPerDegreeF * seconds_;
     const float share = error > 1e-6f ? std::min(Approach(seconds_, 0.06f), most / error) : 1.0f;
     state_.fixation = glm::mix(state_.fixation, aim, share);
   }
 
-  // A target that drifts away slowly is followed without a jump.
+  // True if the eyes can follow a slowly drifting target without a saccade.
   bool Follows(float error) const {
-    return error < 1.0f * kDegree && state_.wander_left > 0.2f && attends_ &&
+    return error < 1.0f * kRadiansPerDegreeF && state_.wander_left > 0.2f && attends_ &&
            state_.latency > -0.05f;
   }
 
-  // Duration by the main sequence: 2.2 ms a degree and 21 ms (Carpenter, Movements of
-  // the Eyes, 1988; Bahill, Clark & Stark, Math. Biosci. 24, 1975).
+  // Duration from the main sequence: 2.2 ms for each degree plus 21 ms (Carpenter, Movements of the
+  // Eyes, 1988; Bahill, Clark & Stark, Math. Biosci. 24, 1975).
   void StartSaccade(float amplitude) {
     state_.saccade_from = state_.fixation;
     state_.saccade_time = 0.0f;
-    state_.saccade_duration = 0.021f + 0.0022f * amplitude / kDegree;
+    state_.saccade_duration = 0.021f + 0.0022f * amplitude / kRadiansPerDegreeF;
     // Lids close with most gaze shifts beyond 33 degrees (Evinger et al., 1994).
-    const float chance = glm::smoothstep(15.0f, 40.0f, amplitude / kDegree);
+    const float chance = glm::smoothstep(15.0f, 40.0f, amplitude / kRadiansPerDegreeF);
     if (state_.blink_time < 0.0f && Uniform(0.0f, 1.0f) < 0.9f * chance) {
       state_.blink_time = 0.0f;
     }
@@ -163,8 +163,8 @@ class Looker {
     const float way = t * t * t * (10.0f + t * (6.0f * t - 15.0f));
     const glm::vec3 from = state_.saccade_from - eyes_, to = aim - eyes_;
     const glm::vec3 direction =
-        Share(Arc(Direction(from, kForward), Direction(to, kForward)), way) *
-        Direction(from, kForward);
+        Share(Arc(Direction(from, kGazeForward), Direction(to, kGazeForward)), way) *
+        Direction(from, kGazeForward);
     state_.fixation = eyes_ + glm::mix(glm::length(from), glm::length(to), way) * direction;
     if (t >= 1.0f) {
       state_.saccade_duration = 0.0f;
@@ -172,26 +172,26 @@ class Looker {
     }
   }
 
-  // The head takes what lies beyond the comfortable range of the eyes (Freedman &
-  // Sparks, J. Neurophysiol. 77, 1997: it hardly moves below 15 to 20 degrees), the
-  // trunk a part of what lies beyond 40.
+  // The head takes the angle beyond the comfortable range of the eyes (Freedman & Sparks, J.
+  // Neurophysiol. 77, 1997: it hardly moves below 15 to 20 degrees), and the trunk takes a part of
+  // the angle beyond 40 degrees.
   void MoveHead() {
     const glm::vec2 gaze = attends_ ? BodyAngles(state_.fixation) : glm::vec2(0.0f);
     const auto beyond = [](float angle, float range) {
       return std::copysign(std::max(std::abs(angle) - range, 0.0f), angle);
     };
-    const float torso = std::clamp(0.45f * beyond(gaze.x, 40.0f * kDegree), -GazeLimits::kTorsoYaw,
-                                   GazeLimits::kTorsoYaw);
-    const float yaw = std::clamp(beyond(gaze.x, 12.0f * kDegree) - torso, -GazeLimits::kHeadYaw,
-                                 GazeLimits::kHeadYaw);
-    const float pitch = std::clamp(0.75f * beyond(gaze.y, 6.0f * kDegree), -GazeLimits::kHeadDown,
-                                   GazeLimits::kHeadUp);
+    const float torso = std::clamp(0.45f * beyond(gaze.x, 40.0f * kRadiansPerDegreeF),
+                                   -GazeLimits::kTorsoYaw, GazeLimits::kTorsoYaw);
+    const float yaw = std::clamp(beyond(gaze.x, 12.0f * kRadiansPerDegreeF) - torso,
+                                 -GazeLimits::kHeadYaw, GazeLimits::kHeadYaw);
+    const float pitch = std::clamp(0.75f * beyond(gaze.y, 6.0f * kRadiansPerDegreeF),
+                                   -GazeLimits::kHeadDown, GazeLimits::kHeadUp);
     Spring(yaw, 10.0f, state_.head.x, state_.head_rate.x);
     Spring(pitch, 9.0f, state_.head.y, state_.head_rate.y);
     Spring(torso, 4.5f, state_.torso, state_.torso_rate);
   }
 
-  // Critically damped; exact for a goal that rests.
+  // A critically damped spring; exact for a constant goal.
   void Spring(float goal, float frequency, float& value, float& rate) const {
     const float offset = value - goal;
     const float decay = std::exp(-frequency * seconds_);
@@ -233,9 +233,9 @@ class Looker {
   bool attends_ = false;
 };
 
-// A turn of the head against the chest, brought within what necks can do.
+// Limits the rotation of the head against the chest to the range of a neck.
 glm::quat WithinNeck(const glm::quat& chest_from_head) {
-  const glm::vec2 angles = Angles(chest_from_head * kForward);
+  const glm::vec2 angles = Angles(chest_from_head * kGazeForward);
   const float yaw = std::clamp(angles.x, -1.25f, 1.25f);
   const float pitch = std::clamp(angles.y, -0.80f, 0.70f);
   const glm::quat level = TurnX(-angles.y) * TurnY(-angles.x) * chest_from_head;
@@ -258,7 +258,7 @@ class GazePose {
     if (body_.neck.empty()) {
       return;
     }
-    constexpr float kKept = 0.35f;  // of what clip or gait does with the head
+    constexpr float kKept = 0.35f;  // share of the head motion of clip or gait that remains
     const glm::quat before = Turned(body_.head);
     const glm::quat looking = TurnY(state.torso + state.head.x) * TurnX(state.head.y);
     const glm::quat chest = body_.chest() == kNoJoint ? kNoTurn : Turned(body_.chest());
@@ -271,7 +271,7 @@ class GazePose {
     }
   }
 
-  // Each eye rests on the point, as far as it turns.
+  // Turns each eye to the point within the eye's limits.
   void TurnEyes(const glm::vec3& fixation) {
     const glm::quat head = body_.head == kNoJoint ? kNoTurn : Turned(body_.head);
     for (const JointIndex eye : body_.eyes) {
@@ -282,7 +282,7 @@ class GazePose {
       const glm::vec2 angles = Angles(glm::conjugate(head) * (fixation - at));
       const glm::vec2 within(std::clamp(angles.x, -GazeLimits::kEyeYaw, GazeLimits::kEyeYaw),
                              std::clamp(angles.y, -GazeLimits::kEyeDown, GazeLimits::kEyeUp));
-      const glm::quat turn = head * Arc(kForward, AlongAngles(within));  // Listing's law
+      const glm::quat turn = head * Arc(kGazeForward, AlongAngles(within));  // Listing's law
       SetActorRotation(skeleton_, eye, turn * RestRotation(eye), pose_);
     }
   }
@@ -291,19 +291,19 @@ class GazePose {
   const glm::quat& RestRotation(JointIndex joint) const {
     return body_.rest[static_cast<size_t>(joint)].rotation;
   }
-  // How a joint is turned from rest, in actor axes.
+  // Returns the rotation of a joint from its rest pose, in actor axes.
   glm::quat Turned(JointIndex joint) const {
     return ActorFromJoint(skeleton_, pose_, joint).rotation * glm::conjugate(RestRotation(joint));
   }
 
-  const Body& body_;
+  const BodyRig& body_;
   const Skeleton& skeleton_;
   std::span<JointTransform> pose_;
 };
 
 }  // namespace
 
-GazeModel MakeGazeModel(const Body& body) {
+GazeModel MakeGazeModel(const BodyRig& body) {
   GazeModel model;
   model.body = body;
   model.has_eyes = body.eyes[kRight] != kNoJoint && body.eyes[kLeft] != kNoJoint;

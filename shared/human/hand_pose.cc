@@ -15,13 +15,13 @@ namespace {
 constexpr std::array<std::string_view, kHandPoseCount> kNames = {
     "relaxed", "flat", "fist", "cylinder", "pinch", "point", "ladle", "bowl"};
 
-// Flexion from the knuckle outward and the spread at the knuckle, degrees. Of the
-// thumb: flexion of its three joints, and its opposition.
+// Flexion of a finger's joints from the knuckle outward, and spread at the knuckle, in degrees. For
+// the thumb: flexion of its three joints, and opposition.
 struct FingerPose {
   std::array<float, 3> flexion;
   float spread;
 };
-using HandAngles = std::array<FingerPose, Body::kFingers>;
+using HandAngles = std::array<FingerPose, BodyRig::kFingers>;
 
 // Set by eye, within the ranges of healthy fingers (90, 100, 70 degrees).
 constexpr std::array<HandAngles, kHandPoseCount> kPoses = {{
@@ -63,7 +63,7 @@ constexpr std::array<HandAngles, kHandPoseCount> kPoses = {{
       {{22, 18, 9}, -11}}},
 }};
 
-// The mean of all poses by their shares, degrees.
+// The mean of all poses weighted by their shares, degrees.
 HandAngles Blend(const std::array<float, kHandPoseCount>& shares) {
   HandAngles sum = {};
   for (size_t pose = 0; pose < kPoses.size(); ++pose) {
@@ -80,7 +80,8 @@ HandAngles Blend(const std::array<float, kHandPoseCount>& shares) {
   return sum;
 }
 
-// Radians. What a figure with fewer joints lacks, its last ones take over in part.
+// Returns the flexion in radians. If a character has fewer joints, its last joint takes over a part
+// of the flexion of the missing ones.
 float FlexionOf(const FingerPose& finger, const HandModel::Joint& joint) {
   float flexion = finger.flexion[joint.segment];
   for (size_t i = joint.segment + 1u; joint.last && i < finger.flexion.size(); ++i) {
@@ -91,12 +92,12 @@ float FlexionOf(const FingerPose& finger, const HandModel::Joint& joint) {
 
 class HandMeasurer {
  public:
-  HandMeasurer(const Skeleton& skeleton, const Body& body, int side)
+  HandMeasurer(const Skeleton& skeleton, const BodyRig& body, int side)
       : skeleton_(skeleton), body_(body), palm_(FindPalm(body, side)), side_(side) {}
 
   std::vector<HandModel::Joint> Measure() const {
     std::vector<HandModel::Joint> joints;
-    for (int finger = 0; finger < Body::kFingers; ++finger) {
+    for (int finger = 0; finger < BodyRig::kFingers; ++finger) {
       MeasureFinger(finger, joints);
     }
     return joints;
@@ -105,7 +106,7 @@ class HandMeasurer {
  private:
   const JointFrame& Rest(JointIndex joint) const { return body_.rest[static_cast<size_t>(joint)]; }
 
-  // Towards the finger's next joint, or its end; the way before where there is neither.
+  // Direction to the finger's next joint or its end; `before` if it has neither.
   glm::vec3 Segment(JointIndex joint, const glm::vec3& before) const {
     for (size_t i = 0; i < skeleton_.size(); ++i) {
       if (skeleton_.parents[i] == joint) {
@@ -119,7 +120,7 @@ class HandMeasurer {
     const auto& chain =
         body_.fingers[static_cast<size_t>(side_)][static_cast<size_t>(finger)].joints;
     glm::vec3 before = palm_.along;
-    if (finger == Body::kThumb && chain[0] != kNoJoint) {
+    if (finger == BodyRig::kThumb && chain[0] != kNoJoint) {
       before = Direction(
           Rest(chain[0]).position - Rest(body_.arms[static_cast<size_t>(side_)].wrist).position,
           palm_.along);
@@ -141,7 +142,7 @@ class HandMeasurer {
     const glm::quat joint_from_actor = glm::conjugate(Rest(joint.joint).rotation);
     const glm::quat rest = skeleton_.rest[static_cast<size_t>(joint.joint)].rotation;
     glm::vec3 flexed = -palm_.back, spread = palm_.thumb;
-    if (joint.finger == Body::kThumb) {
+    if (joint.finger == BodyRig::kThumb) {
       // Thumbs bend across the palm and oppose towards it.
       flexed = glm::normalize(-palm_.thumb - 0.25f * palm_.back);
       spread = glm::normalize(-palm_.back - 0.4f * palm_.thumb);
@@ -151,7 +152,7 @@ class HandMeasurer {
     joint.spread =
         joint_from_actor * Direction(glm::cross(direction, spread), AnyAcross(direction));
     joint.straight = rest;
-    if (joint.finger == Body::kThumb) {
+    if (joint.finger == BodyRig::kThumb) {
       return;
     }
     const glm::vec3 a = Direction(Across(before, axis), direction);
@@ -169,7 +170,7 @@ class HandMeasurer {
   }
 
   const Skeleton& skeleton_;
-  const Body& body_;
+  const BodyRig& body_;
   Palm palm_;
   int side_;
 };
@@ -211,7 +212,7 @@ HandState Interpolate(const HandState& previous, const HandState& current, float
   return mixed;
 }
 
-HandModel MakeHandModel(const Skeleton& skeleton, const Body& body) {
+HandModel MakeHandModel(const Skeleton& skeleton, const BodyRig& body) {
   HandModel model;
   for (const int side : {kRight, kLeft}) {
     if (body.arms[static_cast<size_t>(side)].whole()) {
@@ -223,7 +224,7 @@ HandModel MakeHandModel(const Skeleton& skeleton, const Body& body) {
 
 void ApplyHand(const HandModel& model,
                const HandState& state,
-               const LifeSample& life,
+               const IdleMotionSample& idle_motion,
                int side,
                std::span<JointTransform> pose) {
   if (state.strength <= 0.0f) {
@@ -232,7 +233,7 @@ void ApplyHand(const HandModel& model,
   const HandAngles angles = Blend(state.shares);
   for (const HandModel::Joint& joint : model.joints[static_cast<size_t>(side)]) {
     const FingerPose& finger = angles[joint.finger];
-    const float small = life.fingers[static_cast<size_t>(side)][joint.finger];
+    const float small = idle_motion.fingers[static_cast<size_t>(side)][joint.finger];
     const float flexion = FlexionOf(finger, joint) + small;
     const float spread = joint.segment == 0 ? glm::radians(finger.spread) : 0.0f;
     const glm::quat turned = joint.straight * glm::angleAxis(spread, joint.spread) *

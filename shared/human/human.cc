@@ -20,7 +20,7 @@ bool AreWeights(const glm::vec4& w) {
          std::abs(w.x + w.y + w.z + w.w - 1.0f) < 1e-3f;
 }
 
-// At most one cloth moves a part.
+// True if each mesh is moved by at most one cloth.
 bool EachHasItsMesh(const std::vector<Cloth>& cloths) {
   for (size_t i = 0; i < cloths.size(); ++i) {
     for (size_t k = 0; k < i; ++k) {
@@ -50,7 +50,7 @@ Status SkinnedMesh::Validate(size_t joint_count,
   }
   LARARIUM_RETURN_IF_ERROR(ValidateTriangles(indices, coarser, count, part));
   if (!std::isfinite(error) || error < 0.0f) {
-    return Status::Error(part, "a level of detail has no possible error");
+    return Status::Error(part, "a level of detail has an invalid error value");
   }
   if (material != Material::kNone && (material < 0 || size_t(material) >= material_count)) {
     return Status::Error(part, "names a material that does not exist");
@@ -59,7 +59,7 @@ Status SkinnedMesh::Validate(size_t joint_count,
                    [](const glm::vec3& p) { return Finite(p); }) ||
       !std::all_of(normals.begin(), normals.end(), IsUnit) ||
       !std::all_of(uvs.begin(), uvs.end(), [](const glm::vec2& uv) { return Finite(uv); })) {
-    return Status::Error(part, "a position, normal or texture coordinate is not a possible one");
+    return Status::Error(part, "a position, normal or texture coordinate is not valid");
   }
   if (!std::all_of(albedo.begin(), albedo.end(), IsAlbedo)) {
     return Status::Error(part, "an albedo is outside 0..1");
@@ -80,7 +80,7 @@ Status SkinnedMesh::Validate(size_t joint_count,
 Status Human::Validate(const std::string& place) const {
   LARARIUM_RETURN_IF_ERROR(skeleton.Validate(place));
   if (skinning != Skinning::kLinear && skinning != Skinning::kDualQuaternion) {
-    return Status::Error(place, "its kind of skinning is not known");
+    return Status::Error(place, "its kind of skinning is unknown");
   }
   for (const std::shared_ptr<const Texture>& texture : textures) {
     LARARIUM_RETURN_IF_ERROR(texture->Validate(place));
@@ -98,7 +98,7 @@ Status Human::Validate(const std::string& place) const {
     LARARIUM_RETURN_IF_ERROR(shape.Validate(morphs.size(), skeleton.size(), place));
   }
   if (!EachHasItsMesh(cloths)) {
-    return Status::Error(place, "two cloths move one part");
+    return Status::Error(place, "two cloths move the same part");
   }
   for (const Cloth& cloth : cloths) {
     LARARIUM_RETURN_IF_ERROR(cloth.Validate(meshes, skeleton.size(), place));

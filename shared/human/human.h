@@ -1,6 +1,6 @@
 #pragma once
 
-// A person as the player has it: the .larhuman file.
+// A person as the player loads it from a .larhuman file.
 
 #include <array>
 #include <cstdint>
@@ -24,22 +24,22 @@
 
 namespace lararium::human {
 
-// A skinned part with one material. Arrays are parallel over its vertices.
+// A skinned mesh with one material. Its vertex arrays are parallel.
 struct SkinnedMesh {
   std::string name;
   std::vector<glm::vec3> positions;            // metres, actor frame, bind pose
   std::vector<glm::vec3> normals;              // unit
   std::vector<glm::vec3> albedo;               // linear RGB, 0..1
   std::vector<glm::vec2> uvs;                  // (0, 0) is the image's top left; may be empty
-  std::vector<std::array<uint8_t, 4>> joints;  // of the four strongest influences
-  std::vector<glm::vec4> weights;              // sum 1
+  std::vector<std::array<uint8_t, 4>> joints;  // joints of the four strongest influences
+  std::vector<glm::vec4> weights;              // weights of these influences, sum 1
   std::vector<uint32_t> indices;               // three for each triangle
-  // Metres, of indices from the full detail: not 0 where finer levels were left out (ParseHuman).
+  // Distance of `indices` from the full detail, metres. Not 0 if ParseHuman left out finer levels.
   float error = 0.0f;
-  std::vector<LevelOfDetail> coarser;  // each coarser than the one before
-  int16_t material = Material::kNone;  // index into Human::materials; none: plain albedo
+  std::vector<LevelOfDetail> coarser;  // Each level is coarser than the one before.
+  int16_t material = Material::kNone;  // Index into Human::materials; kNone: vertex albedo alone.
 
-  // kPlain where it has no material.
+  // Returns kPlain if the mesh has no material.
   Surface SurfaceIn(std::span<const Material> materials) const;
   Status Validate(size_t joint_count, size_t material_count, const std::string& place) const;
 };
@@ -50,28 +50,29 @@ struct Human {
   std::string name;
   Skeleton skeleton;
   Skinning skinning = Skinning::kLinear;
-  std::vector<std::shared_ptr<const Texture>> textures;  // none is nullptr; people share them
+  std::vector<std::shared_ptr<const Texture>> textures;  // Never nullptr; people may share them.
   std::vector<Material> materials;
   std::vector<SkinnedMesh> meshes;
   std::vector<MorphTarget> morphs;
   std::vector<FaceShape> face;
-  std::vector<Cloth> cloths;  // at most one for each mesh
+  std::vector<Cloth> cloths;  // A mesh has no more than one cloth.
   std::vector<SpringChain> springs;
   std::vector<BodyCapsule> capsules;
   std::vector<Clip> clips;
-  LightTransfer light;  // empty: not baked
-  std::string credits;  // authors and licences of what it is made of
+  LightTransfer light;  // empty if not baked
+  std::string credits;  // authors and licences of the sources
 
   Status Validate(const std::string& place) const;
 };
 
-// finest: levels of detail that are finer than it takes to be off by so much (metres, as errors
-// count: ErrorShare) are not read, nor what only their vertices have. 0: all is read.
+// finest: the largest acceptable error of a mesh in metres, after the factor ErrorShare. Levels of
+// detail that are finer than needed, and the vertices that only they use, are not read. 0 reads
+// everything.
 Result<Human> ParseHuman(std::span<const std::byte> bytes,
                          const std::string& place,
                          float finest = 0.0f);
 Result<Human> LoadHuman(const std::filesystem::path& file);
-// Of one that was read whole.
+// Requires a human that was read completely.
 std::vector<std::byte> SerializeHuman(const Human& human);
 Status SaveHuman(const std::filesystem::path& file, const Human& human);
 

@@ -53,18 +53,19 @@ void ReadLevel(const fb::LevelOfDetail& from, BlockReader& reader, LevelOfDetail
   reader.Read(from.indices(), to.indices);
 }
 
-// Of a mesh: how many vertices its file has, and how many of them, the first, are read.
+// The number of a mesh's vertices in the file, and the number of those, from the first on, that are
+// read.
 struct VertexCount {
   size_t all = 0;
   size_t read = 0;
 };
 
-// Of the mesh of an index, which files may name wrongly.
+// Returns the counts of a mesh. The index comes from a file and may be invalid.
 VertexCount CountOf(std::span<const VertexCount> counts, size_t mesh) {
   return mesh < counts.size() ? counts[mesh] : VertexCount();
 }
 
-// How many of the levels, the finest first, are left out where only so much detail is wanted.
+// Returns how many levels, starting with the finest, are left out at this acceptable error.
 flatbuffers::uoffset_t LevelsLeftOut(const fb::SkinnedMesh& mesh, float finest) {
   const flatbuffers::uoffset_t coarser = mesh.coarser() == nullptr ? 0 : mesh.coarser()->size();
   flatbuffers::uoffset_t left_out = 0;
@@ -206,7 +207,7 @@ void ReadKeyPose(const fb::KeyPose& from, BlockReader& reader, std::vector<Joint
   ReadTransforms(from.joints(), reader, to);
 }
 
-// [key pose][vertex], so many values each.
+// Reads [key pose][vertex] arrays with `values` values for each vertex.
 template <typename T>
 void ReadVectors(const flatbuffers::Vector<T>* from,
                  size_t poses,
@@ -257,7 +258,7 @@ void ReadLight(const fb::LightTransfer* from,
   }
 }
 
-// Of a buffer whose structure has been verified.
+// Reads a buffer whose structure has been verified.
 Result<Human> ReadHuman(const fb::Human& from,
                         size_t file_size,
                         const std::string& place,
@@ -270,7 +271,7 @@ Result<Human> ReadHuman(const fb::Human& from,
   human.skinning = static_cast<Skinning>(from.skinning());
   reader.ReadTables(from.textures(), human.textures, ReadTexture<fb::Texture>);
   reader.ReadTables(from.materials(), human.materials, ReadMaterial<fb::Material>);
-  std::vector<VertexCount> counts;  // of each mesh
+  std::vector<VertexCount> counts;  // index: mesh
   reader.ReadTables(from.meshes(), human.meshes,
                     [&](const fb::SkinnedMesh& mesh, BlockReader& blocks, SkinnedMesh& to) {
                       counts.push_back(ReadMesh(mesh, human.materials, finest, blocks, to));
@@ -424,7 +425,7 @@ Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& pl
     return ParseHuman(aligned, place, finest);
   }
   flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
-  // FlatBuffers pads to whole words; the verifier would not miss the padding.
+  // FlatBuffers pads files to whole words, but the verifier does not notice missing padding.
   if (bytes.size() % sizeof(flatbuffers::uoffset_t) != 0 || !fb::VerifyHumanBuffer(verifier)) {
     return Status::Error(place, "the file is damaged or cut short", kRemedy);
   }
@@ -432,7 +433,7 @@ Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& pl
   if (human.version() != kVersion) {
     return Status::Error(place,
                          "version " + std::to_string(human.version()) +
-                             " of the file is not known here (this program reads version " +
+                             " of the file is not supported (this program reads version " +
                              std::to_string(kVersion) + ")",
                          kRemedy);
   }

@@ -6,7 +6,7 @@
 namespace lararium::human {
 namespace {
 
-// Where skin at the last step of quality counted as other surfaces do, faces were smears.
+// With the same weight for skin as for other surfaces, faces were blurred at the lowest quality.
 constexpr float kOfFaces = 2.5f;
 constexpr float kElsewhere = 0.5f;
 
@@ -37,7 +37,7 @@ Status ValidateTriangles(const std::vector<uint32_t>& indices,
     return Status::Error(place, "its triangles name vertices that do not exist");
   }
   if (!std::all_of(coarser.begin(), coarser.end(), can_be_detail)) {
-    return Status::Error(place, "a level of detail has no possible error");
+    return Status::Error(place, "a level of detail has an invalid error value");
   }
   return Status();
 }

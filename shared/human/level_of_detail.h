@@ -10,16 +10,16 @@
 
 namespace lararium::human {
 
-// Fewer triangles over the same vertices.
+// A coarser version of a mesh: fewer triangles over the same vertices.
 struct LevelOfDetail {
-  float error = 0.0f;  // metres, from the full detail
+  float error = 0.0f;  // metres from the full detail
   std::vector<uint32_t> indices;
 };
 
-// By how much the error of a surface counts: nobody looks at anything as closely as at faces.
+// Factor on the geometric error of a surface; viewers look most closely at faces.
 float ErrorShare(Surface surface);
 
-// Of a mesh and its coarser levels. place: what errors call the mesh.
+// Validates the triangles of a mesh and of its coarser levels. Errors call the mesh `place`.
 Status ValidateTriangles(const std::vector<uint32_t>& indices,
                          const std::vector<LevelOfDetail>& coarser,
                          size_t vertex_count,

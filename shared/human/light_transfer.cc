@@ -26,17 +26,17 @@ Status ValidateMesh(const LightTransfer& transfer,
     for (size_t i = 0; i < 4; ++i) {
       sum += mesh.weights[v][i];
       if (mesh.receivers[v][i] >= transfer.receivers.size()) {
-        return Status::Error(at, "a vertex takes its light where there is no receiver");
+        return Status::Error(at, "a vertex names a receiver that does not exist");
       }
     }
     if (sum != 255 || !std::is_sorted(mesh.weights[v].rbegin(), mesh.weights[v].rend())) {
-      return Status::Error(at, "a vertex takes its light in impossible shares");
+      return Status::Error(at, "a vertex has invalid weights for its receivers");
     }
   }
   const bool possible = std::all_of(mesh.scale.begin(), mesh.scale.end(), [](float scale) {
     return std::isfinite(scale) && scale >= 0.0f;
   });
-  return possible ? Status() : Status::Error(at, "its light transfer has an impossible scale");
+  return possible ? Status() : Status::Error(at, "its light transfer has an invalid scale");
 }
 
 Status ValidateParts(const LightTransfer& transfer, size_t joint_count, const std::string& at) {
@@ -48,12 +48,12 @@ Status ValidateParts(const LightTransfer& transfer, size_t joint_count, const st
   for (const LightTransfer::Blocker& blocker : transfer.blockers) {
     if (blocker.joint >= joint_count || !Finite(blocker.centre) || !std::isfinite(blocker.radius) ||
         blocker.radius < 0.0f) {
-      return Status::Error(at, "a blocker has no joint or no possible size");
+      return Status::Error(at, "a blocker has no joint or an invalid size");
     }
   }
   for (const LightTransfer::Receiver& receiver : transfer.receivers) {
     if (receiver.joint >= joint_count || !Finite(receiver.position)) {
-      return Status::Error(at, "a receiver has no joint or no possible place");
+      return Status::Error(at, "a receiver has no joint or an invalid position");
     }
   }
   return Status();
@@ -71,7 +71,7 @@ Status LightTransfer::Validate(const std::vector<Surface>& surfaces,
   if (!IsCount(count) || bounces < 0 || key_poses.empty() || key_poses.size() > kMaxKeyPoses ||
       blockers.size() > kMaxBlockers || receivers.empty() || receivers.size() > kMaxReceivers ||
       meshes.size() != surfaces.size()) {
-    return Status::Error(at, "its counts are not possible ones");
+    return Status::Error(at, "its counts are not valid");
   }
   LARARIUM_RETURN_IF_ERROR(ValidateParts(*this, joint_count, at));
   for (size_t i = 0; i < meshes.size(); ++i) {

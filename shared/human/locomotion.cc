@@ -15,11 +15,11 @@ using Foot = Locomotion::Foot;
 using Footprint = Locomotion::Footprint;
 
 constexpr float kToeOut = 0.12f;        // radians; 7 degrees (Murray et al., 1964)
-constexpr float kStagger = 0.020f;      // of leg length; ours
-constexpr float kStandingTurn = 0.11f;  // radians; ours
-// Half the distance between the lines of the ankles, shares of leg length: walking
-// (Murray et al., 1964: 8 cm between the heels' middles, and wider for comfort), and
-// the least that two feet keep.
+constexpr float kStagger = 0.020f;      // share of the leg length; our value
+constexpr float kStandingTurn = 0.11f;  // radians; our value
+// Half the distance between the lines of the ankles while walking, as a share of the leg length
+// (Murray et al., 1964: 8 cm between the middles of the heels; ours is wider for comfort), and the
+// least distance between the feet.
 constexpr float kHalfStepWidth = 0.068f;
 constexpr float kLeastWidth = 0.09f;
 
@@ -35,17 +35,17 @@ Footprint Mix(const Footprint& a, const Footprint& b, float t) {
           glm::mix(a.slope_pitch, b.slope_pitch, t), glm::mix(a.slope_roll, b.slope_roll, t)};
 }
 
-// The smaller of two angles; where they are near to one another, without a kink.
+// Smooth minimum of two angles.
 float SmoothMin(float a, float b) {
   constexpr float kWidth = 0.5f;  // radians
   const float near = std::max(1.0f - std::abs(a - b) / kWidth, 0.0f);
   return std::min(a, b) - 0.25f * kWidth * near * near;
 }
 
-// One tick of one walking body.
+// Computes one tick of one walking body.
 class Walker {
  public:
-  Walker(const Body& body, const FloorHeight& floor, float seconds, Locomotion& state)
+  Walker(const BodyRig& body, const FloorHeight& floor, float seconds, Locomotion& state)
       : body_(body), floor_(floor), seconds_(seconds), state_(state) {
     speed_ = glm::length(glm::vec2(state.velocity.x, state.velocity.z));
     stride_ = StrideAt(speed_, Forwardness(), state.turn_rate, body.leg_length(), state.style);
@@ -74,10 +74,10 @@ class Walker {
 
  private:
   Foot& FootOf(int side) const { return state_.feet[static_cast<size_t>(side)]; }
-  const Body::Leg& Leg(int side) const { return body_.legs[static_cast<size_t>(side)]; }
+  const BodyRig::Leg& Leg(int side) const { return body_.legs[static_cast<size_t>(side)]; }
   RootPose Root() const { return {state_.position, state_.heading}; }
 
-  // Of the leg's own stride, 0..1.
+  // Returns the phase of the leg's own stride, 0..1.
   float OwnPhase(int side) const {
     const double phase = state_.phase + (side == kRight ? 0.0 : 0.5);
     return static_cast<float>(phase - std::floor(phase));
@@ -85,7 +85,7 @@ class Walker {
   bool Moving() const { return speed_ > 0.07f * std::sqrt(body_.leg_length()); }
   bool Swinging() const { return !state_.feet[0].planted || !state_.feet[1].planted; }
 
-  // How alike to forward walking this is: sidling and backing swing feet flatly.
+  // Similarity to forward walking, 0..1: feet swing flat when walking sideways or backwards.
   float Forwardness() const {
     if (speed_ < 1e-3f) {
       return 1.0f;
@@ -94,7 +94,7 @@ class Walker {
     return std::max(glm::dot(ahead, state_.velocity) / speed_, 0.0f);
   }
 
-  // To the right, m/s.
+  // Speed to the right, m/s.
   float SidewardSpeed() const {
     return glm::dot(state_.velocity, TurnY(state_.heading) * glm::vec3(1.0f, 0.0f, 0.0f));
   }
@@ -109,7 +109,7 @@ class Walker {
     return floor_ ? floor_(at.x, at.z) : state_.position.y;
   }
 
-  // Of a flat foot whose ankle is above this place.
+  // Returns the print of a flat foot whose ankle is above this position.
   Footprint PrintAt(const glm::vec3& at, float heading, int side) const {
     Footprint print;
     print.heading = heading;
@@ -134,10 +134,10 @@ class Walker {
     return glm::mix(standing, walking, std::min(2.0f * amount, 1.0f));
   }
 
-  // Where a foot stands below a root.
+  // Returns the print of a foot that stands below a root.
   Footprint NeutralPrint(int side, const RootPose& root, float amount) const {
     const float back = body_.rest[static_cast<size_t>(Leg(side).ankle)].position.z;
-    // Who stands puts one foot ahead and turns the other out.
+    // A standing person has one foot ahead and the other turned out.
     const float staggered = std::max(1.0f - 2.0f * amount, 0.0f) * state_.style.stagger;
     const float ahead = SideSign(side) * staggered * kStagger * body_.leg_length();
     const float toe_out = kToeOut + std::max(-SideSign(side) * staggered, 0.0f) * kStandingTurn;
@@ -145,7 +145,8 @@ class Walker {
     return PrintAt(root.Stage(offset), root.heading - SideSign(side) * toe_out, side);
   }
 
-  // At the present acceleration, until it stops; what nobody keeps up for long counts half.
+  // Predicted displacement at the present acceleration, at most until the body stops. Half of the
+  // acceleration is used, because people do not keep it up for long.
   glm::vec3 Travel(float seconds) const {
     const glm::vec3 acceleration = 0.5f * state_.acceleration;
     const float along = glm::dot(acceleration, state_.velocity);
@@ -158,15 +159,15 @@ class Walker {
     return time * state_.velocity + 0.5f * time * time * acceleration;
   }
 
-  // Where the root will be, if it goes on as it does.
+  // Predicted root if the present motion continues.
   RootPose Foretell(float seconds) const {
-    constexpr float kFurthest = 0.8f;  // radians: a foot cannot turn in more
+    constexpr float kFurthest = 0.8f;  // radians; the limit of a foot's inward turn
     const float turn = std::clamp(state_.turn_rate * seconds, -kFurthest, kFurthest);
     const glm::vec3 way = TurnY(0.5f * state_.turn_rate * seconds) * Travel(seconds);
     return {state_.position + way, state_.heading + turn};
   }
 
-  // Where the foot in swing will land: at the middle of its stance the root is above it.
+  // Print at which the swinging foot will land: the root is above it at the middle of its stance.
   Footprint Goal(int side) {
     const Foot& foot = FootOf(side);
     const float swing_seconds = (1.0f - foot.lift_phase) / stride_.per_second;
@@ -178,7 +179,7 @@ class Walker {
     return PrintAt(at, goal.heading, side);
   }
 
-  // Who sidles opens and closes the feet: the leading one goes further, the other less.
+  // Sideways walking opens and closes the feet: the leading foot goes further, the other less far.
   glm::vec3 Opening(int side) const {
     const float sideward = SidewardSpeed();
     const float quarter = 0.25f * std::abs(sideward) / stride_.per_second;
@@ -193,13 +194,13 @@ class Walker {
     return length > most ? root.position + most / length * way : goal;
   }
 
-  // Not across the other foot.
+  // Keeps the goal from crossing the other foot.
   glm::vec3 KeepApart(int side, glm::vec3 goal) const {
     const Foot& other = state_.feet[static_cast<size_t>(1 - side)];
     const glm::vec3 right = TurnY(state_.heading) * glm::vec3(1.0f, 0.0f, 0.0f);
     const float apart = SideSign(side) * glm::dot(goal - other.print.position, right);
     const float least = kLeastWidth * body_.leg_length();
-    // Feet far ahead of one another may be in one line.
+    // Feet that are far apart along the path may be in one line.
     const float along = glm::length(Across(goal - other.print.position, right));
     const float needed = least * (1.0f - glm::smoothstep(0.2f, 0.5f, along / body_.leg_length()));
     return goal + SideSign(side) * std::max(needed - apart, 0.0f) * right;
@@ -207,14 +208,14 @@ class Walker {
 
   // ---- The clock ----
 
-  // How far a foot is from where it would stand; beyond 1 it should step.
+  // Distance of a foot from its neutral print; above 1 the foot should step.
   float Misplacement(int side) const {
     const Footprint& print = state_.feet[static_cast<size_t>(side)].print;
     const Footprint neutral = NeutralPrint(side, Root(), 0.0f);
     const glm::vec3 way = print.position - neutral.position;
     const float aside = glm::length(glm::vec2(way.x, way.z)) / body_.leg_length();
-    const float turned = std::abs(std::remainder(print.heading - neutral.heading, 2.0f * kPi));
-    // Who stands tolerates more than who is on the move anyway.
+    const float turned = std::abs(std::remainder(print.heading - neutral.heading, 2.0f * kPiF));
+    // A standing person tolerates more than one who is moving.
     const bool turns = std::abs(state_.turn_rate) > 0.3f;
     const float leeway = state_.stepping || turns ? 1.0f : 1.8f;
     return std::max(aside / (0.055f * leeway), turned / (0.20f * leeway));
@@ -236,7 +237,7 @@ class Walker {
     }
   }
 
-  // The clock is set so that one foot may leave at once.
+  // Sets the phase so that one foot may leave the floor at once.
   void Begin() {
     const int first = FirstFoot();
     const double offset = first == kRight ? 0.0 : 0.5;
@@ -279,8 +280,8 @@ class Walker {
   }
 
   bool MayLeave(int side, float phase) const {
-    // A foot left far behind does not wait for its time.
-    constexpr float kFarBehind = 1.25f;  // radians of the heel's rise
+    // A foot that is left far behind steps early.
+    constexpr float kFarBehind = 1.25f;  // radians of heel rise
     const bool due = phase >= stride_.stance_share;
     const bool early = phase >= 0.5f && HeelRise(side) > kFarBehind;
     return (due || early) && phase < 0.95f && WantsStep(side);
@@ -314,11 +315,11 @@ class Walker {
     Stand(side);
   }
 
-  // By how much the heel of a foot left behind must come up for its leg to reach it; below
-  // 0 while the leg has some way to go.
+  // Angle by which the heel of the foot left behind must rise for its leg to reach it; negative
+  // while the leg has reach left.
   float HeelRise(int side) const {
     constexpr float kLowest = -1.0f, kHighest = 1.35f;  // radians
-    const Body::Leg& leg = Leg(side);
+    const BodyRig::Leg& leg = Leg(side);
     const glm::vec3 hip = Root().Stage(body_.rest[static_cast<size_t>(leg.hip)].position);
     const Footprint& print = FootOf(side).print;
     const glm::vec3 way = hip - print.position;
@@ -330,21 +331,21 @@ class Walker {
     const float drop = body_.leg_length() * (0.02f + 0.055f * std::min(state_.amount, 1.25f));
     const float height = way.y - drop - leg.ankle_height;
     const float reached = std::sqrt(std::max(length * length - height * height, 0.0f));
-    const float usual = 0.03f * body_.leg_length();  // what the gait's own roll makes up for
+    const float usual = 0.03f * body_.leg_length();  // The gait's own roll covers this.
     const float missing = glm::length(glm::vec2(way.x, way.z)) - reached - usual;
     return std::clamp(missing / (1.5f * -leg.ball.z), kLowest, kHighest);
   }
 
-  // The ankle of a planted foot; the toes stay on the floor while the heel is up.
+  // Sets the ankle of a planted foot; the toes stay on the floor while the heel is up.
   void Stand(int side) {
     Foot& foot = FootOf(side);
     foot.ankle = AnkleOver(side, foot.print, foot.pitch);
     foot.toe_bend = std::max(-foot.pitch, 0.0f);
   }
 
-  // The foot rolls over its heel while the toes are up, over its ball while they are down.
+  // The foot rolls over its heel while the toes are up, and over its ball while they are down.
   glm::vec3 AnkleOver(int side, const Footprint& print, float pitch) const {
-    const Body::Leg& leg = Leg(side);
+    const BodyRig::Leg& leg = Leg(side);
     const glm::vec3 pivot = pitch > 0.0f ? leg.heel : leg.ball;
     const glm::vec3 rolled =
         TurnX(pitch) * (glm::vec3(0.0f, leg.ankle_height, 0.0f) - pivot) + pivot;
@@ -354,9 +355,9 @@ class Walker {
 
   void UpdateSwing(int side, float phase) {
     Foot& foot = FootOf(side);
-    constexpr float kDecided = 0.85f;  // of the swing: the place is chosen
+    constexpr float kDecided = 0.85f;  // Share of the swing after which the goal is fixed.
     if (foot.swing < kDecided) {
-      // Feet do not follow every change of mind at once.
+      // Smooths the goal, because feet do not follow every change at once.
       const float share = foot.swing > 0.0f ? Approach(seconds_, 0.06f) : 1.0f;
       foot.goal = Mix(foot.goal, Goal(side), share);
     }
@@ -375,7 +376,8 @@ class Walker {
     foot.ankle = SwingAnkle(side, foot);
   }
 
-  // Along the path, but leaving as fast as the foot rolled off, and landing likewise.
+  // The ankle's path in swing. It starts with the velocity of the foot's roll-off and ends with the
+  // velocity of its landing.
   glm::vec3 SwingAnkle(int side, const Foot& foot) const {
     constexpr float kStep = 0.02f;
     const float s = foot.swing, left = 1.0f - foot.swing;
@@ -388,9 +390,9 @@ class Walker {
            left * s * s * s * s * (ends - seconds * LandingVelocity(side, foot.goal));
   }
 
-  // Of the ankle, as the foot begins to roll over its heel.
+  // Velocity of the ankle when the foot begins to roll over its heel.
   glm::vec3 LandingVelocity(int side, const Footprint& print) const {
-    constexpr float kStep = 0.02f;  // of the stance
+    constexpr float kStep = 0.02f;  // share of the stance
     const float seconds = kStep * stride_.stance_share / stride_.per_second;
     return (AnkleOver(side, print, state_.amount * StancePitch(kStep)) -
             AnkleOver(side, print, state_.amount * StancePitch(0.0f))) /
@@ -406,20 +408,20 @@ class Walker {
     return ankle;
   }
 
-  // Over the straight way, in leg lengths: a wide step's, or a small one's.
+  // Height above the straight path in leg lengths, for a wide or a small step.
   float Rise(float swing, float height) const {
     const float wide = std::min(state_.amount, 1.0f);
-    const float bump = std::pow(std::sin(kPi * swing), 2.0f);
+    const float bump = std::pow(std::sin(kPiF * swing), 2.0f);
     return state_.style.lift * (wide * height + glm::mix(0.045f, 0.022f, wide) * bump);
   }
 
-  // A step up or down is taken from above.
+  // Raises the foot for a step up or down, so that it lands from above.
   static float StepRise(const Foot& foot, float swing) {
     const float step = std::abs(foot.goal.position.y - foot.lifted_from.position.y);
-    return 0.6f * step * std::sin(kPi * swing);
+    return 0.6f * step * std::sin(kPiF * swing);
   }
 
-  const Body& body_;
+  const BodyRig& body_;
   const FloorHeight& floor_;
   float seconds_;
   Locomotion& state_;
@@ -427,10 +429,11 @@ class Walker {
   Stride stride_;
 };
 
-// Velocity and turn rate, smoothed over a few ticks: what moves the root may be jerky.
+// Measures velocity and turn rate, smoothed over a few ticks, because the motion of the root may be
+// jerky.
 void MeasureMotion(const glm::vec3& position, float heading, float seconds, Locomotion& state) {
   const glm::vec3 velocity = (position - state.position) / seconds;
-  const float rate = std::remainder(heading - state.heading, 2.0f * kPi) / seconds;
+  const float rate = std::remainder(heading - state.heading, 2.0f * kPiF) / seconds;
   const float share = Approach(seconds, 0.07f);
   const glm::vec3 before = state.velocity;
   state.velocity += share * (velocity - state.velocity);

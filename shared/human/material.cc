@@ -40,7 +40,7 @@ Status Texture::Validate(const std::string& place) const {
 Status Material::Validate(size_t texture_count, const std::string& place) const {
   const std::string at = place + ": material '" + name + "'";
   if (static_cast<uint8_t>(surface) >= kSurfaceCount) {
-    return Status::Error(at, "its kind of surface is not known");
+    return Status::Error(at, "its kind of surface is unknown");
   }
   if (!IsTextureOrNone(colour_texture, texture_count) ||
       !IsTextureOrNone(normal_texture, texture_count)) {

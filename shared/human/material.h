@@ -1,6 +1,6 @@
 #pragma once
 
-// What the surface of a person looks like.
+// Textures and materials of a person's surface.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace lararium::human {
 
-// An image as its file holds it: PNG or JPEG. Whoever draws decodes it. Colours are
-// sRGB-encoded, alpha is coverage; normal maps are linear, tangent space, green up.
+// An encoded image (PNG or JPEG), which the renderer decodes. Colours are sRGB-encoded, and alpha
+// is coverage; normal maps are linear, in tangent space, with green up.
 struct Texture {
   static constexpr size_t kMaxEncodedBytes = size_t{64} << 20;
 
@@ -25,8 +25,7 @@ struct Texture {
   friend bool operator==(const Texture&, const Texture&) = default;
 };
 
-// Which model of reflection fits.
-// Metals reflect in their own colour and nothing else.
+// The reflection model. Metals have only a coloured specular reflection.
 enum class Surface : uint8_t { kPlain, kSkin, kHair, kCloth, kEye, kMetal };
 inline constexpr uint8_t kSurfaceCount = 6;
 
@@ -36,10 +35,10 @@ struct Material {
   std::string name;
   Surface surface = Surface::kPlain;
   int16_t colour_texture = kNone;      // index into Human::textures
-  int16_t normal_texture = kNone;      // likewise
-  glm::vec3 colour = glm::vec3(1.0f);  // linear, 0..1; multiplies texture and vertex albedo
+  int16_t normal_texture = kNone;      // Index into Human::textures.
+  glm::vec3 colour = glm::vec3(1.0f);  // Linear, 0..1; multiplies texture and vertex albedo.
   float roughness = 0.8f;              // 0..1
-  // What is less covered than this is not there; 0: opaque.
+  // Fragments with a lower alpha are discarded; 0: opaque.
   float alpha_cutoff = 0.0f;
   bool two_sided = false;
 

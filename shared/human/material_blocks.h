@@ -1,8 +1,7 @@
 #pragma once
 
-// Textures and materials in the FlatBuffers files that hold some. Their schemas each
-// have tables of their own with the same fields, hence the templates. Private to the
-// readers and writers of such files.
+// Reads and writes textures and materials in FlatBuffers files. These are templates because each
+// schema has its own tables with the same fields. Private to the readers and writers of such files.
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -39,7 +38,7 @@ void ReadMaterial(const From& from, BlockReader& reader, Material& to) {
   to.two_sided = from.two_sided();
 }
 
-// create: the schema's own CreateTexture.
+// create: CreateTexture of the schema.
 template <typename Create>
 auto WriteTextures(flatbuffers::FlatBufferBuilder& builder,
                    const std::vector<std::shared_ptr<const Texture>>& textures,
@@ -53,7 +52,7 @@ auto WriteTextures(flatbuffers::FlatBufferBuilder& builder,
       });
 }
 
-// create: the schema's own CreateMaterial.
+// create: CreateMaterial of the schema.
 template <typename Vec3, typename Create>
 auto WriteMaterials(flatbuffers::FlatBufferBuilder& builder,
                     const std::vector<Material>& materials,

@@ -9,7 +9,7 @@
 namespace lararium::human {
 namespace {
 
-// A displacement of a centimetre weighed less than this moves by a micrometre.
+// Below this weight a displacement of a centimetre moves a vertex by less than a micrometre.
 constexpr float kLeastWeight = 1e-4f;
 
 bool Counts(float weight) { return std::abs(weight) >= kLeastWeight; }

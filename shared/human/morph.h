@@ -1,6 +1,6 @@
 #pragma once
 
-// The vertices of a mesh under weighted morph targets.
+// Applies weighted morph targets to the vertices of a mesh.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -11,7 +11,7 @@
 
 namespace lararium::human {
 
-// Which morph targets move a mesh: found once for a human, which it borrows.
+// The morph targets that move a mesh. They point into the human, which must outlive them.
 struct MeshMorphs {
   struct Entry {
     uint32_t morph = 0;  // index into Human::morphs
@@ -20,21 +20,21 @@ struct MeshMorphs {
   uint32_t mesh = 0;  // index into Human::meshes
   std::vector<Entry> entries;
 
-  // True when a target of this mesh has a weight that can be seen.
+  // True if a target of this mesh has a weight that is large enough to be visible.
   bool Active(std::span<const float> weights) const;
 };
 
-// In the order of the meshes; those that no target moves are left out.
+// Returns one entry for each mesh that targets move, in the order of the meshes.
 std::vector<MeshMorphs> FindMeshMorphs(const Human& human);
 
-// The bind pose plus weighted displacements; normals are renormalised. Allocates
-// nothing; jobs with disjoint outputs may run together.
+// Computes the bind pose plus weighted displacements; normals are renormalised. Allocates nothing.
+// Jobs with disjoint outputs may run in parallel.
 struct MorphJob {
   const SkinnedMesh& mesh;
-  const MeshMorphs& morphs;        // of that mesh
+  const MeshMorphs& morphs;        // must belong to `mesh`
   std::span<const float> weights;  // one for each of Human::morphs
-  std::span<glm::vec3> positions;  // one for each vertex, metres, actor frame; overwritten
-  std::span<glm::vec3> normals;    // likewise
+  std::span<glm::vec3> positions;  // Output, one for each vertex: metres, actor frame.
+  std::span<glm::vec3> normals;    // Output, one for each vertex.
 
   void Run() const;
 };

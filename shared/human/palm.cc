@@ -9,15 +9,15 @@ namespace {
 
 class PalmFinder {
  public:
-  PalmFinder(const Body& body, int side) : body_(body), side_(side) {}
+  PalmFinder(const BodyRig& body, int side) : body_(body), side_(side) {}
 
   Palm Find() const {
-    const Body::Arm& arm = body_.arms[static_cast<size_t>(side_)];
+    const BodyRig::Arm& arm = body_.arms[static_cast<size_t>(side_)];
     const glm::vec3 wrist = Rest(arm.wrist);
     const glm::vec3 forearm = wrist - Rest(arm.elbow);
     glm::vec3 knuckles(0.0f);
     int count = 0;
-    for (int finger = 1; finger < Body::kFingers; ++finger) {
+    for (int finger = 1; finger < BodyRig::kFingers; ++finger) {
       if (Knuckle(finger) != kNoJoint) {
         knuckles += Rest(Knuckle(finger)) - wrist;
         ++count;
@@ -45,18 +45,18 @@ class PalmFinder {
     if (Knuckle(kIndex) != kNoJoint && Knuckle(kLittle) != kNoJoint) {
       return Rest(Knuckle(kIndex)) - Rest(Knuckle(kLittle));
     }
-    if (Knuckle(Body::kThumb) != kNoJoint) {
-      return Rest(Knuckle(Body::kThumb)) - wrist;
+    if (Knuckle(BodyRig::kThumb) != kNoJoint) {
+      return Rest(Knuckle(BodyRig::kThumb)) - wrist;
     }
-    return {0.0f, 0.0f, -1.0f};  // arms at rest have the thumbs in front
+    return {0.0f, 0.0f, -1.0f};  // The thumbs of hanging arms are in front.
   }
 
-  const Body& body_;
+  const BodyRig& body_;
   int side_;
 };
 
 }  // namespace
 
-Palm FindPalm(const Body& body, int side) { return PalmFinder(body, side).Find(); }
+Palm FindPalm(const BodyRig& body, int side) { return PalmFinder(body, side).Find(); }
 
 }  // namespace lararium::human

@@ -15,7 +15,7 @@ namespace {
 
 constexpr glm::vec3 kUp(0.0f, 1.0f, 0.0f);
 
-// What brings one hand somewhere.
+// Moves one hand to a goal.
 class Reacher {
  public:
   Reacher(const ReachModel& model,
@@ -45,7 +45,7 @@ class Reacher {
     return {wrist * wrist_from_grip_.position, wrist.rotation * wrist_from_grip_.rotation};
   }
 
-  // Of the wrist from the shoulder, on its way to a goal.
+  // Vector from the shoulder to the wrist on its way to a goal.
   glm::vec3 Way(const ReachGoal& goal) const {
     const GripFrame palm = Mix(ActorFromPalm(), goal.actor_from_grip, goal.weight);
     return ActorFromWrist(palm).position - Position(arm_.shoulder);
@@ -54,9 +54,9 @@ class Reacher {
   void Bring(const ReachGoal& goal) {
     const GripFrame from = ActorFromPalm();
     GripFrame palm = Mix(from, goal.actor_from_grip, goal.weight);
-    // Around the body in a slight arc.
+    // The path is a slight arc around the body.
     const float way = glm::distance(from.position, goal.actor_from_grip.position);
-    palm.position.z -= 0.12f * way * std::sin(kPi * goal.weight);
+    palm.position.z -= 0.12f * way * std::sin(kPiF * goal.weight);
     const GripFrame wrist = ActorFromWrist(palm);
     const glm::vec3 elbow_way = ElbowWay();
     RaiseShoulder(wrist.position, goal.weight);
@@ -85,8 +85,8 @@ class Reacher {
     return glm::cross(glm::vec3(0.0f, 0.0f, 1.0f), -upper);
   }
 
-  // Where the elbow is now, off the line from shoulder to wrist: that of the arm's hinge
-  // where the arm is straight.
+  // Direction of the elbow from the line between shoulder and wrist; from the arm's hinge if the
+  // arm is straight.
   glm::vec3 ElbowWay() const {
     const glm::vec3 shoulder = Position(arm_.shoulder), elbow = Position(arm_.elbow);
     const glm::vec3 line = Direction(Position(arm_.wrist) - shoulder, -kUp);
@@ -95,7 +95,7 @@ class Reacher {
     return Direction(Across(elbow - shoulder, line) / Length() - 0.02f * straight, straight);
   }
 
-  // Elbows hang down and out; of a hand held high they point out.
+  // Elbows hang down and out; when the hand is high, they point out.
   glm::vec3 NaturalElbow(const glm::vec3& wrist) const {
     const glm::vec3 way = (wrist - Position(arm_.shoulder)) / Length();
     const float high = glm::smoothstep(-0.2f, 0.6f, way.y);
@@ -106,7 +106,7 @@ class Reacher {
                      -kUp);
   }
 
-  // The clavicle turns up to 20 degrees towards what is far.
+  // The clavicle turns by up to 20 degrees towards a distant goal.
   void RaiseShoulder(const glm::vec3& wrist, float weight) {
     if (arm_.clavicle == kNoJoint) {
       return;
@@ -123,8 +123,8 @@ class Reacher {
     }
   }
 
-  // The hand's twist against the forearm lies along the whole forearm, as radius and
-  // ulna turn about one another.
+  // Distributes the hand's twist along the forearm, in which radius and ulna rotate about each
+  // other.
   void ShareTwist(float weight) {
     const glm::vec3 along = glm::normalize(Rest(arm_.wrist).position - Rest(arm_.elbow).position);
     const glm::quat hand = glm::conjugate(Turned(arm_.elbow)) * Turned(arm_.wrist);
@@ -136,29 +136,30 @@ class Reacher {
     }
   }
 
-  // About the line to the wrist, which stays where it is.
+  // Twists about the line to the wrist, which stays in place.
   void TwistBy(JointIndex joint, float angle) {
     const glm::vec3 axis = Direction(Position(arm_.wrist) - Position(joint), kUp);
     TurnInActor(skeleton_, joint, glm::angleAxis(angle, axis), pose_);
   }
 
-  const Body& body_;
-  const Body::Arm& arm_;
+  const BodyRig& body_;
+  const BodyRig::Arm& arm_;
   const GripFrame& wrist_from_grip_;
   const Skeleton& skeleton_;
   int side_;
   std::span<JointTransform> pose_;
 };
 
-// Of an arm's length: what lies further needs the trunk's help.
+// Share of an arm's length beyond which the trunk helps.
 constexpr float kComfortable = 0.92f;
-// Of an arm's length: what it reaches exactly.
+// Share of an arm's length that the arm reaches exactly.
 constexpr float kWithinReach = 0.99f;
 
-// The trunk bends in hips and spine over feet that stay, so that shoulders come nearer.
+// Bends the trunk in hips and spine over feet that stay in place, so that the shoulders come
+// nearer.
 class TrunkHelp {
  public:
-  TrunkHelp(const Body& body,
+  TrunkHelp(const BodyRig& body,
             const Skeleton& skeleton,
             float seated,
             std::span<JointTransform> pose)
@@ -177,8 +178,8 @@ class TrunkHelp {
     }
   }
 
-  // The turn of the chest, a vector of radians, that brings the wrist of a shoulder near
-  // enough, or as near as backs can.
+  // Rotation of the chest, as a vector in radians, that brings a shoulder near enough to its wrist,
+  // within the limits of the back.
   glm::vec3 Towards(const glm::vec3& wrist, const glm::vec3& shoulder, float arm_length) const {
     constexpr float kMost = 1.15f;  // radians
     constexpr int kRounds = 4;
@@ -200,7 +201,7 @@ class TrunkHelp {
     return RotationVector(turn);
   }
 
-  // The hips go back as the chest goes forward: the body keeps its balance.
+  // The hips go back as the chest goes forward, so that the body keeps its balance.
   void Turn(const glm::vec3& turn) {
     const glm::quat share = TurnBy(spine_share_ * turn);
     for (const JointIndex joint : body_.spine) {
@@ -215,9 +216,9 @@ class TrunkHelp {
     }
   }
 
-  // What neither trunk nor arm makes up for: hips go down and over the feet as far as
-  // knees and balance allow, and the trunk bends the rest. way: from the shoulder to
-  // where the wrist has to be; missing: by how much it is too long.
+  // Covers the distance that trunk and arm cannot: the hips go down and over the feet as far as
+  // knees and balance allow, and the trunk bends for the rest. `way` leads from the shoulder to the
+  // required wrist position; `missing` is its excess length.
   void ComeNearer(const glm::vec3& shoulder, const glm::vec3& way, float missing) {
     const glm::vec3 wanted = missing * Direction(way, -kUp);
     const glm::vec3 before = moved_;
@@ -241,7 +242,7 @@ class TrunkHelp {
     }
   }
 
-  // By how much the pelvis has to go down for an arm to reach.
+  // Distance by which the pelvis must go down for an arm to reach.
   static float MissingDrop(const glm::vec3& wrist, const glm::vec3& shoulder, float arm_length) {
     const float length = 0.97f * arm_length;
     const float across = glm::length(glm::vec2(wrist.x - shoulder.x, wrist.z - shoulder.z));
@@ -256,7 +257,7 @@ class TrunkHelp {
     }
   }
 
-  // The feet where they were before all this.
+  // Returns the feet to their positions before the trunk moved.
   void KeepFeet() {
     for (const int side : {kRight, kLeft}) {
       if (body_.walks()) {
@@ -273,7 +274,8 @@ class TrunkHelp {
     return 0.5f * (Position(body_.legs[0].hip) + Position(body_.legs[1].hip));
   }
 
-  // Heels on the floor: hips no lower than deep in the knees, no further aside than feet.
+  // Limits the hips so that the heels stay on the floor: not lower than a deep knee bend, and not
+  // further aside than the feet.
   glm::vec3 WithinBalance(const glm::vec3& moved) const {
     const float lowest = -0.42f * body_.leg_length();
     const float furthest = 0.16f * body_.leg_length();
@@ -292,18 +294,18 @@ class TrunkHelp {
     return sine > 1e-6f ? 2.0f * std::atan2(sine, q.w) / sine * axis : glm::vec3(0.0f);
   }
 
-  const Body& body_;
+  const BodyRig& body_;
   const Skeleton& skeleton_;
   std::span<JointTransform> pose_;
   float seated_ = 0.0f;
   glm::vec3 pivot_ = glm::vec3(0.0f);
   float hips_share_ = 0.0f, spine_share_ = 0.0f;
-  glm::vec3 moved_ = glm::vec3(0.0f);  // by ComeNearer()
+  glm::vec3 moved_ = glm::vec3(0.0f);  // displacement by ComeNearer()
   float bent_ = 0.0f;
   std::array<JointFrame, 2> ankles_;
 };
 
-// Both hands' needs of the trunk.
+// Bends the trunk for both hands.
 class ReachPosture {
  public:
   ReachPosture(const ReachModel& model,
@@ -340,10 +342,10 @@ class ReachPosture {
   }
 
  private:
-  const Body::Arm& Arm(int side) const { return model_.body.arms[static_cast<size_t>(side)]; }
+  const BodyRig::Arm& Arm(int side) const { return model_.body.arms[static_cast<size_t>(side)]; }
   const ReachGoal& GoalOf(int side) const { return goals_[static_cast<size_t>(side)]; }
 
-  // Until both arms reach, or nothing helps any more. Whether anything moved.
+  // Repeats until both arms reach or there is no more progress. Returns true if anything moved.
   bool ComeNearer() {
     constexpr int kRounds = 12;
     bool moved = false;
@@ -355,7 +357,7 @@ class ReachPosture {
         }
         const Reacher reacher(model_, skeleton_, side, pose_);
         const glm::vec3 way = reacher.Way(GoalOf(side));
-        const float slack = 0.03f * (1.0f - GoalOf(side).weight);  // arms may hang straight
+        const float slack = 0.03f * (1.0f - GoalOf(side).weight);  // Hanging arms may be straight.
         const float missing = glm::length(way) - (kWithinReach + slack) * reacher.Length();
         if (missing > 0.0f) {
           most = std::max(most, missing);
@@ -402,7 +404,7 @@ class ReachPosture {
     return reacher.ActorFromWrist(GoalOf(side).actor_from_grip).position;
   }
 
-  // An arm that holds nothing does not turn with the chest.
+  // An arm without a grip does not turn with the chest.
   void LetArmsHang(const glm::vec3& turn) {
     for (const int side : {kRight, kLeft}) {
       if (Arm(side).whole()) {
@@ -473,7 +475,7 @@ float Progress(const Reach& reach) {
   return reach.duration > 0.0f ? MinimumJerk(reach.time / reach.duration) : 1.0f;
 }
 
-// The hand is at body, from and to by shares that sum to 1.
+// The hand is a blend of the body's pose, `from` and `to`, with shares that sum to 1.
 ReachGoal Goal(const Reach& reach) {
   const float progress = Progress(reach);
   const float from = reach.from_weight * (1.0f - progress);
@@ -486,11 +488,11 @@ ReachGoal Goal(const Reach& reach) {
 }
 
 float ReachSeconds(float metres) {
-  // Hands reach a comfortable peak of about 1.2 m/s at 1.9 times the mean (minimum jerk).
+  // The peak speed of a comfortable motion is about 1.2 m/s, 1.9 times the mean (minimum jerk).
   return std::clamp(0.35f + metres / 0.8f, 0.45f, 1.6f);
 }
 
-ReachModel MakeReachModel(const Body& body) {
+ReachModel MakeReachModel(const BodyRig& body) {
   ReachModel model;
   model.body = body;
   for (const int side : {kRight, kLeft}) {
@@ -502,7 +504,7 @@ ReachModel MakeReachModel(const Body& body) {
     const JointFrame& wrist = body.rest[static_cast<size_t>(body.arms[s].wrist)];
     const glm::vec3 right = side == kRight ? -palm.thumb : palm.thumb;
     const glm::quat rotation = glm::quat_cast(glm::mat3(right, palm.back, -palm.along));
-    // The middle of the palm's surface, by the proportions of hands.
+    // The middle of the palm's surface, from typical proportions of hands.
     const glm::vec3 middle = palm.length * (0.70f * palm.along - 0.24f * palm.back);
     model.wrist_from_grip[s] = {(glm::conjugate(wrist.rotation) * middle) / wrist.scale,
                                 glm::conjugate(wrist.rotation) * rotation};

@@ -11,17 +11,17 @@ namespace lararium::human {
 
 struct RoundCone {
   Float4 a;         // centre of the first sphere
-  Float4 axis;      // unit, towards the second
-  Float4 motion_a;  // of the centres during the step
+  Float4 axis;      // unit vector towards the second sphere
+  Float4 motion_a;  // motion of both centres during the step
   Float4 motion_b;
   float length = 0.0f;
-  float radius = 0.0f;      // of the first sphere
+  float radius = 0.0f;      // radius of the first sphere
   float slope = 0.0f;       // radius gained per metre of axis
-  float lean = 0.0f;        // the surface's normal leans back by this much per metre of distance
-  float inv_length = 0.0f;  // 0 for a sphere
+  float lean = 0.0f;        // Backward lean of the surface normal per metre of distance.
+  float inv_length = 0.0f;  // 1 / length; 0 for a sphere
 };
 
-// radius_a, radius_b: of the spheres around a and b.
+// radius_a and radius_b are the radii of the spheres around a and b.
 inline RoundCone MakeRoundCone(const Float4& a, const Float4& b, float radius_a, float radius_b) {
   RoundCone cone;
   const Float4 along = b - a;
@@ -42,12 +42,12 @@ inline RoundCone MakeRoundCone(const Float4& a, const Float4& b, float radius_a,
   return cone;
 }
 
-// The nearest of the spheres that the hull is made of.
+// The nearest of all spheres whose union is the hull.
 struct NearestSphere {
-  Float4 from_centre;     // to the point
-  float distance = 0.0f;  // its length
+  Float4 from_centre;     // vector from the centre to the point
+  float distance = 0.0f;  // length of from_centre
   float radius = 0.0f;
-  float along = 0.0f;  // where its centre lies between a (0) and b (1)
+  float along = 0.0f;  // Position of the centre between a (0) and b (1).
 };
 
 inline NearestSphere FindNearestSphere(const RoundCone& cone, const Float4& point) {

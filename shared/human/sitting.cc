@@ -13,64 +13,65 @@
 namespace lararium::human {
 namespace {
 
-constexpr glm::vec3 kUp(0.0f, 1.0f, 0.0f);
-constexpr glm::vec3 kForward(0.0f, 0.0f, -1.0f);
+constexpr glm::vec3 kSeatUp(0.0f, 1.0f, 0.0f);
+constexpr glm::vec3 kSeatForward(0.0f, 0.0f, -1.0f);
 
-constexpr float kMostLean = 0.72f;      // radians, of the chest on the way
-constexpr float kPelvisBack = 0.20f;    // radians that a pelvis rolls back on a seat
+constexpr float kMostLean = 0.72f;      // radians; largest lean of the chest during the motion
+constexpr float kPelvisBack = 0.20f;    // radians by which the pelvis rolls back on a seat
 constexpr float kShankBack = 0.22f;     // radians: feet stand a little behind the knees
-constexpr float kHangingShank = 0.12f;  // radians back, of feet that hang
-constexpr float kHangingFoot = 0.40f;   // radians, toes down
-constexpr float kHandOnThigh = 0.62f;   // of the way from hip to knee
+constexpr float kHangingShank = 0.12f;  // radians by which the shanks of hanging feet lean back
+constexpr float kHangingFoot = 0.40f;   // radians by which the toes of hanging feet point down
+constexpr float kHandOnThigh = 0.62f;   // share of the way from hip to knee
 
-// 0 to 1 between two moments, at rest at both (minimum jerk).
-float Between(float begin, float end, float u) {
+// Goes from 0 to 1 between two moments, at rest at both (minimum jerk).
+float SeatBetween(float begin, float end, float u) {
   const float t = std::clamp((u - begin) / (end - begin), 0.0f, 1.0f);
   return t * t * t * (10.0f + t * (6.0f * t - 15.0f));
 }
 
-// The motion at a share of standing up: 0 sits, 1 stands.
+// Phases of the motion at a share of standing up: 0 sits, 1 stands.
 struct Phases {
-  float lean;     // of the trunk, 0..1
-  float back;     // of the pelvis' roll, 0..1
-  float forward;  // of the hips from the seat to over the feet
-  float up;       // likewise
-  float hands;    // on the thighs
-  float feet;     // from hanging to standing
+  float lean;     // lean of the trunk, 0..1
+  float back;     // backward roll of the pelvis, 0..1
+  float forward;  // Progress of the hips from the seat to above the feet, horizontally.
+  float up;       // Progress of the hips, vertically.
+  float hands;    // share of the hands' pose on the thighs
+  float feet;     // progress from hanging to standing feet
 };
 
 Phases PhasesAt(const Sitting& sitting) {
   const float u = 1.0f - sitting.amount;
   Phases at;
-  at.lean = Between(0.0f, 0.40f, u) - Between(0.40f, 0.95f, u);
-  at.back = 1.0f - Between(0.0f, 0.35f, u);
-  at.forward = Between(0.24f, 0.84f, u);
-  at.up = Between(0.30f, 0.98f, u);
-  at.hands = 1.0f - Between(0.34f, 0.76f, u);
-  at.feet = Between(0.10f, 0.55f, u);
+  at.lean = SeatBetween(0.0f, 0.40f, u) - SeatBetween(0.40f, 0.95f, u);
+  at.back = 1.0f - SeatBetween(0.0f, 0.35f, u);
+  at.forward = SeatBetween(0.24f, 0.84f, u);
+  at.up = SeatBetween(0.30f, 0.98f, u);
+  at.hands = 1.0f - SeatBetween(0.34f, 0.76f, u);
+  at.feet = SeatBetween(0.10f, 0.55f, u);
   return at;
 }
 
-float LowerLeg(const Body& body) {
+float LowerLeg(const BodyRig& body) {
   return 0.5f * (body.legs[0].lower_length + body.legs[1].lower_length);
 }
-float Thigh(const Body& body) {
+float Thigh(const BodyRig& body) {
   return 0.5f * (body.legs[0].upper_length + body.legs[1].upper_length);
 }
-float AnkleHeight(const Body& body) {
+float AnkleHeight(const BodyRig& body) {
   return 0.5f * (body.legs[0].ankle_height + body.legs[1].ankle_height);
 }
 
-// How far feet hang: 0 stand flat, 1 hang freely. Thighs slope by some 15 degrees before.
+// How freely the feet hang: 0 stands flat, 1 hangs freely. Before they hang, the thighs slope by
+// about 15 degrees.
 float Hanging(const SittingModel& model, float seat_height) {
-  const Body& body = model.body;
+  const BodyRig& body = model.body;
   const float hips = seat_height + model.seat_to_hips;
   const float highest = AnkleHeight(body) + LowerLeg(body) + 0.26f * Thigh(body);
   return glm::smoothstep(0.0f, 0.07f * body.leg_length(), hips - highest);
 }
 
-// Where the middle of the hip joints is at rest.
-glm::vec3 RestHips(const Body& body) {
+// Midpoint of the hip joints at rest.
+glm::vec3 RestHips(const BodyRig& body) {
   return 0.5f * (body.rest[static_cast<size_t>(body.legs[0].hip)].position +
                  body.rest[static_cast<size_t>(body.legs[1].hip)].position);
 }
@@ -107,13 +108,13 @@ class SeatedPose {
   }
 
  private:
-  const Body::Leg& Leg(int side) const { return body_.legs[static_cast<size_t>(side)]; }
+  const BodyRig::Leg& Leg(int side) const { return body_.legs[static_cast<size_t>(side)]; }
   glm::vec3 Position(JointIndex joint) const {
     return ActorFromJoint(skeleton_, pose_, joint).position;
   }
   glm::vec3 Hips() const { return 0.5f * (Position(Leg(0).hip) + Position(Leg(1).hip)); }
 
-  // Pelvis, chest and head lean by different angles; what is between them shares.
+  // Pelvis, chest and head lean by different angles, which the joints between them share.
   void TurnTrunk() {
     const float pelvis = 0.62f * kMostLean * at_.lean - kPelvisBack * at_.back;
     const float chest = kMostLean * at_.lean;
@@ -121,14 +122,14 @@ class SeatedPose {
     Lean(body_.root, pelvis);
     LeanChain(body_.spine, chest - pelvis);
     LeanChain(body_.neck, head - chest);
-    for (const Body::Arm& arm : body_.arms) {
+    for (const BodyRig::Arm& arm : body_.arms) {
       if (arm.whole()) {
-        Lean(arm.shoulder, -0.85f * chest);  // arms hang
+        Lean(arm.shoulder, -0.85f * chest);  // Keeps the arms hanging.
       }
     }
   }
 
-  // Forwards by an angle.
+  // Leans a joint forward.
   void Lean(JointIndex joint, float angle) { TurnInActor(skeleton_, joint, TurnX(-angle), pose_); }
 
   void LeanChain(const std::vector<JointIndex>& chain, float angle) {
@@ -138,7 +139,7 @@ class SeatedPose {
   }
 
   void MoveHips(const glm::vec3& standing) {
-    const glm::vec3 seated = sitting_.seat + model_.seat_to_hips * kUp;
+    const glm::vec3 seated = sitting_.seat + model_.seat_to_hips * kSeatUp;
     const glm::vec3 goal(glm::mix(seated.x, standing.x, at_.forward),
                          glm::mix(seated.y, standing.y, at_.up),
                          glm::mix(seated.z, standing.z, at_.forward));
@@ -146,26 +147,26 @@ class SeatedPose {
   }
 
   void SetLeg(int side) {
-    const Body::Leg& leg = Leg(side);
+    const BodyRig::Leg& leg = Leg(side);
     JointFrame ankle = ankles_[static_cast<size_t>(side)];
     const float hangs = (1.0f - at_.feet) * Hanging(model_, sitting_.seat.y);
     if (hangs > 0.0f) {
       const glm::vec3 shank = TurnX(-kHangingShank) * glm::vec3(0.0f, -leg.lower_length, 0.0f);
-      const glm::vec3 hanging = Position(leg.hip) + 0.99f * leg.upper_length * kForward + shank;
+      const glm::vec3 hanging = Position(leg.hip) + 0.99f * leg.upper_length * kSeatForward + shank;
       ankle.position = glm::mix(ankle.position, hanging, hangs);
       ankle.rotation = TurnX(-hangs * kHangingFoot) * ankle.rotation;
     }
     BringFoot(skeleton_, body_, side, ankle, pose_);
   }
 
-  // Palm down, fingers along the thigh and a little inward.
+  // Lays the hand on the thigh, palm down, fingers along the thigh and a little inward.
   void LayHandOnThigh(int side) {
     if (!body_.arms[static_cast<size_t>(side)].whole() || at_.hands <= 0.0f) {
       return;
     }
     const glm::vec3 hip = Position(Leg(side).hip), knee = Position(Leg(side).knee);
-    const glm::vec3 along = Direction(knee - hip, kForward);
-    const glm::vec3 back = Direction(Across(kUp, along), kUp);
+    const glm::vec3 along = Direction(knee - hip, kSeatForward);
+    const glm::vec3 back = Direction(Across(kSeatUp, along), kSeatUp);
     const glm::vec3 fingers = TurnBy(SideSign(side) * 0.45f * back) * along;
     Reach reach;
     reach.to.position = glm::mix(hip, knee, kHandOnThigh) + model_.thigh_radius * back;
@@ -176,7 +177,7 @@ class SeatedPose {
   }
 
   const SittingModel& model_;
-  const Body& body_;
+  const BodyRig& body_;
   const ReachModel& reach_;
   const Skeleton& skeleton_;
   const Sitting& sitting_;
@@ -187,7 +188,7 @@ class SeatedPose {
 
 }  // namespace
 
-float SittingSeconds(const Body& body, float cadence) {
+float SittingSeconds(const BodyRig& body, float cadence) {
   constexpr float kGrownLeg = 0.9f;  // metres
   const float size = std::sqrt(std::max(body.leg_length(), 0.3f) / kGrownLeg);
   return 1.9f * size / std::clamp(cadence, 0.5f, 2.0f);
@@ -217,13 +218,13 @@ Sitting Interpolate(const Sitting& previous, const Sitting& current, float alpha
   return mixed;
 }
 
-SittingModel MakeSittingModel(const Human& human, const Body& body) {
+SittingModel MakeSittingModel(const Human& human, const BodyRig& body) {
   SittingModel model;
   model.body = body;
   if (!body.walks()) {
     return model;
   }
-  // Of grown people, by their thighs; what capsules measure is better.
+  // Default radii for adults from the thigh's length; capsules give better values.
   float at_hip = 0.21f * Thigh(body), at_knee = 0.14f * Thigh(body);
   for (const BodyCapsule& capsule : human.capsules) {
     if (capsule.joint == static_cast<uint32_t>(body.legs[kRight].hip)) {
@@ -231,14 +232,14 @@ SittingModel MakeSittingModel(const Human& human, const Body& body) {
       at_knee = capsule.radius_b;
     }
   }
-  constexpr float kPressed = 0.88f;  // flesh gives way on a seat
+  constexpr float kPressed = 0.88f;  // Soft tissue is compressed on a seat.
   model.seat_to_hips = kPressed * at_hip;
-  model.thigh_radius = glm::mix(at_hip, at_knee, kHandOnThigh) + 0.025f;  // what is worn
+  model.thigh_radius = glm::mix(at_hip, at_knee, kHandOnThigh) + 0.025f;  // margin for clothes
   return model;
 }
 
 float StandBeforeSeat(const SittingModel& model, float seat_height, float front) {
-  const Body& body = model.body;
+  const BodyRig& body = model.body;
   if (!body.walks()) {
     return front;
   }
@@ -248,7 +249,7 @@ float StandBeforeSeat(const SittingModel& model, float seat_height, float front)
   const float thigh = std::sqrt(Thigh(body) * Thigh(body) - rise * rise);
   const float ankles = thigh - LowerLeg(body) * std::sin(kShankBack);
   const float heels = front + 0.6f * (body.legs[0].heel.z + body.legs[1].heel.z) + 0.02f;
-  // From the ankles to the root that stands above them.
+  // Distance from the ankles to the root that stands above them.
   const float behind = 0.5f * (body.rest[static_cast<size_t>(body.legs[0].ankle)].position.z +
                                body.rest[static_cast<size_t>(body.legs[1].ankle)].position.z);
   return std::max(ankles, std::min(heels, 0.9f * Thigh(body))) + behind;
@@ -263,7 +264,7 @@ glm::vec3 HipsShift(const SittingModel& model, const Sitting& sitting) {
     return glm::vec3(0.0f);
   }
   const Phases at = PhasesAt(sitting);
-  const glm::vec3 way = sitting.seat + model.seat_to_hips * kUp - RestHips(model.body);
+  const glm::vec3 way = sitting.seat + model.seat_to_hips * kSeatUp - RestHips(model.body);
   return glm::vec3(1.0f - at.forward, 1.0f - at.up, 1.0f - at.forward) * way;
 }
 

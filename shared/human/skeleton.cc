@@ -44,13 +44,13 @@ Status Skeleton::Validate(const std::string& place) const {
   for (size_t i = 0; i < size(); ++i) {
     const std::string joint = "joint " + std::to_string(i) + " (" + names[i] + ")";
     if (names[i].empty() || !seen.insert(names[i]).second) {
-      return Status::Error(place, joint + " has no name of its own");
+      return Status::Error(place, joint + " has no name, or the name of another joint");
     }
     if (parents[i] < kNoParent || parents[i] >= static_cast<int>(i)) {
       return Status::Error(place, joint + " does not come after its parent");
     }
     if (!Valid(rest[i]) || !Finite(joint_from_actor[i]) || !IsAffine(joint_from_actor[i])) {
-      return Status::Error(place, joint + " has an impossible transform");
+      return Status::Error(place, joint + " has an invalid transform");
     }
   }
   return Status();

@@ -14,7 +14,7 @@
 
 namespace lararium::human {
 
-// The joint frame in its parent's frame (or in the actor's, for a root).
+// The joint frame in its parent's frame, or in the actor's frame for a root.
 struct JointTransform {
   glm::quat rotation = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
   glm::vec3 translation = glm::vec3(0.0f);  // metres
@@ -23,9 +23,9 @@ struct JointTransform {
 
 glm::mat4 ParentFromJoint(const JointTransform& joint);
 
-// Joints in an order in which parents come before children. Names are
-// H-Anim's (humanoid_root, sacroiliac, vl5, skullbase, l_shoulder, ...). Actor
-// frame: metres, Y up, facing -Z, soles at y = 0.
+// A skeleton whose parents come before their children. Names are those of H-Anim (humanoid_root,
+// sacroiliac, vl5, skullbase, l_shoulder, ...). Actor frame: metres, Y up, facing -Z, soles at y =
+// 0.
 struct Skeleton {
   static constexpr int16_t kNoParent = -1;
   static constexpr size_t kMaxJoints = 256;
@@ -40,13 +40,13 @@ struct Skeleton {
   Status Validate(const std::string& place) const;
 };
 
-// actor_from_joint for every joint of a pose.
+// Computes actor_from_joint for every joint of a pose.
 void ComputeActorFromJoint(const Skeleton& skeleton,
                            std::span<const JointTransform> pose,
                            std::span<glm::mat4> actor_from_joint);
 
-// actor_from_joint * joint_from_actor: moves vertices from the bind pose to the
-// pose. What linear blend skinning takes.
+// Computes actor_from_joint * joint_from_actor, which moves vertices from the bind pose to the
+// pose: the input of linear blend skinning.
 void ComputeSkinMatrices(const Skeleton& skeleton,
                          std::span<const glm::mat4> actor_from_joint,
                          std::span<glm::mat4> skin);

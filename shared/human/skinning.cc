@@ -58,7 +58,7 @@ void SkinLinearly(const SkinningJob& job) {
   }
 }
 
-// Real and dual part, each x, y, z, w, and the scale.
+// Real and dual part, each x, y, z, w.
 struct PackedDualQuaternion {
   Columns parts;
   float scale;
@@ -80,7 +80,7 @@ float Dot4(Column a, Column b) {
   return halves[0] + halves[1];
 }
 
-// Of the first three; the fourth comes out as nothing where all are finite.
+// Cross product of the first three components; the fourth becomes 0 if all are finite.
 Column Cross(Column a, Column b) {
   const Column a_yzx = __builtin_shufflevector(a, a, 1, 2, 0, 3);
   const Column b_yzx = __builtin_shufflevector(b, b, 1, 2, 0, 3);
@@ -88,7 +88,7 @@ Column Cross(Column a, Column b) {
   return __builtin_shufflevector(zxy, zxy, 1, 2, 0, 3);
 }
 
-// The weighted sum, of unit length; its scale apart.
+// Weighted sum, normalised to unit length; the scale is blended separately.
 PackedDualQuaternion Blend(std::span<const PackedDualQuaternion> all,
                            const std::array<uint8_t, 4>& joints,
                            const glm::vec4& weights) {

@@ -31,7 +31,7 @@ Status ValidateParticles(const Cloth& cloth, size_t joint_count, const std::stri
   for (size_t i = 0; i < count; ++i) {
     if (!Finite(cloth.positions[i]) || !IsNotNegative(cloth.reach[i]) ||
         !IsInfluence(cloth.joints[i], cloth.weights[i], joint_count)) {
-      return Status::Error(at, "a particle's place, reach or skin weights are not possible ones");
+      return Status::Error(at, "a particle has an invalid position, reach or skin weight");
     }
   }
   if (cloth.triangles.size() % 3 != 0 || !AllBelow(cloth.triangles, count)) {
@@ -59,7 +59,7 @@ Status ValidateBinding(const Cloth& cloth, size_t vertex_count, const std::strin
 Status BodyCapsule::Validate(size_t joint_count, const std::string& place) const {
   if (joint >= joint_count || !Finite(a) || !Finite(b) || !IsNotNegative(radius_a) ||
       !IsNotNegative(radius_b)) {
-    return Status::Error(place, "a capsule of the body has no joint or no possible size");
+    return Status::Error(place, "a capsule of the body has no joint or an invalid size");
   }
   return Status();
 }
@@ -75,7 +75,7 @@ Status Cloth::Validate(const std::vector<SkinnedMesh>& meshes,
   LARARIUM_RETURN_IF_ERROR(ValidateBinding(*this, meshes[mesh].positions.size(), at));
   if (!(density > 0.0f) || !std::isfinite(density) || !IsNotNegative(stretch_compliance) ||
       !IsNotNegative(bend_compliance) || !IsNotNegative(friction) || !IsNotNegative(thickness)) {
-    return Status::Error(at, "its material is not a possible one");
+    return Status::Error(at, "its material values are not valid");
   }
   return Status();
 }
@@ -85,12 +85,12 @@ Status SpringChain::Validate(const std::vector<int16_t>& parents, const std::str
   for (size_t i = 0; i < joints.size(); ++i) {
     if (joints[i] >= parents.size() ||
         (i > 0 && parents[joints[i]] != static_cast<int64_t>(joints[i - 1]))) {
-      return Status::Error(at, "its joints do not exist or do not follow one another");
+      return Status::Error(at, "its joints do not exist or do not form a chain");
     }
   }
   if (!IsNotNegative(stiffness) || !IsNotNegative(drag) || !std::isfinite(gravity) ||
       !IsNotNegative(radius)) {
-    return Status::Error(at, "its numbers are not possible ones");
+    return Status::Error(at, "its numbers are not valid");
   }
   return Status();
 }

@@ -19,36 +19,36 @@ namespace {
 
 constexpr float kGravity = 9.81f;       // m/s^2
 constexpr float kStep = 1.0f / 240.0f;  // seconds
-constexpr float kLongestFrame = 0.25f;  // seconds; a longer one is a cut
-constexpr float kLeapSpeed = 6.0f;      // m/s, of the roots
-constexpr float kLeap = 0.08f;          // metres beyond that speed
-constexpr float kFadeSeconds = 0.4f;    // to and from plain animation
+constexpr float kLongestFrame = 0.25f;  // seconds; a longer frame counts as a cut
+constexpr float kLeapSpeed = 6.0f;      // m/s, speed of the roots
+constexpr float kLeap = 0.08f;          // metres in addition to that speed
+constexpr float kFadeSeconds = 0.4f;    // Duration of the fade to and from plain animation.
 constexpr float kSettlingSeconds = 2.0f;
 constexpr float kSettlingDrag = 8.0f;  // 1/s
 constexpr float kQuietSpeed = 0.02f;   // m/s
 constexpr float kFastest = 12.0f;      // m/s, relative to the root
-constexpr float kLastLength = 0.07f;   // metres, of a joint that nothing follows
-constexpr float kOriginRange = 4.0f;   // metres after which the origin follows the actor
-constexpr int kSweeps = 3;             // of the lengths of a chain in a step
+constexpr float kLastLength = 0.07f;   // Length of a stick without a following joint, metres.
+constexpr float kOriginRange = 4.0f;   // Metres after which the origin follows the actor.
+constexpr int kSweeps = 3;             // Passes over the lengths of a chain in a step.
 constexpr uint32_t kNone = 0xffffffffu;
 
-// A joint of a chain: a stick from its origin to its tail, where a particle is.
+// A joint of a chain: a stick from the joint's origin to its tail, where the particle is.
 struct Link {
   uint32_t joint = 0;
-  uint32_t before = kNone;           // the link that carries it; none: the root of its chain
+  uint32_t before = kNone;           // Link that carries this one; kNone at the root of a chain.
   glm::vec3 tail = glm::vec3(0.0f);  // joint frame
   float stiffness = 0.0f;            // 1/s^2
   float drag = 0.0f;                 // 1/s
   float gravity = 0.0f;              // m/s^2
 };
 
-// A joint whose matrix changes: one of a chain, or what such a joint carries.
+// A joint whose matrix changes: a joint of a chain or a descendant of one.
 struct MovedJoint {
   uint32_t joint = 0;
   uint32_t link = kNone;
 };
 
-// Where a link lies, local frame.
+// The position of a link, local frame.
 struct Stick {
   Float4 head;
   Float4 tail;
@@ -67,11 +67,12 @@ struct SpringModel::Data {
   std::vector<Link> links;  // chain by chain, from the root outward
   std::vector<MovedJoint> moved;
   std::vector<BodyCapsule> capsules;
-  std::vector<float> standoff;  // [capsule][link]: kept from its surface, but no more than as bound
+  // [capsule][link]: distance kept from the surface, at most that of the bind pose.
+  std::vector<float> standoff;
   size_t chain_count = 0;
 };
 
-// Local frame: stage axes, actor's metres, about an origin near the actor.
+// The local frame has the stage's axes, the actor's metres and an origin near the actor.
 struct SpringState::Data {
   glm::vec3 origin_in_stage = glm::vec3(0.0f);
   float scale = 1.0f;
@@ -82,15 +83,15 @@ struct SpringState::Data {
   std::vector<Float4> before;
   std::vector<Float4> velocities;
 
-  // As animated: at the last step, at the last frame and at this one. [link]
+  // Animated sticks at the last step, at the last frame and at this frame. [link]
   std::vector<Stick> animated, last, next;
-  std::vector<Float4> root_motion;  // of the root of its chain in one step
-  // Turns of what carries a link, as animated; used at roots.
+  std::vector<Float4> root_motion;  // Motion of the chain's root in one step.
+  // Animated rotation of the joint that carries a link; used at roots.
   std::vector<glm::quat> carrier, last_carrier, next_carrier;
-  std::vector<glm::quat> relative;                 // of the joint in its parent, as animated
-  std::vector<glm::vec3> stick;                    // from head to tail, in the joint's turn
-  std::vector<float> length;                       // of it
-  std::vector<glm::quat> turned;                   // of the joint, simulated
+  std::vector<glm::quat> relative;                 // animated rotation of the joint in its parent
+  std::vector<glm::vec3> stick;                    // vector from head to tail in the joint's axes
+  std::vector<float> length;                       // length of the stick
+  std::vector<glm::quat> turned;                   // simulated rotation of the joint
   std::vector<Float4> ends, last_ends, next_ends;  // [2 * capsule]
   std::vector<RoundCone> cones;
   glm::quat turn = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);  // local_from_actor
@@ -99,7 +100,7 @@ struct SpringState::Data {
 
   double pending = 0.0;
   float weight = 1.0f;
-  std::vector<glm::vec3> offsets_before;  // of tails from the animation, actor axes
+  std::vector<glm::vec3> offsets_before;  // Offsets of the tails from the animation, actor axes.
   std::vector<glm::vec3> offsets;
 };
 
@@ -110,8 +111,8 @@ using State = SpringState::Data;
 
 // --- The model ------------------------------------------------------------------
 
-// Where a joint's stick ends: at the next joint of the chain, else at its first child,
-// else as far again as the stick before it.
+// End of a joint's stick: the next joint of the chain, otherwise the joint's first child, otherwise
+// a continuation as long as the stick before it.
 glm::vec3 TailOf(const Human& human, const SpringChain& chain, size_t i) {
   const Skeleton& skeleton = human.skeleton;
   const uint32_t joint = chain.joints[i];
@@ -254,7 +255,7 @@ bool HasLeapt(const Model& model, float elapsed, const State& state) {
 
 // --- One step -------------------------------------------------------------------
 
-// The animation moves to where it is between the last frame (0) and this one (1).
+// Interpolates the animation between the last frame (0) and this one (1).
 void MoveAnimation(const Model& model, float share, State& state) {
   for (size_t i = 0; i < model.links.size(); ++i) {
     const Float4 head_before = state.animated[i].head;
@@ -283,8 +284,8 @@ const Float4& HeadOf(const Link& link, size_t i, const State& state) {
   return link.before == kNone ? state.animated[i].head : state.tails[link.before];
 }
 
-// Gravity, the pull to the animated direction as the carrying joint now lies, and the
-// drag relative to the root: implicit in the last two.
+// Applies gravity, the pull to the animated direction as the carrying joint now lies, and the drag
+// relative to the root. The last two are integrated implicitly.
 void Predict(const Model& model, float further_drag, size_t i, State& state) {
   const Link& link = model.links[i];
   const Float4 head = HeadOf(link, i, state);
@@ -330,7 +331,7 @@ void SolveContacts(const Model& model, State& state) {
       if (!(depth > 0.0f) || sphere.distance < 1e-6f) {
         continue;
       }
-      // Pushed out without speed beyond the surface's.
+      // Pushes the tail out without giving it speed beyond the surface's.
       const Float4 normal = sphere.from_centre * (1.0f / sphere.distance);
       state.tails[i] += normal * depth;
       const Float4 motion =
@@ -363,7 +364,7 @@ void TakeOffsets(float share, State& state) {
   }
 }
 
-// share: between the last frame and this one.
+// share is the position between the last frame and this one.
 void StepOnce(const Model& model, float share, float further_drag, State& state) {
   MoveAnimation(model, share, state);
   for (size_t i = 0; i < model.links.size(); ++i) {
@@ -402,7 +403,7 @@ float FastestTail(const State& state) {
   return std::sqrt(square);
 }
 
-// From the animation, or from as far beside it as before the cut, until it hangs quiet.
+// Settles the chains. They start at the animation, or at their offsets from it before the cut.
 void Settle(const Model& model, State& state) {
   state.last = state.next;
   state.animated = state.next;
@@ -449,7 +450,7 @@ void Advance(const Model& model, float elapsed, State& state) {
   state.pending -= double(steps) * double(kStep);
 }
 
-// Plain animation: the chains wait there.
+// Keeps the chains at the plain animation.
 void FollowAnimation(State& state) {
   state.animated = state.next;
   state.ends = state.next_ends;
@@ -461,7 +462,7 @@ void FollowAnimation(State& state) {
   state.adopts_motion = true;
 }
 
-// The last step, moved on by less than one; actor frame.
+// The tail of the last step, extrapolated by less than one step; actor frame.
 glm::vec3 DrawnTail(size_t i, const State& state) {
   const float share = std::clamp(static_cast<float>(state.pending / double(kStep)), 0.0f, 1.0f);
   const glm::vec3 animated = glm::conjugate(state.turn) * (state.last[i].tail.xyz() - state.place);

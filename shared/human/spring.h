@@ -1,15 +1,15 @@
 #pragma once
 
-// Hair, tassels and ends of belts: chains of joints that swing behind the head or
-// body that carries them.
+// Hair, tassels and ends of belts: chains of joints that swing behind the head or the body that
+// carries them.
 //
-// Each joint is a rigid stick to the next joint; a particle at its end is drawn to
-// where the animation would have it, falls, is braked, keeps its distance to the
-// joint (XPBD, as cloth.h) and stays outside the body's capsules. The pull and the
-// drag are integrated implicitly, so that no stiffness can blow a chain up. Drag is
-// relative to the chain's root: steady walking does not blow hair back.
+// Each joint is a rigid stick to the next joint. A particle at the end of the stick is pulled to
+// its animated position, falls, is braked, keeps its distance to the joint (XPBD, see cloth.h) and
+// stays outside the body's capsules. The pull and the drag are integrated implicitly, so that no
+// stiffness makes a chain unstable. Drag is relative to the chain's root: steady walking does not
+// blow hair back.
 //
-// Frame: as in cloth.h. Time: a clock of its own, 240 steps a second.
+// Frame: see cloth.h. Time: the simulation has its own clock of 240 steps a second.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -22,7 +22,7 @@ namespace lararium::human {
 
 class SpringModel;
 
-// The moving part. A copy is a snapshot: stepped alike, both stay equal.
+// The state that changes over time. A copy is a snapshot: equal steps keep both equal.
 class SpringState {
  public:
   explicit SpringState(const SpringModel& model);
@@ -42,7 +42,7 @@ class SpringState {
 
 class SpringModel {
  public:
-  // human is valid (Human::Validate).
+  // Requires a valid human (Human::Validate).
   explicit SpringModel(const Human& human);
   SpringModel(SpringModel&&) noexcept;
   SpringModel& operator=(SpringModel&&) noexcept;
@@ -61,12 +61,12 @@ class SpringModel {
 struct SpringStep {
   glm::mat4 stage_from_actor = glm::mat4(1.0f);  // rigid, or with one scale
   float elapsed = 0.0f;                          // seconds since the last step
-  bool simulated = true;                         // false: fades back to the animation
+  bool simulated = true;                         // If false, the chains fade back to the animation.
 };
 
-// Turns the joints of the chains in `pose` (parent_from_joint, as animated, after all
-// else that moves the person) and updates their rows, and those of their descendants,
-// of actor_from_joint. Leaps are treated as in StepCloth.
+// Turns the joints of the chains in `pose` (parent_from_joint), and updates their rows of
+// actor_from_joint and those of their descendants. Call it after everything else that moves the
+// person. Sudden jumps are treated as in StepCloth.
 void StepSprings(const SpringModel& model,
                  const SpringStep& step,
                  SpringState& state,

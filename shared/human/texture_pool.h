@@ -1,7 +1,7 @@
 #pragma once
 
-// Equal textures of several models in memory once: people share eyes, teeth and fabrics, and
-// whoever is read again has what they had.
+// Keeps equal textures of several models in memory only once: people share eyes, teeth and fabrics,
+// and a reloaded person reuses the textures that are still loaded.
 
 #include <memory>
 #include <mutex>
@@ -13,8 +13,8 @@ namespace lararium::human {
 
 class TexturePool {
  public:
-  // What is equal to a texture that somebody still has becomes that one. None may be nullptr. From
-  // any thread.
+  // Replaces each texture by an equal one that is still in use, if there is one. None may be
+  // nullptr. Thread-safe.
   void Share(std::vector<std::shared_ptr<const Texture>>& textures);
 
  private:

@@ -1,19 +1,18 @@
 #pragma once
 
-// Rotations by name, for those who pose bodies. Actor axes: X right, Y up, -Z forward.
+// Rotations about named axes, for code that poses bodies. Actor axes: X right, Y up, -Z forward.
 
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
-#include <numbers>
+
+#include "shared/core/units.h"
 
 namespace lararium::human {
 
-inline constexpr float kPi = std::numbers::pi_v<float>;
-
-// Positive turns: X raises what is in front, Y turns to the left, Z raises the right.
+// Positive angles: X raises what is in front, Y turns to the left, Z raises the right side.
 inline glm::quat TurnX(float angle) {
   return {std::cos(0.5f * angle), std::sin(0.5f * angle), 0.0f, 0.0f};
 }
@@ -26,18 +25,18 @@ inline glm::quat TurnZ(float angle) {
 
 inline const glm::quat kNoTurn(1.0f, 0.0f, 0.0f, 0.0f);
 
-// v over its length, or instead where it has none.
+// Returns v normalised, or `instead` if v has no length.
 inline glm::vec3 Direction(const glm::vec3& v, const glm::vec3& instead) {
   const float length = glm::length(v);
   return length > 1e-6f ? v / length : instead;
 }
 
-// What of v is across a unit axis.
+// Returns the component of v perpendicular to a unit axis.
 inline glm::vec3 Across(const glm::vec3& v, const glm::vec3& axis) {
   return v - glm::dot(v, axis) * axis;
 }
 
-// Any unit vector across a unit axis.
+// Returns any unit vector perpendicular to a unit axis.
 inline glm::vec3 AnyAcross(const glm::vec3& axis) {
   const glm::vec3 other = std::abs(axis.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   return glm::normalize(glm::cross(axis, other));
@@ -54,13 +53,13 @@ inline glm::quat Arc(const glm::vec3& from, const glm::vec3& to) {
   return glm::normalize(glm::quat(1.0f + cosine, axis.x, axis.y, axis.z));
 }
 
-// About a vector of this length, radians.
+// Returns the rotation about a vector whose length is the angle in radians.
 inline glm::quat TurnBy(const glm::vec3& rotation) {
   const float angle = glm::length(rotation);
   return angle > 1e-9f ? glm::angleAxis(angle, rotation / angle) : kNoTurn;
 }
 
-// A share of a turn, the shorter way.
+// Returns a share of a rotation along the shorter arc.
 inline glm::quat Share(const glm::quat& turn, float share) {
   return glm::slerp(kNoTurn, turn, share);
 }
@@ -73,12 +72,13 @@ inline float TwistAngle(const glm::quat& turn, const glm::vec3& axis) {
   return 2.0f * std::atan2(glm::dot(glm::vec3(q.x, q.y, q.z), axis), q.w);
 }
 
-// a to b the shorter way around.
+// Interpolates from a to b the shorter way around.
 inline float MixAngles(float a, float b, float alpha) {
-  return a + alpha * std::remainder(b - a, 2.0f * kPi);
+  return a + alpha * std::remainder(b - a, 2.0f * kPiF);
 }
 
-// The share of a step with which something of a time constant comes nearer.
+// Returns the share of the remaining distance that an exponential approach with this time constant
+// covers in one step.
 inline float Approach(float seconds, float time_constant) {
   return 1.0f - std::exp(-seconds / time_constant);
 }

@@ -10,7 +10,7 @@
 namespace lararium::human {
 namespace {
 
-// Axes along a segment and its hinge.
+// Axes of a frame along a segment and its hinge.
 glm::mat3 Basis(const glm::vec3& along, const glm::vec3& hinge) {
   const glm::vec3 h = Direction(Across(hinge, along), AnyAcross(along));
   return glm::mat3(h, along, glm::cross(h, along));
@@ -28,7 +28,7 @@ float SoftDistance(float distance, float length) {
 }  // namespace
 
 float TwoBoneIk::Solve(const Skeleton& skeleton,
-                       const Body& body,
+                       const BodyRig& body,
                        std::span<JointTransform> pose) const {
   const JointFrame upper_frame = ActorFromJoint(skeleton, pose, upper);
   const glm::vec3 a = upper_frame.position;
@@ -50,7 +50,8 @@ float TwoBoneIk::Solve(const Skeleton& skeleton,
   const glm::vec3 new_first = (along * direction + aside * bend) / first;
   const glm::vec3 new_second = ((distance - along) * direction - aside * bend) / second;
 
-  // The hinge that the limb has now: that of its bend, or carried along where straight.
+  // The limb's current hinge: the axis of its bend, or the rest axis carried along if it is
+  // straight.
   const size_t u = static_cast<size_t>(upper);
   const glm::vec3 carried = upper_frame.rotation * (glm::inverse(body.rest[u].rotation) * hinge);
   const glm::vec3 bent = glm::cross(old_first, old_second);
@@ -65,11 +66,11 @@ float TwoBoneIk::Solve(const Skeleton& skeleton,
 }
 
 void BringFoot(const Skeleton& skeleton,
-               const Body& body,
+               const BodyRig& body,
                int side,
                const JointFrame& ankle,
                std::span<JointTransform> pose) {
-  const Body::Leg& leg = body.legs[static_cast<size_t>(side)];
+  const BodyRig::Leg& leg = body.legs[static_cast<size_t>(side)];
   const glm::vec3 forward(0.0f, 0.0f, -1.0f);
   const glm::quat turned =
       ankle.rotation * glm::conjugate(body.rest[static_cast<size_t>(leg.ankle)].rotation);

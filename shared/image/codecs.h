@@ -1,6 +1,6 @@
 #pragma once
 
-// The readers and writers of single formats. Private to image.
+// Readers and writers of individual formats. Private to image.
 
 #include <cstddef>
 #include <opencv2/core/mat.hpp>
@@ -14,7 +14,7 @@
 
 namespace lararium::image {
 
-// 8 bits of each.
+// OpenCV type of an 8-bit image with these channels.
 constexpr int TypeOf(Channels channels) {
   switch (channels) {
     case Channels::kGrey:
@@ -35,18 +35,18 @@ Result<cv::Mat> DecodeJpeg(Bytes encoded,
                            const std::string& place);
 Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& place);
 Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& place);
-// BMP, WebP.
+// Decodes BMP and WebP.
 Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& place);
 
 bool StartsWith(Bytes bytes, size_t at, std::string_view text);
 
-// From BGR or grey of 8 bits.
+// Converts an 8-bit BGR or grey image.
 cv::Mat Converted(const cv::Mat& image, Channels channels);
 
-// What is wrong with a picture that cannot be decoded.
+// Returns the error for a picture that cannot be decoded.
 Status Damaged(const std::string& place, const std::string& why);
 
-// Allocates; an error where the size is nothing or beyond kMaxPixels.
+// Allocates an image. Returns an error if the size is zero or exceeds kMaxPixels.
 Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::string& place);
 
 }  // namespace lararium::image

@@ -49,7 +49,7 @@ Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::
 
 namespace {
 
-// Of either byte order; with offsets of 32 bits (42) or of 64 (43).
+// Accepts both byte orders, and offsets of 32 bits (42) and of 64 bits (43).
 bool IsTiff(Bytes encoded) {
   using std::literals::string_view_literals::operator""sv;
   static constexpr std::array kMagic = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};

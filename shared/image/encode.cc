@@ -25,8 +25,8 @@ Result<std::vector<std::byte>> EncodeAs(const std::string& ending,
 Status WriteImage(const std::filesystem::path& file, const cv::Mat& image, int jpeg_quality) {
   const auto encoded = EncodeAs(LowerCase(file.extension().string()), image, jpeg_quality);
   return encoded.ok() ? WriteFileAtomically(file, *encoded)
-                      : Status::Error(file.string(), "no picture can be written as this",
-                                      "name a .png or .jpg file");
+                      : Status::Error(file.string(), "the file name has no extension of a picture",
+                                      "choose a name that ends in .png or .jpg");
 }
 
 }  // namespace lararium::image

@@ -42,8 +42,7 @@ bool StartsFrame(uint32_t marker) {
   return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
-// Segments follow one another until the one that starts a frame: marker, length, precision,
-// height, width.
+// Segments precede the one that starts a frame: marker, length, precision, height, width.
 std::optional<ImageHeader> ReadJpeg(Bytes bytes) {
   for (size_t at = 2; at + 9 <= bytes.size() && bytes[at] == std::byte{0xff};) {
     const auto marker = static_cast<uint32_t>(bytes[at + 1]);
@@ -60,7 +59,7 @@ std::optional<ImageHeader> ReadJpeg(Bytes bytes) {
   return std::nullopt;
 }
 
-// Below zero a height says that the top row comes first.
+// A negative height means that the top row comes first.
 std::optional<ImageHeader> ReadBmp(Bytes bytes) {
   if (bytes.size() < 26) {
     return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What an encoded image says of itself, so that nothing is decoded that would not fit.
+// Reads the size that an encoded image declares, so that nothing too large is decoded.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,14 +13,14 @@ struct ImageHeader {
   enum class Format { kPng, kJpeg, kBmp };
 
   Format format = Format::kPng;
-  uint32_t width = 0;  // pixels, as it claims: anything
+  uint32_t width = 0;  // Pixels, as declared; any value is possible.
   uint32_t height = 0;
 
   friend bool operator==(const ImageHeader&, const ImageHeader&) = default;
 };
 
-// Of a PNG (ISO/IEC 15948, 11.2.2), a JPEG (ITU-T T.81, B.1 and B.2.2) or a Windows bitmap;
-// nullopt for anything else, and where it is cut short before its size.
+// Reads the header of a PNG (ISO/IEC 15948, 11.2.2), a JPEG (ITU-T T.81, B.1 and B.2.2) or a
+// Windows bitmap. Returns nullopt for other data, and for data that end before the size.
 std::optional<ImageHeader> ReadImageHeader(std::span<const std::byte> encoded);
 
 }  // namespace lararium::image

@@ -1,4 +1,5 @@
-// libjpeg-turbo. Its errors come by longjmp, so that functions that call setjmp own nothing.
+// Reads and writes JPEG with libjpeg-turbo. It reports errors by longjmp, so functions that call
+// setjmp own nothing.
 
 #include <csetjmp>
 #include <cstdio>
@@ -21,19 +22,19 @@
 namespace lararium::image {
 namespace {
 
-struct Errors : jpeg_error_mgr {
+struct JpegErrors : jpeg_error_mgr {
   std::jmp_buf jump;
   std::array<char, JMSG_LENGTH_MAX> message = {};
 };
 
 [[noreturn]] void Leave(j_common_ptr info) {
-  auto* errors = static_cast<Errors*>(info->err);
+  auto* errors = static_cast<JpegErrors*>(info->err);
   errors->format_message(info, errors->message.data());
   std::longjmp(errors->jump, 1);  // NOLINT(cert-err52-cpp): C frames are in between
 }
 
-// libjpeg goes on with grey where data are missing; half a picture is none. It also warns of
-// harmless things, as of bytes that some cameras leave between segments.
+// libjpeg fills missing data with grey, but we treat an incomplete picture as an error. It also
+// warns of harmless defects, such as extra bytes between segments that some cameras write.
 void OnWarning(j_common_ptr info, int level) {
   const int code = info->err->msg_code;
   if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER)) {
@@ -41,22 +42,22 @@ void OnWarning(j_common_ptr info, int level) {
   }
 }
 
-void Prepare(Errors& errors) {
+void Prepare(JpegErrors& errors) {
   jpeg_std_error(&errors);
   errors.error_exit = Leave;
   errors.emit_message = OnWarning;
 }
 
-class Reader {
+class JpegReader {
  public:
-  Reader() {
+  JpegReader() {
     Prepare(errors_);
     info_.err = &errors_;
     progress_.progress_monitor = LimitScans;
   }
-  ~Reader() { jpeg_destroy_decompress(&info_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~JpegReader() { jpeg_destroy_decompress(&info_); }
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
 
   bool Open(Bytes encoded, int halvings) {
     if (setjmp(errors_.jump) != 0) {  // NOLINT(cert-err52-cpp)
@@ -90,12 +91,12 @@ class Reader {
   std::string message() const { return errors_.message.data(); }
 
  private:
-  // A progressive image comes in about ten scans; thousands of them, each over the whole
-  // image, would keep a reader busy for hours.
+  // A progressive image has about ten scans. Thousands of scans, each over the whole image, would
+  // keep a reader busy for hours.
   static void LimitScans(j_common_ptr info) {
     constexpr int kMaxScans = 200;
     if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number > kMaxScans) {
-      auto* errors = static_cast<Errors*>(info->err);
+      auto* errors = static_cast<JpegErrors*>(info->err);
       std::snprintf(errors->message.data(), errors->message.size(), "more than %d scans",
                     kMaxScans);
       std::longjmp(errors->jump, 1);  // NOLINT(cert-err52-cpp)
@@ -104,21 +105,21 @@ class Reader {
 
   jpeg_decompress_struct info_ = {};
   jpeg_progress_mgr progress_ = {};
-  Errors errors_ = {};
+  JpegErrors errors_ = {};
 };
 
-class Writer {
+class JpegWriter {
  public:
-  Writer() {
+  JpegWriter() {
     Prepare(errors_);
     info_.err = &errors_;
   }
-  ~Writer() {
+  ~JpegWriter() {
     jpeg_destroy_compress(&info_);
     std::free(bytes_);
   }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
+  JpegWriter(const JpegWriter&) = delete;
+  JpegWriter& operator=(const JpegWriter&) = delete;
 
   bool Write(const cv::Mat& image, int quality) {
     if (setjmp(errors_.jump) != 0) {  // NOLINT(cert-err52-cpp)
@@ -146,8 +147,8 @@ class Writer {
 
  private:
   jpeg_compress_struct info_ = {};
-  Errors errors_ = {};
-  unsigned char* bytes_ = nullptr;  // malloc's
+  JpegErrors errors_ = {};
+  unsigned char* bytes_ = nullptr;  // allocated by malloc
   unsigned long size_ = 0;          // NOLINT(google-runtime-int): libjpeg's type
 };
 
@@ -157,7 +158,7 @@ Result<cv::Mat> DecodeJpeg(Bytes encoded,
                            Channels channels,
                            int halvings,
                            const std::string& place) {
-  Reader reader;
+  JpegReader reader;
   if (!reader.Open(encoded, halvings)) {
     return Damaged(place, reader.message());
   }
@@ -177,7 +178,7 @@ Result<cv::Mat> DecodeJpeg(Bytes encoded,
 
 Result<std::vector<std::byte>> EncodeJpeg(const cv::Mat& image, int quality) {
   CHECK(image.type() == CV_8UC1 || image.type() == CV_8UC3);
-  Writer writer;
+  JpegWriter writer;
   if (!writer.Write(image, quality)) {
     return Status::Error("JPEG", "cannot be written: " + writer.message());
   }

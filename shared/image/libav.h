@@ -1,6 +1,6 @@
 #pragma once
 
-// Owners of libav's objects. Private to image and capture.
+// Owning pointers to libav's objects. Private to image and capture.
 
 extern "C" {
 #include <libavcodec/avcodec.h>

@@ -1,4 +1,4 @@
-// Pictures that come seldom, by the library that reads the videos.
+// Reads rare picture formats with libav, which also reads the videos.
 
 #include <algorithm>
 #include <cstring>
@@ -22,8 +22,8 @@ std::optional<AVCodecID> CodecOf(Bytes encoded) {
   return std::nullopt;
 }
 
-// Bytes of the whole file, as it says itself. libav shears a BMP that is a little too short, and
-// makes up the rest of a WebP.
+// Returns the size of the whole file that the file declares. libav skews a BMP that is a little too
+// short, and invents the rest of a WebP.
 uint64_t ClaimedSize(AVCodecID id, Bytes encoded) {
   const size_t at = id == AV_CODEC_ID_BMP ? 2 : 4;
   uint32_t claimed = 0;
@@ -33,7 +33,7 @@ uint64_t ClaimedSize(AVCodecID id, Bytes encoded) {
   return id == AV_CODEC_ID_BMP ? claimed : uint64_t{claimed} + 8;
 }
 
-// Null where the decoder cannot be had.
+// Returns null if the decoder is not available.
 LibavPtr<AVCodecContext> OpenDecoder(AVCodecID id) {
   const AVCodec* codec = avcodec_find_decoder(id);
   LibavPtr<AVCodecContext> context(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
@@ -47,14 +47,14 @@ LibavPtr<AVCodecContext> OpenDecoder(AVCodecID id) {
 }
 
 Result<LibavPtr<AVFrame>> DecodeFrame(AVCodecID id, Bytes encoded, const std::string& place) {
-  av_log_set_level(AV_LOG_FATAL);  // its errors are reported as Status
+  av_log_set_level(AV_LOG_FATAL);  // Errors are reported as Status.
   const LibavPtr<AVCodecContext> decoder = OpenDecoder(id);
   LibavPtr<AVPacket> packet(av_packet_alloc());
   LibavPtr<AVFrame> frame(av_frame_alloc());
   if (decoder == nullptr || packet == nullptr || frame == nullptr ||
       encoded.size() > size_t{INT32_MAX} - AV_INPUT_BUFFER_PADDING_SIZE ||
       av_new_packet(packet.get(), static_cast<int>(encoded.size())) != 0) {
-    return Status::Error(place, "no decoder can be had for it", "save it again as PNG");
+    return Status::Error(place, "no decoder for this format is installed", "save it again as PNG");
   }
   std::memcpy(packet->data, encoded.data(), encoded.size());
   int error = avcodec_send_packet(decoder.get(), packet.get());
@@ -81,7 +81,7 @@ Result<cv::Mat> ToMat(const AVFrame& frame, Channels channels, const std::string
   const int stride[] = {static_cast<int>(image.step)};
   if (scaler == nullptr || sws_scale(scaler.get(), frame.data, frame.linesize, 0, frame.height,
                                      rows, stride) != frame.height) {
-    return Status::Error(place, "has pixels of an unknown kind", "save it again as PNG");
+    return Status::Error(place, "has an unknown pixel format", "save it again as PNG");
   }
   return channels == Channels::kGrey ? Converted(image, channels) : image;
 }

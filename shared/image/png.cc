@@ -1,4 +1,5 @@
-// libpng. Its errors come by longjmp, so that functions that call setjmp own nothing.
+// Reads and writes PNG with libpng. It reports errors by longjmp, so functions that call setjmp own
+// nothing.
 
 #include <png.h>
 
@@ -14,28 +15,28 @@
 namespace lararium::image {
 namespace {
 
-struct Errors {
+struct PngErrors {
   std::string message;
 };
 
 [[noreturn]] void Leave(png_structp png, png_const_charp message) {
-  static_cast<Errors*>(png_get_error_ptr(png))->message = message;
+  static_cast<PngErrors*>(png_get_error_ptr(png))->message = message;
   png_longjmp(png, 1);
 }
 
 void IgnoreWarning(png_structp, png_const_charp) {}
 
-class Reader {
+class PngReader {
  public:
-  explicit Reader(Bytes encoded)
+  explicit PngReader(Bytes encoded)
       : left_(encoded),
         png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &errors_, Leave, IgnoreWarning)),
         info_(png_create_info_struct(png_)) {
     CHECK(png_ != nullptr && info_ != nullptr);
   }
-  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   bool Open() {
     if (setjmp(png_jmpbuf(png_)) != 0) {  // NOLINT(cert-err52-cpp)
@@ -83,7 +84,7 @@ class Reader {
 
  private:
   static void Take(png_structp png, png_bytep out, size_t size) {
-    Bytes& left = static_cast<Reader*>(png_get_io_ptr(png))->left_;
+    Bytes& left = static_cast<PngReader*>(png_get_io_ptr(png))->left_;
     if (size > left.size()) {
       png_error(png, "it ends too early");
     }
@@ -91,22 +92,22 @@ class Reader {
     left = left.subspan(size);
   }
 
-  Errors errors_;
+  PngErrors errors_;
   Bytes left_;
   png_structp png_;
   png_infop info_;
 };
 
-class Writer {
+class PngWriter {
  public:
-  Writer()
+  PngWriter()
       : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &errors_, Leave, IgnoreWarning)),
         info_(png_create_info_struct(png_)) {
     CHECK(png_ != nullptr && info_ != nullptr);
   }
-  ~Writer() { png_destroy_write_struct(&png_, &info_); }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
+  ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
 
   bool Write(const cv::Mat& image, int colour_type, int compression) {
     if (setjmp(png_jmpbuf(png_)) != 0) {  // NOLINT(cert-err52-cpp)
@@ -136,7 +137,7 @@ class Writer {
     bytes->insert(bytes->end(), first, first + size);
   }
 
-  Errors errors_;
+  PngErrors errors_;
   std::vector<std::byte> bytes_;
   png_structp png_;
   png_infop info_;
@@ -145,11 +146,11 @@ class Writer {
 }  // namespace
 
 Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& place) {
-  Reader reader(encoded);
+  PngReader reader(encoded);
   if (!reader.Open()) {
     return Damaged(place, reader.message());
   }
-  // libpng's own greys know about gamma; OpenCV's do not, nor do those of our videos.
+  // libpng's conversion to grey applies gamma; OpenCV's and that of our videos do not.
   const bool convert = channels == Channels::kGrey && !reader.grey();
   const Channels stored = convert ? Channels::kBgr : channels;
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
@@ -165,7 +166,7 @@ Result<std::vector<std::byte>> EncodePng(const cv::Mat& image, int compression) 
   const int colour_type = image.channels() == 1   ? PNG_COLOR_TYPE_GRAY
                           : image.channels() == 3 ? PNG_COLOR_TYPE_RGB
                                                   : PNG_COLOR_TYPE_RGB_ALPHA;
-  Writer writer;
+  PngWriter writer;
   if (!writer.Write(image, colour_type, compression)) {
     return Status::Error("PNG", "cannot be written: " + writer.message());
   }

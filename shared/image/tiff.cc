@@ -1,4 +1,4 @@
-// libtiff, which brings every kind of TIFF to red, green, blue and alpha of 8 bits.
+// Reads TIFF with libtiff, which converts every kind of TIFF to 8-bit red, green, blue and alpha.
 
 #include <tiffio.h>
 
@@ -14,7 +14,7 @@
 namespace lararium::image {
 namespace {
 
-// A file in memory, as libtiff asks for it. Its errors go nowhere else.
+// A file in memory for libtiff's callbacks. libtiff's errors are not printed.
 struct Memory {
   Bytes bytes;
   uint64_t at = 0;
@@ -52,7 +52,7 @@ struct Closer {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }
 };
 
-// The page's orientation is ignored, as EXIF's is.
+// Ignores the page's orientation, as for EXIF.
 bool ReadPixels(TIFF* tiff, cv::Mat& rgba) {
   TIFFRGBAImage page = {};
   std::array<char, 1024> message = {};
@@ -77,11 +77,11 @@ Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& 
   uint32_t height = 0;
   if (tiff == nullptr || TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width) == 0 ||
       TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height) == 0) {
-    return Damaged(place, "no page of a TIFF");
+    return Damaged(place, "it has no page that can be read");
   }
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, MakeImage(width, height, CV_8UC4, place));
   if (!ReadPixels(tiff.get(), image)) {
-    return Damaged(place, "the pixels of a TIFF");
+    return Damaged(place, "its pixels cannot be read");
   }
   if (channels == Channels::kBgra) {
     cv::cvtColor(image, image, cv::COLOR_RGBA2BGRA);

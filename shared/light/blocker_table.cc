@@ -1,21 +1,19 @@
 #include "shared/light/blocker_table.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "shared/core/check.h"
+#include "shared/core/units.h"
 #include "shared/light/quadrature.h"
 
 namespace lararium::light {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-const double kOne = std::sqrt(4.0 * kPi);  // the first coefficient of the function 1
+const double kOne = std::sqrt(4.0 * kPi);  // first coefficient of the constant function 1
 
 constexpr int kMaxBands = kShDegree + 1;
 using Zonal = std::array<double, kMaxBands>;
 
-double Legendre(int degree, double x) {
+double LegendreSeries(int degree, double x) {
   double before = 0.0, value = 1.0;
   for (int l = 1; l <= degree; ++l) {
     const double next = ((2 * l - 1) * x * value - (l - 1) * before) / l;
@@ -27,14 +25,14 @@ double Legendre(int degree, double x) {
 
 double ZonalFactor(int degree) { return std::sqrt((2.0 * degree + 1.0) / (4.0 * kPi)); }
 
-// The same exponential as ExpSh, of functions that are symmetric about +Z.
+// The same exponential as ExpSh for functions that are symmetric about +Z.
 class ZonalExponential {
  public:
   explicit ZonalExponential(int bands) : bands_(bands) {
     for (const QuadratureNode& node : GaussLegendre(3 * kMaxBands / 2 + 1, -1.0, 1.0)) {
       Zonal y{};
       for (int l = 0; l < bands; ++l) {
-        y[static_cast<size_t>(l)] = ZonalFactor(l) * Legendre(l, node.at);
+        y[static_cast<size_t>(l)] = ZonalFactor(l) * LegendreSeries(l, node.at);
       }
       for (size_t i = 0; i < kMaxBands; ++i) {
         for (size_t j = 0; j < kMaxBands; ++j) {
@@ -105,10 +103,9 @@ void SolveDefinite(double (&a)[kMaxBands][kMaxBands], Zonal& b, int size) {
   }
 }
 
-// |exp(log) - visibility|^2 + penalty |log without its mean|^2, which the tabulated log
-// makes least. The penalty keeps logs of balls that fill half the sky from growing
-// without bound: more than so many e-foldings of darkness no light tells apart, but
-// several such balls together would overwhelm the exponential.
+// The tabulated log minimises |exp(log) - visibility|^2 + penalty |log without its mean|^2. The
+// penalty keeps the logs of balls that fill half the sky from growing without bound: more darkness
+// would be invisible, but several such balls together would overflow the exponential.
 constexpr double kPenalty = 1e-3;
 
 double Cost(const Zonal& result, const Zonal& visibility, const Zonal& log) {
@@ -120,7 +117,7 @@ double Cost(const Zonal& result, const Zonal& visibility, const Zonal& log) {
   return cost;
 }
 
-// The step of Levenberg and Marquardt from a log whose exponential is at.
+// Returns a Levenberg-Marquardt step from `log`, whose exponential is `at`.
 Zonal LevenbergStep(const ZonalExponential& exponential,
                     const Zonal& visibility,
                     const Zonal& log,
@@ -157,7 +154,7 @@ Zonal LevenbergStep(const ZonalExponential& exponential,
   return step;
 }
 
-// Improves a log until it is the best for this visibility.
+// Improves a log until it fits this visibility best.
 void FitLog(const ZonalExponential& exponential, const Zonal& visibility, Zonal& log) {
   double damping = 1e-4;
   Zonal at = exponential(log);
@@ -181,10 +178,11 @@ void FitLog(const ZonalExponential& exponential, const Zonal& visibility, Zonal&
 
 double ZonalVisibility(int degree, double angular_radius) {
   const double c = std::cos(angular_radius);
-  // The integral of Y_l0 over what lies outside: of P_l from -1 to c.
+  // The integral of Y_l0 outside the ball: the integral of P_l from -1 to c.
   const double integral =
-      degree == 0 ? c + 1.0
-                  : (Legendre(degree + 1, c) - Legendre(degree - 1, c)) / (2.0 * degree + 1.0);
+      degree == 0
+          ? c + 1.0
+          : (LegendreSeries(degree + 1, c) - LegendreSeries(degree - 1, c)) / (2.0 * degree + 1.0);
   return 2.0 * kPi * ZonalFactor(degree) * integral;
 }
 
@@ -225,7 +223,7 @@ const BlockerTable& BlockerTable::ForCount(int count) {
 
 BlockerTable::BlockerTable(int count) : degree_(ShDegreeOf(count)), entries_(kEntries + 1) {
   const ZonalExponential exponential(degree_ + 1);
-  Zonal log{};  // of nothing; each larger ball starts from the one before
+  Zonal log{};  // Each fit starts from the smaller ball before it.
   for (size_t i = 0; i <= kEntries; ++i) {
     const double share = static_cast<double>(i) / kEntries;
     const double radius = AngularRadius(share);

@@ -1,13 +1,13 @@
 #pragma once
 
-// The logarithm of what a ball hides, and its exponential: Ren, Wang, Snyder, Tong, Liu,
-// Sun, Zhou & Guo, "Real-time Soft Shadows in Dynamic Scenes using Spherical Harmonic
-// Exponentiation", SIGGRAPH 2006. Visibility of many blockers is exp(sum of logs).
+// Log visibility past a ball and its exponential: Ren, Wang, Snyder, Tong, Liu, Sun, Zhou & Guo,
+// "Real-time Soft Shadows in Dynamic Scenes using Spherical Harmonic Exponentiation", SIGGRAPH
+// 2006. The visibility past many blockers is exp(sum of logs).
 //
-// Deviation from the paper: its logarithm is that of the clamped eigenvalues of the
-// matrix that multiplies with the visibility. Here it is the inverse of the exponential
-// that is really computed, so that one blocker comes out as it should, and logs that
-// would grow without bound are kept small by a penalty.
+// Deviation from the paper: the paper takes the logarithm of the clamped eigenvalues of the matrix
+// that multiplies with the visibility. Here the logarithm is the inverse of the exponential that is
+// really computed, so that a single blocker gives the right result. A penalty limits logs that
+// would grow without bound.
 
 #include <array>
 #include <span>
@@ -23,29 +23,29 @@ namespace lararium::light {
 // and scaling, Ren et al. 2006, section 4.2).
 inline constexpr int kExpSquarings = 3;
 
-// Coefficients of eight receivers; result overlaps log.
+// Computes the exponential for eight receivers. `result` may overlap `log`.
 void ExpSh(const ShProductTable& products, const Lanes* log, Lanes* result);
 
-// The log visibility past one ball about the direction of its centre, tabulated over
-// how large it looks.
+// The log visibility past one ball about the direction of its centre, tabulated over the ball's
+// apparent size.
 class BlockerTable {
  public:
-  // count: 9, 16 or 25. Made once for each count, then shared and constant.
+  // count: 9, 16 or 25. The table of each count is made once and then shared.
   static const BlockerTable& ForCount(int count);
 
-  // The share of a ball of radius r at distance d, from the receiver to its centre:
-  // q = r^2 / (d^2 + r^2). It is 1/2 where they touch. Angular radii follow asin(r / d)
-  // and approach kMaxAngularRadius smoothly as the receiver comes close; inside, the
-  // higher bands fade to nothing at the centre.
+  // The share of a ball of radius r at distance d between the receiver and its centre is q = r^2 /
+  // (d^2 + r^2); it is 1/2 where the receiver touches the ball. Angular radii follow asin(r / d)
+  // and approach kMaxAngularRadius smoothly as the receiver comes close. Inside the ball, the
+  // higher bands fade to 0 at the centre.
   static double AngularRadius(double share);
   static constexpr double kMaxAngularRadius = 1.4;
 
-  // factors[l]: the coefficient of Y_lm is factors[l] Y_lm(direction). Linear between
-  // kEntries values.
-  using Factors = std::array<float, kLanes>;  // by degree; zeros follow
+  // factors[l]: the coefficient of Y_lm is factors[l] Y_lm(direction). Interpolated linearly
+  // between kEntries values.
+  using Factors = std::array<float, kLanes>;  // index: degree; zeros follow
   Factors At(float share) const;
 
-  // The same for eight receivers with shares from 0 to 1: factors[l] for l <= Degree.
+  // Same as above for eight receivers with shares from 0 to 1; writes factors[l] for l <= Degree.
   template <int Degree>
   void At(const Lanes& share, Lanes* factors) const;
 
@@ -57,7 +57,7 @@ class BlockerTable {
   static constexpr int kEntries = 256;
   struct alignas(32) Entry {
     Factors value{};
-    Factors slope{};  // to the next entry
+    Factors slope{};  // difference to the next entry
   };
 
   int degree_;
@@ -105,8 +105,8 @@ inline void BlockerTable::At(const Lanes& share, Lanes* factors) const {
   }
 }
 
-// Projection of the indicator of what a ball of this angular radius about +Z leaves
-// visible: the coefficient of Y_l0.
+// Projection of the function that is 1 outside and 0 inside a ball of this angular radius about +Z:
+// the coefficient of Y_l0.
 double ZonalVisibility(int degree, double angular_radius);
 
 }  // namespace lararium::light

@@ -17,11 +17,11 @@ double LinearFromSrgb(double v) {
 
 CameraResponse Uniform(const CameraResponse::Curve& curve) { return {{curve, curve, curve}}; }
 
-float Seen(const CameraResponse::Curve& curve, float exposure) {
+float SeenThrough(const CameraResponse::Curve& curve, float exposure) {
   if (exposure >= curve.back()) {
     return 1.0f;
   }
-  // Of bytes that are given by one exposure, the last.
+  // If several bytes have this exposure, the last one counts.
   const auto above = std::upper_bound(curve.begin(), curve.end(), exposure);
   if (above == curve.begin()) {
     return 0.0f;
@@ -55,8 +55,8 @@ Status CameraResponse::Validate(std::string_view place) const {
 }
 
 glm::vec3 CameraResponse::Seen(const glm::vec3& exposure) const {
-  return {light::Seen(linear[0], exposure.r), light::Seen(linear[1], exposure.g),
-          light::Seen(linear[2], exposure.b)};
+  return {light::SeenThrough(linear[0], exposure.r), light::SeenThrough(linear[1], exposure.g),
+          light::SeenThrough(linear[2], exposure.b)};
 }
 
 std::array<glm::vec3, kSeenSteps> SeenTable(const CameraResponse& response) {
@@ -76,7 +76,7 @@ CameraResponse ShoulderResponse(float knee) {
   for (size_t i = 0; i < curve.size(); ++i) {
     const double shown = LinearFromSrgb(static_cast<double>(i) / 255.0);
     const double rest = 1.0 - knee;
-    // White itself would be infinitely bright.
+    // White itself would need an infinite exposure.
     const double above = std::min((shown - knee) / std::max(rest, 1e-9), 1.0 - 1.0 / 512.0);
     curve[i] =
         static_cast<float>(shown <= knee || rest <= 0.0 ? shown : knee - rest * std::log1p(-above));

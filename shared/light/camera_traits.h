@@ -1,7 +1,7 @@
 #pragma once
 
-// What a camera's images are like beside where things lie in them, so that people can be made
-// alike.
+// Properties of a camera's images beside its geometry, with which rendered people are matched to
+// the images.
 
 #include <optional>
 #include <string_view>
@@ -13,28 +13,28 @@
 namespace lararium::light {
 
 struct CameraTraits {
-  int width = 0;  // pixels, of the images that the rest was measured on; blur goes with it
+  int width = 0;  // Width in pixels of the measured images; blur_px scales with it.
   // Noise of the encoded image, values 0..1: variance = floor^2 + slope * value.
   float noise_floor = 0.0f;
   float noise_slope = 0.0f;
-  // The point spread of the lens, a Gaussian: standard deviation, pixels.
+  // Point spread of the lens as a Gaussian: standard deviation, pixels.
   float blur_px = 0.0f;
-  // Where highlights begin to be compressed: ShoulderResponse(); 1: nowhere.
+  // Value from which highlights are compressed (ShoulderResponse); 1: no compression.
   float knee = 0.6f;
-  // Share of the time between frames for which the shutter is open. None: as it is learnt
-  // while tracking (vision::TrackedFrame::shutter).
+  // Share of the frame interval for which the shutter is open. If not set, it is estimated while
+  // tracking (vision::TrackedFrame::shutter).
   std::optional<float> shutter = std::nullopt;
-  // As it was measured; goes before the knee.
+  // The measured response, which has priority over the knee.
   std::optional<CameraResponse> response = std::nullopt;
 
   friend bool operator==(const CameraTraits&, const CameraTraits&) = default;
 };
 
-inline constexpr float kMaxNoise = 0.25f;   // floor and slope
-inline constexpr float kMaxBlurPx = 16.0f;  // more is a wrong focus, not a lens
+inline constexpr float kMaxNoise = 0.25f;   // limit of floor and slope
+inline constexpr float kMaxBlurPx = 16.0f;  // A larger blur means a wrong focus.
 
-// A field of project.json, of a bundle's manifest or of a device file: {"width", "noise":
-// [floor, slope], "blur_px", "knee", "shutter", "response"}; the last two may be missing.
+// JSON format in project.json, in a bundle's manifest or in a device file: {"width", "noise":
+// [floor, slope], "blur_px", "knee", "shutter", "response"}. The last two are optional.
 Json FormatCameraTraits(const CameraTraits& traits);
 Result<CameraTraits> ParseCameraTraits(const JsonView& view);
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// Zonal harmonics of even caps: what a disc or a ball of light is for spherical harmonics.
+// Zonal harmonics of uniform caps, which represent a disc or a ball of light in spherical
+// harmonics.
 
 #include <array>
 
@@ -8,9 +9,9 @@
 
 namespace lararium::light {
 
-// The mean of the Legendre polynomial P_l over a cap of opening a is a polynomial in
-// u = sin^2(a / 2): sum_k (-1)^k C(l, k) C(l + k, k) u^k / (k + 1), from P_l(1 - 2u) as a sum
-// of powers, integrated term by term. Exact for points (u = 0) and for wide caps alike.
+// The mean of the Legendre polynomial P_l over a cap of opening a is a polynomial in u = sin^2(a /
+// 2): sum_k (-1)^k C(l, k) C(l + k, k) u^k / (k + 1), from P_l(1 - 2u) as a sum of powers,
+// integrated term by term. It is exact for points (u = 0) and for wide caps.
 template <typename Number>
 inline Number CapMean(int degree, const Number& u) {
   static constexpr std::array<std::array<float, kShDegree + 1>, kShDegree + 1> kPowers = {{

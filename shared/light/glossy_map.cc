@@ -13,7 +13,8 @@
 namespace lararium::light {
 namespace {
 
-// magic, version, size, layers, each four bytes, little-endian; then the texels.
+// The header holds magic, version, size and layers, four bytes each, little-endian. The texels
+// follow.
 constexpr char kMagic[4] = {'L', 'G', 'L', 'S'};
 constexpr uint32_t kVersion = 1;
 constexpr size_t kHeaderBytes = 16;
@@ -21,7 +22,7 @@ constexpr size_t kHeaderBytes = 16;
 // The largest number of ten bits is 64512.
 constexpr float kMostRadiance = 64000.0f;
 
-// Exponents of all ones: not finite.
+// Exponents of all ones mark values that are not finite.
 bool IsFinite(uint32_t texel) {
   return (texel >> 6 & 31u) != 31u && (texel >> 17 & 31u) != 31u && (texel >> 27 & 31u) != 31u;
 }
@@ -49,7 +50,7 @@ uint32_t PackRadiance(const glm::vec3& radiance) {
 glm::vec3 UnpackRadiance(uint32_t texel) { return glm::unpackF2x11_1x10(texel); }
 
 double GlossyWeight(double cosine, double roughness) {
-  // Seen along the normal, the half-way direction is half as far from it as the light.
+  // Viewed along the normal, the half vector is at half the angle of the light.
   const double half_sine2 = 0.5 * (1.0 - cosine);
   const double alpha2 = std::pow(roughness, 4.0);
   const double spread = alpha2 / (alpha2 + half_sine2 * (1.0 - alpha2));
@@ -74,25 +75,26 @@ void BlendGlossyMaps(std::span<const GlossyMap* const> maps,
 Result<GlossyMap> ParseGlossyMap(std::span<const std::byte> bytes, const std::string& place) {
   uint32_t header[3] = {};
   if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic, sizeof(kMagic)) != 0) {
-    return Status::Error(place, "is no map of reflections", "bake the project again");
+    return Status::Error(place, "is not a reflection map", "bake the project again");
   }
   std::memcpy(header, bytes.data() + sizeof(kMagic), sizeof(header));
   if (header[0] != kVersion) {
     return Status::Error(place,
                          "has version " + std::to_string(header[0]) + ", this program reads " +
                              std::to_string(kVersion),
-                         "bake the project again, or update");
+                         "bake the project again, or update this program");
   }
   if (header[1] != GlossyMap::kSize || header[2] != GlossyMap::kLayers ||
       bytes.size() != kHeaderBytes + GlossyMap::kTexels * sizeof(uint32_t)) {
-    return Status::Error(place, "does not have the size of a map of reflections",
+    return Status::Error(place, "does not have the size of a reflection map",
                          "bake the project again");
   }
   GlossyMap map;
   map.texels.resize(GlossyMap::kTexels);
   std::memcpy(map.texels.data(), bytes.data() + kHeaderBytes, map.texels.size() * sizeof(uint32_t));
   if (!std::all_of(map.texels.begin(), map.texels.end(), IsFinite)) {
-    return Status::Error(place, "holds light that is not finite", "bake the project again");
+    return Status::Error(place, "contains light values that are not finite",
+                         "bake the project again");
   }
   return map;
 }

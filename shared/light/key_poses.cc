@@ -50,7 +50,8 @@ void KeyPoseWeights(std::span<const ShRows> keys,
     Lanes of_pose[kLanes] = {};
     for (size_t pose = 0; pose < keys.size(); ++pose) {
       const Lanes closeness = kIndistinct / (SquaredDistance(keys[pose], now, i) + kIndistinct);
-      // Never quite 0, so that a far pose remains where no other is allowed.
+      // The weight never becomes exactly 0, so that a distant pose remains if the prior allows no
+      // other.
       const float of_prior = prior.empty() ? 1.0f : prior[pose];
       of_pose[pose] = of_prior * (closeness * closeness + 1e-20f);
     }

@@ -12,7 +12,7 @@
 namespace lararium::light {
 namespace {
 
-// Penumbras are at least so wide where a blocker is, metres: receivers lie this far apart.
+// Minimum width of a penumbra at the blocker, metres: the distance between receivers.
 constexpr float kLeastPenumbra = 0.03f;
 
 struct Point8 {
@@ -21,12 +21,12 @@ struct Point8 {
 
 Lanes Dot(const Point8& a, const Point8& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// A lamp from eight receivers.
+// A lamp as seen from eight receivers.
 struct Seen {
   Point8 direction;  // unit
   Lanes distance;
   Lanes half_sine2;  // sin^2 of half its angular radius
-  Lanes share;       // visible of it
+  Lanes share;       // visible share of the lamp
 };
 
 Seen LookAt(const Lamp& lamp, const Point8& at) {
@@ -38,21 +38,21 @@ Seen LookAt(const Lamp& lamp, const Point8& at) {
   seen.direction = {to.x * inverse, to.y * inverse, to.z * inverse};
   seen.distance = Max(distance, Broadcast(nearest));
   const Lanes sine = lamp.radius / seen.distance;
-  // sin^2(a / 2) = (1 - cos a) / 2, without the difference of nearly equal numbers.
+  // sin^2(a / 2) = (1 - cos a) / 2, without subtracting nearly equal numbers.
   const Lanes sine2 = sine * sine;
   seen.half_sine2 = 0.5f * sine2 / (1.0f + Sqrt(1.0f - sine2));
   seen.share = Broadcast(1.0f);
   return seen;
 }
 
-// What a ball leaves of the lamp: the overlap of two discs where the ball is, as a cubic of
-// how far their centres are apart.
+// Reduces the visible share by a ball: the overlap of two discs at the ball's distance,
+// approximated by a cubic of the distance of their centres.
 void Hide(const Lamp& lamp, const Point8& at, const glm::vec4& ball, Seen& seen) {
   const Point8 to = {ball.x - at.x, ball.y - at.y, ball.z - at.z};
   const Lanes along = Dot(to, seen.direction);
   const Lanes off = Sqrt(Max(Dot(to, to) - along * along, Lanes{}));
   const Lanes wide = Max(lamp.radius * along / seen.distance, Broadcast(kLeastPenumbra));
-  const Lanes within = Max(ball.w - wide, wide - ball.w);  // one disc in the other
+  const Lanes within = Max(ball.w - wide, wide - ball.w);  // one disc inside the other
   const Lanes t =
       Min(Max((ball.w + wide - off) / (ball.w + wide - within), Lanes{}), Broadcast(1.0f));
   const Lanes size = Min(ball.w * ball.w / (wide * wide), Broadcast(1.0f));
@@ -61,7 +61,7 @@ void Hide(const Lamp& lamp, const Point8& at, const glm::vec4& ball, Seen& seen)
   seen.share = between ? seen.share * (1.0f - covered) : seen.share;
 }
 
-// What the walls about a lamp leave of it.
+// Reduces the visible share by the walls around a lamp.
 void HideByWalls(const Lamp& lamp, const Point8& at, size_t valid, Seen& seen) {
   for (size_t i = 0; i < valid; ++i) {
     seen.share[i] *= PastWalls(*lamp.walls, lamp.position, {at.x[i], at.y[i], at.z[i]});
@@ -83,8 +83,8 @@ Bounds BoundsOf(const Points& points, const ReceiverRange& range) {
   return {0.5f * (low + high), 0.5f * glm::distance(low, high)};
 }
 
-// Whether a ball may stand between the lamp and any of the receivers: whether it touches the
-// cone from one to the other.
+// True if a ball may be between the lamp and any of the receivers, that is, if it touches the cone
+// from one to the other.
 bool MayHide(const Lamp& lamp, const Bounds& receivers, const glm::vec4& ball) {
   const glm::vec3 centre(ball);
   if (!(ball.w > 0.0f) || glm::distance(centre, lamp.position) < ball.w + lamp.radius) {
@@ -97,7 +97,7 @@ bool MayHide(const Lamp& lamp, const Bounds& receivers, const glm::vec4& ball) {
   return glm::distance(centre, lamp.position + t * axis) < ball.w + wide;
 }
 
-// The balls that matter, as many as are kept at once.
+// The relevant balls, up to the number that is kept at once.
 constexpr size_t kMaxHiding = 256;
 struct Hiding {
   std::array<glm::vec4, kMaxHiding> balls;
@@ -145,7 +145,7 @@ void AddLamp(const Lamp& lamp,
     for (int k = 0; k < Count; ++k) {
       log = MultiplyAdd(Load(own_log.row(k) + i), basis[k], log);
     }
-    // Flux of a disc over the irradiance that it gives.
+    // Ratio of a disc's flux to the irradiance that it gives.
     const Lanes flux = Exp(Min(log, Broadcast(1.0f))) * seen.share /
                        (seen.distance * seen.distance * (1.0f - seen.half_sine2));
     for (int l = 0; l <= kDegree; ++l) {
@@ -161,8 +161,8 @@ void AddLamp(const Lamp& lamp,
   }
 }
 
-// Evenly spread bits of a whole number (Steele et al., "Fast Splittable Pseudorandom Number
-// Generators", OOPSLA 2014), as -1..1.
+// Hashes an integer (Steele et al., "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014)
+// to -1..1.
 float ValueAt(uint64_t seed, int64_t index) {
   uint64_t bits = seed + 0x9e3779b97f4a7c15u * static_cast<uint64_t>(index);
   bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9u;
@@ -171,7 +171,7 @@ float ValueAt(uint64_t seed, int64_t index) {
   return static_cast<float>(bits >> 40) * (2.0f / 16777216.0f) - 1.0f;
 }
 
-// Smooth noise with a value of its own at each whole number.
+// Smooth noise with a random value at each integer.
 float Noise(uint64_t seed, double t) {
   const double whole = std::floor(t);
   const auto part = static_cast<float>(t - whole);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Eight floats in one register, or in the two that the processor has instead.
+// Eight floats in one register, or in two registers if the processor's are smaller.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ inline Lanes Load(const float* from) {
 }
 inline void Store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof(lanes)); }
 
-// The first count only; the other lanes are zero or stay as they were.
+// Loads or stores the first `count` lanes only; the other lanes are zero or stay unchanged.
 inline Lanes LoadFirst(const float* from, size_t count) {
   if (count >= kLanes) {
     return Load(from);
@@ -41,8 +41,8 @@ inline void StoreFirst(const Lanes& lanes, float* to, size_t count) {
 
 inline Lanes Broadcast(float a) { return Lanes{a, a, a, a, a, a, a, a}; }
 
-// a b + c. Where the processor can, in one step with one rounding; the compiler is told
-// not to do so by itself.
+// a b + c, with one instruction and one rounding if the processor supports it. The compiler is told
+// not to fuse on its own.
 inline Lanes MultiplyAdd(const Lanes& a, const Lanes& b, const Lanes& c) {
 #ifdef __FMA__
   return _mm256_fmadd_ps(a, b, c);
@@ -51,7 +51,7 @@ inline Lanes MultiplyAdd(const Lanes& a, const Lanes& b, const Lanes& c) {
 #endif
 }
 
-// Four floats from each of two places.
+// Loads four floats from each of two addresses.
 inline Lanes LoadHalves(const float* low, const float* high) {
 #ifdef __AVX__
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
@@ -96,7 +96,7 @@ inline float Sum(const Lanes& a) {
   return quarters[0] + quarters[1];
 }
 
-// e^a with a relative error below 1e-6, for a in [-80, 80]; beyond, as at the border.
+// e^a with a relative error below 1e-6 for a in [-80, 80]; values beyond are clamped.
 inline Lanes Exp(const Lanes& a) {
   const Lanes bounded = Min(Max(a, Broadcast(-80.0f)), Broadcast(80.0f));
   // 2^t with t = whole + rest, rest in [-1/2, 1/2]. Adding 1.5 * 2^23 rounds.
@@ -153,7 +153,7 @@ inline void TransposeHalves(Lanes (&rows)[4]) {
   rows[3] = __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-// Sixteen whole numbers in as much.
+// Sixteen 16-bit integers in the same register size.
 using ShortLanes = int16_t __attribute__((vector_size(32)));
 inline constexpr size_t kShortLanes = 16;
 
@@ -186,7 +186,7 @@ inline ShortLanes MultiplyHigh(const ShortLanes& a, const ShortLanes& b) {
 #endif
 }
 
-// Eight floats, each within what sixteen bits hold, rounded.
+// Stores eight floats as rounded 16-bit integers. Values must be in range.
 inline void StoreAsShorts(const Lanes& a, int16_t* to) {
   const Lanes half = a < 0.0f ? Broadcast(-0.5f) : Broadcast(0.5f);
   using HalfLanes = int16_t __attribute__((vector_size(16)));
@@ -195,7 +195,7 @@ inline void StoreAsShorts(const Lanes& a, int16_t* to) {
   std::memcpy(to, &whole, sizeof(whole));
 }
 
-// Of each pair of neighbours a b + c d.
+// For each pair of neighbouring elements: the sum of the two products.
 inline IntLanes DotPairs(const ShortLanes& a, const ShortLanes& b) {
 #ifdef __AVX2__
   return reinterpret_cast<IntLanes>(
@@ -209,7 +209,7 @@ inline IntLanes DotPairs(const ShortLanes& a, const ShortLanes& b) {
 #endif
 }
 
-// Sixteen signed bytes.
+// Loads sixteen signed bytes.
 inline ShortLanes LoadBytes(const int8_t* from) {
 #ifdef __AVX2__
   return reinterpret_cast<ShortLanes>(
@@ -223,7 +223,7 @@ inline ShortLanes LoadBytes(const int8_t* from) {
 #endif
 }
 
-// Eight signed bytes, and the same again.
+// Loads eight signed bytes into both halves.
 inline ShortLanes LoadEightBytesTwice(const int8_t* from) {
   using Words = int64_t __attribute__((vector_size(16)));
   using Bytes = int8_t __attribute__((vector_size(16)));

@@ -1,8 +1,8 @@
 #pragma once
 
-// All directions on a square: the octahedral map about +Y (Engelhardt & Dachsbacher, "Octahedron
-// Environment Maps", VMV 2008), as shaders/include/octahedral.glsl has it. Its inner diamond is
-// the upper half.
+// The octahedral map of all directions onto a square, about +Y (Engelhardt & Dachsbacher,
+// "Octahedron Environment Maps", VMV 2008), as in shaders/include/octahedral.glsl. The inner
+// diamond is the upper half.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -21,7 +21,7 @@ inline glm::vec3 OctahedralDirection(const glm::vec2& at) {
   return glm::normalize(direction);
 }
 
-// The way back, of any length but zero.
+// Inverse of OctahedralDirection(); the length of `direction` may be anything but zero.
 inline glm::vec2 OctahedralPosition(const glm::vec3& direction) {
   const glm::vec3 d =
       direction / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));

@@ -13,7 +13,7 @@
 namespace lararium::light {
 namespace {
 
-// Hours from one time of day to a later one, around midnight.
+// Hours from one time of day to a later one, across midnight.
 double HoursUntil(double from, double to) {
   const double hours = std::fmod(to - from, 24.0);
   return hours < 0.0 ? hours + 24.0 : hours;
@@ -28,7 +28,7 @@ std::optional<Sun> MixSuns(const std::optional<Sun>& a, const std::optional<Sun>
     sun.irradiance *= a ? 1.0f - share : share;
     return sun;
   }
-  // Along the great circle.
+  // Interpolates along the great circle.
   const float angle = std::acos(std::clamp(glm::dot(a->direction, b->direction), -1.0f, 1.0f));
   glm::vec3 direction = glm::mix(a->direction, b->direction, share);
   if (angle > 1e-3f && angle < 3.14f) {
@@ -45,7 +45,7 @@ bool SamePosition(const PlacedProbe& a, const PlacedProbe& b) {
   return glm::distance(a.position, b.position) < kSamePosition;
 }
 
-// Adds the share of a position to the probes there: between the hour before and the one after.
+// Distributes the share of a position to its probes before and after the hour.
 void AddAtHour(std::span<const PlacedProbe> probes,
                size_t here,
                double hour,
@@ -71,13 +71,13 @@ void AddAtHour(std::span<const PlacedProbe> probes,
   weights[after] += share * later;
 }
 
-// Whether a probe before this one stands at the same position.
+// True if an earlier probe in the list has the same position.
 bool IsRepeated(std::span<const PlacedProbe> probes, size_t index) {
   return std::any_of(probes.begin(), probes.begin() + static_cast<ptrdiff_t>(index),
                      [&](const PlacedProbe& other) { return SamePosition(other, probes[index]); });
 }
 
-// Not infinite at the probe itself.
+// The result stays finite at the probe itself.
 float Nearness(const PlacedProbe& probe, const glm::vec3& position) {
   const float distance = std::max(glm::distance(position, probe.position), 1e-3f);
   return 1.0f / (distance * distance);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The light of a place: what spherical harmonics hold, and the sun where there is one.
+// The light of a place: spherical harmonics, and the sun if there is one.
 
 #include <optional>
 
@@ -11,21 +11,23 @@ namespace lararium::light {
 
 struct ProbeLight {
   ShRgb sky = {};          // radiance without the sun, stage axes
-  std::optional<Sun> sun;  // none: the sky is all
+  std::optional<Sun> sun;  // Not set if the sky is all the light.
 
-  // Sky and sun in one, for what casts no shadow of the sun.
+  // Returns sky and sun combined, for surfaces that get no shadow of the sun.
   ShRgb Whole() const;
-  // Of a unit normal that nothing shades: the sky's from harmonics, the sun's exactly.
+  // Returns the unshadowed irradiance at a unit normal: the sky's from harmonics, the sun's
+  // exactly.
   glm::vec3 Irradiance(const glm::vec3& normal) const;
 };
 
-// An even disc as harmonics: its flux times the mean of each zonal harmonic over the disc.
+// Projects a uniform disc: its flux times the mean of each zonal harmonic over the disc.
 ShRgb ProjectSun(const Sun& sun);
 
-// The light turned and brightened: stage_from_probe and the stage's radiance for one unit.
+// Rotates the light into the stage and scales it: stage_from_probe, and the stage's radiance for
+// one unit of the probe.
 ProbeLight Placed(const ProbeLight& light, const glm::quat& stage_from_probe, float scale);
 
-// Each channel multiplied.
+// Multiplies each channel by its factor.
 ProbeLight Balanced(const ProbeLight& light, const glm::vec3& balance);
 
 }  // namespace lararium::light

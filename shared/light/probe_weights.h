@@ -1,6 +1,6 @@
 #pragma once
 
-// How much each of a place's probes counts at a position and an hour.
+// Weights of a place's probes at a position and an hour.
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace lararium::light {
 
-// The most that a place has.
+// Maximum number of probes of a place.
 inline constexpr size_t kMaxPlacedProbes = 64;
 
-// weights, one for each probe, add up to 1. At each position linear between the probes before
-// and after the hour, around midnight; between positions by inverse squared distances (Shepard
-// 1968). Allocates nothing.
+// Computes one weight for each probe, with the sum 1. At each position they interpolate linearly
+// between the probes before and after the hour, across midnight; between positions by inverse
+// squared distances (Shepard 1968). Allocates nothing.
 void ComputeProbeWeights(std::span<const PlacedProbe> probes,
                          const glm::vec3& position,
                          double hour,

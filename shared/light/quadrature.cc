@@ -1,13 +1,12 @@
-#include "shared/light/quadrature.h"
+#include "shared/core/units.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "shared/light/quadrature.h"
 
 namespace lararium::light {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Legendre {
   double value = 0.0;

@@ -8,7 +8,7 @@
 namespace lararium::light {
 namespace {
 
-// The normalisation of the basis as floats, for registers.
+// The normalisation of the basis as floats.
 const std::array<float, kShCount>& Normalisation() {
   static const std::array<float, kShCount> factors = [] {
     std::array<float, kShCount> rounded;
@@ -22,11 +22,11 @@ struct Register3 {
   Lanes x, y, z;
 };
 
-// q of eight receivers (BlockerTable), faded to nothing near kLeastShare.
+// q of eight receivers (BlockerTable), faded to 0 near kLeastShare.
 inline Lanes FadedShare(const Lanes& distance2, float radius2) {
   const Lanes share = radius2 / (distance2 + (radius2 + 1e-12f));
   const Lanes fade = (share - kLeastShare) * (1.0f / kLeastShare);
-  // Compared in this order, what is not a number becomes 0: nothing is hidden by it.
+  // In this order of operands NaN becomes 0, so that it blocks nothing.
   const Lanes faded = share * Min(Max(fade, Lanes{}), Broadcast(1.0f));
   return Min(Max(faded, Lanes{}), Broadcast(1.0f));
 }
@@ -54,7 +54,7 @@ inline void AddSphere(const BlockerTable& table,
   }
 }
 
-// turns: of the receivers' own frames; nullptr: all are the stage's.
+// turns: rotations of the receivers' own frames; nullptr: all use the stage's frame.
 template <int Count>
 void AddSpheres(const Spheres& spheres,
                 const Points& receivers,
@@ -98,7 +98,7 @@ void LoadBlock(const ShRows& rows, size_t begin, Lanes* block) {
   }
 }
 
-// target = matrix * vector for eight receivers; rows of count.
+// target = matrix * vector for eight receivers; `count` rows and columns.
 void MultiplyMatrix(const float* matrix, const Lanes* vector, int count, Lanes* target) {
   for (int i = 0; i < count; ++i, matrix += count) {
     Lanes even = matrix[0] * vector[0], odd = {};

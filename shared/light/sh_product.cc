@@ -109,7 +109,7 @@ void ShProductTable::Multiply(const Lanes* a, const Lanes* b, Lanes* product) co
 void ShProductTable::Square(const Lanes* a, Lanes* square) const {
   const Term* term = terms_.data();
   for (size_t k = 0; k < static_cast<size_t>(count_); ++k) {
-    Lanes even = {}, odd = {};  // two sums, so that additions do not wait for each other
+    Lanes even = {}, odd = {};  // Two independent sums avoid waiting.
     const Term* end = terms_.data() + begin_[k + 1];
     for (; term + 1 < end; term += 2) {
       even = MultiplyAdd(Broadcast(term[0].gamma), a[term[0].i] * a[term[0].j], even);
@@ -127,7 +127,7 @@ LightMatrix::LightMatrix(const ShRgb& light, int count) : count_(count) {
   CHECK(count == 4 || count == 9 || count == 16 || count == 25);
   const auto size = static_cast<size_t>(count);
   matrix_ = {};
-  // The integral of L Y_i Y_j, by the same nodes.
+  // The integral of L Y_i Y_j with the same nodes.
   for (const WeightedBasis& node : ExactNodes()) {
     glm::dvec3 radiance(0.0);
     for (size_t k = 0; k < kShCount; ++k) {

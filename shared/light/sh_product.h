@@ -16,21 +16,21 @@
 
 namespace lararium::light {
 
-// The tripling coefficients that are not zero, for one count, found by exact quadrature.
+// The non-zero tripling coefficients for one count, computed by exact quadrature.
 class ShProductTable {
  public:
-  // count: 4, 9, 16, 25 or 36. Made once for each count, then shared and constant.
+  // count: 4, 9, 16, 25 or 36. The table of each count is made once and then shared.
   static const ShProductTable& ForCount(int count);
 
   int count() const { return count_; }
-  // How many terms g (a_i b_j + a_j b_i) all coefficients have together.
+  // Total number of terms g (a_i b_j + a_j b_i) of all coefficients.
   size_t size() const { return terms_.size(); }
 
-  // product = the projection of a b, for one receiver. All hold count() coefficients;
-  // product overlaps neither.
+  // product = the projection of a b, for one receiver. All spans hold count() coefficients; product
+  // overlaps neither input.
   void Multiply(std::span<const float> a, std::span<const float> b, std::span<float> product) const;
 
-  // The same for the eight receivers of a register.
+  // Same as above for the eight receivers of a register.
   void Multiply(const Lanes* a, const Lanes* b, Lanes* product) const;
   // square = the projection of a a.
   void Square(const Lanes* a, Lanes* square) const;
@@ -45,20 +45,19 @@ class ShProductTable {
   };
 
   int count_;
-  std::array<uint16_t, kShCount + 1> begin_{};  // of each coefficient's terms
+  std::array<uint16_t, kShCount + 1> begin_{};  // first term of each coefficient
   std::vector<Term> terms_;
 };
 
-// Light as the linear map that multiplies with it: coefficients of visibility to those
-// of shadowed light. It takes as many bands of the light as matter, up to degree 5,
-// whatever the count.
+// Light as the linear map from coefficients of visibility to those of shadowed light. It uses all
+// bands of the light that matter, up to degree 5, for every count.
 class LightMatrix {
  public:
-  // Degree 4 (25) is the most that visibility may have.
+  // Visibility may have at most degree 4 (25 coefficients).
   LightMatrix(const ShRgb& light, int count);
 
   int count() const { return count_; }
-  // Of a channel: count x count, symmetric.
+  // Matrix of a channel: count x count, symmetric.
   const float* channel(int channel) const { return matrix_[static_cast<size_t>(channel)].data(); }
 
  private:

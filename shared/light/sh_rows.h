@@ -10,9 +10,9 @@
 
 namespace lararium::light {
 
-// Spherical-harmonic coefficients of many receivers as a structure of arrays: row k
-// holds coefficient k of each. Rows are padded to whole registers; what lies in the
-// padding is finite but means nothing. Made once; nothing below allocates.
+// Spherical-harmonic coefficients of many receivers as a structure of arrays: row k holds
+// coefficient k of each receiver. Rows are padded to whole registers; the padding is finite but has
+// no meaning. Only the constructor allocates.
 class ShRows {
  public:
   ShRows() = default;
@@ -24,12 +24,12 @@ class ShRows {
 
   int count() const { return count_; }
   size_t receivers() const { return receivers_; }
-  // How many floats a row has with its padding.
+  // Length of a row in floats, including its padding.
   size_t stride() const { return stride_; }
   float* row(int k) { return values_.data() + static_cast<size_t>(k) * stride_; }
   const float* row(int k) const { return values_.data() + static_cast<size_t>(k) * stride_; }
   void Clear() { std::fill(values_.begin(), values_.end(), 0.0f); }
-  // Rows of the same count and receivers.
+  // Adds rows of the same count and the same receivers.
   void Add(const ShRows& more) {
     for (size_t i = 0; i < values_.size(); ++i) {
       values_[i] += more.values_[i];
@@ -47,8 +47,8 @@ class ShRows {
 
 using ShRowsRgb = std::array<ShRows, 3>;
 
-// Receivers [begin, end). Jobs may run side by side on ranges that share no register:
-// where a function asks for it, begin is a multiple of kLanes.
+// Receivers [begin, end). Jobs may run in parallel on ranges that share no register. Functions that
+// need it require `begin` to be a multiple of kLanes.
 struct ReceiverRange {
   size_t begin = 0;
   size_t end = 0;

@@ -17,12 +17,12 @@ struct Phase {
   Lanes cosine, sine;
 };
 
-Phase Sum(const Phase& a, const Phase& b) {
+Phase AddPhases(const Phase& a, const Phase& b) {
   return {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine};
 }
 Phase Negative(const Phase& a) { return {a.cosine, -a.sine}; }
 
-// The angle of a complex number; any one where it is nothing.
+// The angle of a complex number; arbitrary if the number is zero.
 Phase AngleOf(const Lanes& real, const Lanes& imaginary, const Lanes& size) {
   const Lanes inverse = 1.0f / Max(size, Broadcast(1e-12f));
   const auto none = size < 1e-10f;
@@ -33,8 +33,8 @@ struct Angles {
   Phase first, middle, last;  // about Z, Y, Z, in the order in which they are applied
 };
 
-// From the halves of sum and difference of both angles about Z: a rotation by next to nothing
-// about Y then leaves the difference free, and any will do.
+// Computes the angles about Z from half their sum and half their difference. If the rotation about
+// Y is almost zero, the difference is free and any value works.
 Angles FindAngles(const Turns& turns, size_t begin, size_t valid, TurnDirection direction) {
   const Lanes w = LoadFirst(&turns.w[begin], valid);
   const Lanes x = LoadFirst(&turns.x[begin], valid);
@@ -46,15 +46,15 @@ Angles FindAngles(const Turns& turns, size_t begin, size_t valid, TurnDirection 
   const Phase half_difference = AngleOf(y, -x, half_sine);
   const Phase about_y = {half_cosine * half_cosine - half_sine * half_sine,
                          2.0f * half_cosine * half_sine};
-  const Phase last = Sum(half_sum, half_difference);
-  const Phase first = Sum(half_sum, Negative(half_difference));
+  const Phase last = AddPhases(half_sum, half_difference);
+  const Phase first = AddPhases(half_sum, Negative(half_difference));
   if (direction == TurnDirection::kForth) {
     return {first, about_y, last};
   }
   return {Negative(last), Negative(about_y), Negative(first)};
 }
 
-// About Z, of the bands from 1 on: cos(m a) and sin(m a) mix.
+// Rotates the bands from 1 on about Z: cos(m a) and sin(m a) mix.
 template <int Degree>
 void TurnAboutZ(const Phase& angle, Lanes* v) {
   Phase multiple = angle;
@@ -68,11 +68,11 @@ void TurnAboutZ(const Phase& angle, Lanes* v) {
       sine = MultiplyAdd(multiple.sine, cosine, multiple.cosine * sine);
       cosine = turned;
     }
-    multiple = m < Degree ? Sum(multiple, angle) : multiple;
+    multiple = m < Degree ? AddPhases(multiple, angle) : multiple;
   }
 }
 
-// What is not zero of the matrices of a quarter turn about X, row by row.
+// Non-zero entries of the matrices of a quarter turn about X, row by row.
 class QuarterTurn {
  public:
   explicit QuarterTurn(float sign) {
@@ -112,7 +112,8 @@ class QuarterTurn {
     int from = 0;
   };
   std::vector<Term> terms_;
-  std::array<size_t, (kMaxDegree + 1) * (kMaxDegree + 1)> ends_{};  // of each coefficient
+  // end of each coefficient's terms
+  std::array<size_t, (kMaxDegree + 1) * (kMaxDegree + 1)> ends_{};
 };
 
 template <int Degree>

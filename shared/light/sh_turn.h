@@ -1,9 +1,9 @@
 #pragma once
 
-// Turning the coefficients of many receivers at once, each by a rotation of its own: about Z, Y
-// and Z, where a turn about Z mixes only pairs of coefficients, and one about Y is one about Z
-// between two quarter turns about X (Kautz, Sloan & Snyder, "Fast, Arbitrary BRDF Shading for
-// Low-Frequency Lighting Using Spherical Harmonics", EGWR 2002).
+// Rotates the coefficients of many receivers at once, each by its own rotation: about Z, Y and Z. A
+// rotation about Z mixes only pairs of coefficients; one about Y is one about Z between two quarter
+// turns about X (Kautz, Sloan & Snyder, "Fast, Arbitrary BRDF Shading for Low-Frequency Lighting
+// Using Spherical Harmonics", EGWR 2002).
 
 #include <span>
 
@@ -12,15 +12,15 @@
 
 namespace lararium::light {
 
-// Unit quaternions of receivers. All spans are equally long.
+// Unit quaternions of receivers. All spans have equal lengths.
 struct Turns {
   std::span<const float> w, x, y, z;
 };
 
 enum class TurnDirection { kForth, kBack };
 
-// target(k) = coefficients of f(turn^-1 d), or of f(turn d) on the way back. Rows of 9, 16 or 25;
-// range.begin is a multiple of kLanes. Nothing allocates.
+// target = coefficients of f(turn^-1 d), or of f(turn d) for the inverse direction. 9, 16 or 25
+// rows; range.begin is a multiple of kLanes. Allocates nothing.
 void TurnRows(const ShRows& source,
               const Turns& turns,
               TurnDirection direction,
@@ -32,12 +32,12 @@ void TurnRows(const ShRowsRgb& source,
               ReceiverRange range,
               ShRowsRgb& target);
 
-// The turns of eight receivers as matrices, for directions.
+// Rotation matrices of eight receivers, for directions.
 class Turn8 {
  public:
   Turn8(const Turns& turns, size_t begin, size_t valid);
 
-  // What turns into (x, y, z).
+  // Applies the inverse rotation to (x, y, z).
   void Back(Lanes& x, Lanes& y, Lanes& z) const {
     const Lanes turned_x = MultiplyAdd(xx_, x, MultiplyAdd(yx_, y, zx_ * z));
     const Lanes turned_y = MultiplyAdd(xy_, x, MultiplyAdd(yy_, y, zy_ * z));
@@ -48,7 +48,7 @@ class Turn8 {
   }
 
  private:
-  // xy_: the x of what the y axis turns into.
+  // xy_ is the x component of the rotated y axis.
   Lanes xx_, xy_, xz_, yx_, yy_, yz_, zx_, zy_, zz_;
 };
 

@@ -12,7 +12,7 @@
 namespace lararium::light {
 namespace {
 
-// Two directions that make an orthonormal frame with normal.
+// Returns a frame of two directions that are orthonormal to `normal`, and `normal`.
 glm::dmat3 FrameAbout(const glm::dvec3& normal) {
   const glm::dvec3 aside =
       std::abs(normal.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
@@ -20,7 +20,8 @@ glm::dmat3 FrameAbout(const glm::dvec3& normal) {
   return glm::dmat3(first, glm::cross(normal, first), normal);
 }
 
-// Of eight receivers; cosine(channel, k) gives M's coefficients as numbers or registers.
+// Computes the ratio for eight receivers at a time. cosine(channel, k) returns M's coefficients as
+// numbers or as registers.
 template <typename CosineLightAt>
 void RatioRange(const ShRows& log_visibility,
                 ReceiverRange range,

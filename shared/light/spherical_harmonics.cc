@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <glm/common.hpp>
-#include <numbers>
 #include <vector>
 
 #include "shared/core/check.h"
+#include "shared/core/units.h"
 
 namespace lararium::light {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::array<double, kShCount> MakeNormalisation() {
   std::array<double, kShCount> factors{};
@@ -36,7 +34,7 @@ const std::array<float, kShCount>& FloatNormalisation() {
   return factors;
 }
 
-// A band's matrix while it is made: (2l+1)^2 numbers addressed by m and n.
+// A band's matrix while it is computed: (2l+1)^2 numbers addressed by m and n.
 class BandMatrix {
  public:
   explicit BandMatrix(int degree) : degree_(degree) {}
@@ -93,8 +91,8 @@ double W(const BandMatrix& first, const BandMatrix& below, int m, int n) {
                : P(first, below, 1, m - 1, n) - P(first, below, -1, 1 - m, n);
 }
 
-// u, v, w of Ivanic & Ruedenberg, table 1, for an entry of a band's matrix; the signs of
-// their Kronecker deltas included.
+// u, v, w of Ivanic & Ruedenberg, table 1, for an entry of a band's matrix, including the signs of
+// their Kronecker deltas.
 struct Weights {
   double u = 0.0, v = 0.0, w = 0.0;
 };
@@ -107,12 +105,12 @@ Weights WeightsOf(int l, int m, int n) {
           m == 0 ? 0.0 : -0.5 * std::sqrt((l - a - 1) * (l - a) / scale)};
 }
 
-// Where the band of a degree begins among all of them: 0, 1, 10, 35, 84, 165.
+// Index of the first entry of a band among all bands: 0, 1, 10, 35, 84, 165.
 size_t BandBegin(int degree) {
   return static_cast<size_t>(degree * (2 * degree - 1) * (2 * degree + 1) / 3);
 }
 
-// Of all entries of all bands: square roots are slow.
+// Weights of all entries of all bands, precomputed because square roots are slow.
 const std::array<Weights, 286>& AllWeights() {
   static const std::array<Weights, 286> all = [] {
     std::array<Weights, 286> weights;
@@ -129,7 +127,7 @@ const std::array<Weights, 286>& AllWeights() {
   return all;
 }
 
-// Where a weight is zero its term would reach outside the band below.
+// A term whose weight is zero would reach outside the band below and is skipped.
 BandMatrix NextBand(const BandMatrix& first, const BandMatrix& below) {
   const int l = below.degree() + 1;
   const Weights* weights = AllWeights().data() + BandBegin(l);
@@ -149,7 +147,7 @@ BandMatrix NextBand(const BandMatrix& first, const BandMatrix& below) {
   return band;
 }
 
-// Directions spread evenly (a Fibonacci spiral).
+// Evenly spread directions (a Fibonacci spiral).
 std::vector<std::array<float, kShCount>> BasisAtManyDirections() {
   constexpr int kDirections = 4096;
   std::vector<std::array<float, kShCount>> bases;
@@ -167,7 +165,7 @@ bool Rings(const ShRgb& radiance,
            int count,
            float tolerance,
            const std::vector<std::array<float, kShCount>>& bases) {
-  const float mean = 1.0f / std::sqrt(4.0f * static_cast<float>(kPi));  // of coefficient 0
+  const float mean = 1.0f / std::sqrt(4.0f * static_cast<float>(kPi));  // basis function 0
   const glm::vec3 least = -tolerance * mean * glm::abs(radiance[0]);
   return std::any_of(bases.begin(), bases.end(), [&](const std::array<float, kShCount>& basis) {
     glm::vec3 sum(0.0f);
@@ -301,7 +299,7 @@ float WindowAgainstRinging(const ShRgb& radiance, int count, float tolerance) {
   if (!Rings(radiance, count, tolerance, bases)) {
     return 0.0f;
   }
-  // A factor of 1 in a thousand leaves the mean alone, which does not ring.
+  // The upper limit leaves practically only the mean, which does not ring.
   float low = 1e-5f, high = 1e3f;
   while (high > 1.01f * low) {
     const float middle = std::sqrt(low * high);

@@ -17,16 +17,16 @@ namespace lararium::light {
 
 inline constexpr int kShDegree = 5;
 inline constexpr int kShCount = (kShDegree + 1) * (kShDegree + 1);
-// What plain, unshadowed light is drawn from: degree 2.
+// Number of coefficients for unshadowed light: degree 2.
 inline constexpr int kPlainShCount = 9;
-// One RGB coefficient for each basis function: radiance, linear.
+// One RGB coefficient for each basis function: linear radiance.
 using ShRgb = std::array<glm::vec3, kShCount>;
 
-// Counts with which whole bands are full: 1, 4, 9, 16, 25, 36.
+// True for counts that fill whole bands: 1, 4, 9, 16, 25, 36.
 constexpr bool IsShCount(int count) {
   return count == 1 || count == 4 || count == 9 || count == 16 || count == 25 || count == 36;
 }
-// The highest degree of a count.
+// Returns the highest degree of a count.
 constexpr int ShDegreeOf(int count) {
   int degree = 0;
   while ((degree + 1) * (degree + 1) < count) {
@@ -34,16 +34,16 @@ constexpr int ShDegreeOf(int count) {
   }
   return degree;
 }
-// The degree of the basis function of an index.
+// Returns the degree of the basis function with this index.
 constexpr int ShBandOf(int index) { return ShDegreeOf(index + 1); }
 
-// The factors that make the basis orthonormal, index as above:
-// sqrt((2l+1)/(4 pi) (l-|m|)!/(l+|m|)!), times sqrt(2) unless m = 0.
+// The factors that make the basis orthonormal, with the index above: sqrt((2l+1)/(4 pi)
+// (l-|m|)!/(l+|m|)!), times sqrt(2) unless m = 0.
 const std::array<double, kShCount>& ShNormalisation();
 
-// The first Count basis functions at a unit direction, for numbers of any kind: float,
-// double or a register of floats. The recurrence of the associated Legendre functions
-// without their factor sin^m, which x and y bring along.
+// Evaluates the first Count basis functions at a unit direction for any number type: float, double
+// or a register of floats. Uses the recurrence of the associated Legendre functions without their
+// factor sin^m, which x and y contain.
 template <int Count, typename Number, typename Scalar>
 inline void EvaluateShBasis(
     const Number& x, const Number& y, const Number& z, const Scalar* normalisation, Number* basis) {
@@ -75,35 +75,33 @@ inline void EvaluateShBasis(
   }
 }
 
-// All basis functions at a unit direction; the other writes as many as the span holds,
-// which must be a count of full bands.
+// Evaluates all basis functions at a unit direction. The second overload fills the span, whose size
+// must be a count of full bands.
 std::array<float, kShCount> EvaluateShBasis(const glm::vec3& direction);
 void EvaluateShBasis(const glm::vec3& direction, std::span<float> basis);
 
-// Radiance from a direction.
+// Returns the radiance from a direction.
 glm::vec3 EvaluateRadiance(const ShRgb& radiance, const glm::vec3& direction);
 
-// What the clamped cosine multiplies a band with: pi, 2 pi / 3, pi / 4, 0, -pi / 24, 0
-// (Ramamoorthi & Hanrahan 2001, equations 7 and 8).
+// Factor of the clamped cosine for a band: pi, 2 pi / 3, pi / 4, 0, -pi / 24, 0 (Ramamoorthi &
+// Hanrahan 2001, equations 7 and 8).
 float ClampedCosineFactor(int degree);
 
-// The same light as irradiance: its value at a direction is that of a surface whose
-// normal it is.
+// Converts radiance to irradiance: its value at a direction is that of a surface with this normal.
 ShRgb ConvolveWithCosine(const ShRgb& radiance);
 
 // Irradiance on a surface with a unit normal, never negative.
 glm::vec3 EvaluateIrradiance(const ShRgb& radiance, const glm::vec3& normal);
 
-// Matrices that turn coefficients as a rotation turns the function, one for each band,
-// by the recurrence of Ivanic & Ruedenberg, J. Phys. Chem. 100 (1996), with the
-// corrections in 102 (1998).
+// Matrices that rotate coefficients as the rotation rotates the function, one for each band, by the
+// recurrence of Ivanic & Ruedenberg, J. Phys. Chem. 100 (1996), with the corrections in 102 (1998).
 class ShRotation {
  public:
-  // degree: the highest that is needed; less is faster.
+  // degree: the highest degree that is needed; a lower one is faster.
   explicit ShRotation(const glm::quat& rotation, int degree = kShDegree);
   explicit ShRotation(const glm::mat3& rotation, int degree = kShDegree);
 
-  // Of a degree: (2l+1) x (2l+1), row-major, rows and columns by m + l.
+  // Matrix of a degree: (2l+1) x (2l+1), row-major, rows and columns by m + l.
   std::span<const float> band(int degree) const;
   // turned = f(rotation^-1 d). Both hold the same count of full bands and do not overlap.
   void Apply(std::span<const float> coefficients, std::span<float> turned) const;
@@ -114,16 +112,16 @@ class ShRotation {
   std::array<float, kFloats> bands_;
 };
 
-// The light seen from a frame turned by rotation: coefficients of f(rotation^-1 d).
+// Rotates the light: coefficients of f(rotation^-1 d).
 ShRgb RotateSh(const ShRgb& radiance, const glm::quat& rotation);
 
-// Damps the bands by 1 / (1 + strength l^2 (l+1)^2), which is what least squares with a
-// penalty on the squared Laplacian gives (Sloan 2008, "Windowing"). strength >= 0.
+// Damps the bands by 1 / (1 + strength l^2 (l+1)^2), the solution of least squares with a penalty
+// on the squared Laplacian (Sloan 2008, "Windowing"). strength >= 0.
 ShRgb Windowed(const ShRgb& radiance, float strength);
 
-// The smallest strength, within a hundredth, with which the first count coefficients are
-// nowhere below -tolerance times the channel's mean: small bright sources ring below
-// zero. Sampled at some thousand directions. 0 where nothing rings.
+// Returns the smallest strength, within one per cent, at which the first `count` coefficients never
+// fall below -tolerance times the channel's mean. Small bright sources cause ringing below zero.
+// Sampled at some thousand directions. Returns 0 if nothing rings.
 float WindowAgainstRinging(const ShRgb& radiance, int count, float tolerance);
 
 // Projects an equirectangular image of radiance, solid-angle weighted. Pixel

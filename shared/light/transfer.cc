@@ -17,13 +17,13 @@ namespace {
 
 constexpr float kLargestByte = 127.0f;
 
-// The largest whole number that light is packed as: sums of four rounded parts of it still fit.
+// The largest integer for packed light: the sum of four rounded parts of it still fits.
 constexpr float kLargestShort = 32000.0f;
 
-// Weights in 1/255 as what MultiplyHigh takes.
+// Converts a weight in 1/255 to the format of MultiplyHigh.
 constexpr int16_t Weight(uint8_t weight) { return static_cast<int16_t>(weight * 128 + weight / 2); }
 
-// Light of a vertex: of its receivers, weighed.
+// The light of a vertex: the weighted light of its receivers.
 template <size_t Registers>
 inline void BlendReceivers(const ReceiverLight& packed,
                            const VertexReceivers& receivers,
@@ -44,7 +44,7 @@ inline void BlendReceivers(const ReceiverLight& packed,
 
 using Ratios = std::array<float, 3>;
 
-// Of the channels to their mean, less 1.
+// Ratios of the channels to their mean, less 1.
 inline Ratios RatiosOf(const Transfer& transfer, const int8_t* row) {
   const float red = row[transfer.ratios_at()] / Transfer::kRatioUnit;
   const float blue = row[transfer.ratios_at() + 1] / Transfer::kRatioUnit;
@@ -65,8 +65,8 @@ inline bool AnyChanged(const uint8_t* changed, const VertexReceivers& receivers)
   return any;
 }
 
-// Of light, what a row's differences are multiplied by: red, blue and twice what takes green off,
-// kTinted each.
+// The light that a row's differences are multiplied by: red, blue and twice the part that reduces
+// green, kTinted coefficients each.
 template <size_t OfChannel>
 inline ShortLanes TintedLight(const ShortLanes (&light)[3 * OfChannel]) {
   const ShortLanes& red = light[0];
@@ -78,12 +78,12 @@ inline ShortLanes TintedLight(const ShortLanes (&light)[3 * OfChannel]) {
                                  19);
 }
 
-// Rows of so many registers.
+// Lights vertices whose rows have OfChannel registers per channel.
 template <size_t OfChannel>
 void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
-  // Of the pairs of coefficients of a register: those that have a ratio.
+  // Selects, among a register's pairs of coefficients, those that have a ratio.
   constexpr Lanes kHaveRatio = {0, 0, 1, 1, 1, 1, 1, 1};
-  // Of those of TintedLight: which channel they are of.
+  // Selects the channel of each pair of TintedLight.
   constexpr Lanes kTintOf[3] = {
       {1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 1, 1, 0, 0, 0, 0}};
   const Transfer& transfer = *job.transfer;
@@ -98,8 +98,8 @@ void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
     const ShortLanes tinted_light = TintedLight<OfChannel>(light);
     float pose_weights[kLanes];
     Store(weights, pose_weights);
-    Lanes sums[3] = {};    // of the mean
-    Lanes ratios[3] = {};  // of what the ratios add to that, in all pairs
+    Lanes sums[3] = {};    // part of the mean
+    Lanes ratios[3] = {};  // part that the ratios add, in all pairs
     Lanes tinted = {};
     float total = 0.0f;
     const int8_t* row = transfer.row(0, v);
@@ -147,8 +147,8 @@ void LightRange(const LightVerticesJob& job, size_t begin, size_t end) {
   }
 }
 
-// The ratio of a channel to the mean that fits best, less 1, beyond the coefficients whose tint is
-// kept.
+// The best-fitting ratio of a channel to the mean, less 1, for the coefficients without stored
+// differences.
 int8_t RatioByte(const int8_t* channel, const float* mean, size_t count) {
   float product = 0.0f;
   float square = 0.0f;
@@ -294,7 +294,7 @@ void PackReceiverLight(const ShRowsRgb& light, ReceiverLight& packed) {
   const float most = LargestOf(light);
   const float held = packed.unit() * kLargestShort;
   if (most > held || most < 0.5f * held || !(held > 0.0f)) {
-    // With room to grow.
+    // The margin allows the light to grow.
     packed.set_unit(std::max(1.2f * most, 1e-30f) / kLargestShort);
   }
   const float inverse = 1.0f / packed.unit();

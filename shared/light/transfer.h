@@ -1,9 +1,8 @@
 #pragma once
 
-// Light at vertices by transfer vectors: irradiance = sum_k T_k L_k for each channel
-// (Sloan, Kautz & Snyder 2002, diffuse transfer), with T in the frame of the vertex's
-// bone, blended between key poses, and L the light that reaches the vertex's receivers,
-// turned into the frame of their bone.
+// Light at vertices by transfer vectors: irradiance = sum_k T_k L_k for each channel (Sloan, Kautz
+// & Snyder 2002, diffuse transfer). T is in the frame of the vertex's bone and blended between key
+// poses. L is the light that reaches the vertex's receivers, rotated into the frame of their bone.
 
 #include <array>
 #include <cstdint>
@@ -19,11 +18,11 @@ namespace lararium::light {
 
 inline constexpr size_t kMaxKeyPoses = 8;
 inline constexpr size_t kReceiversOfVertex = 4;
-// Key poses with less weight at a vertex are passed over.
+// Key poses with less weight at a vertex are skipped.
 inline constexpr float kLeastPoseWeight = 1.0f / 64.0f;
 
-// Transfer vectors of a mesh for its key poses as files have them: T[k] = value * scale(pose,
-// vertex). A scale for each coefficient besides was measured to gain nothing.
+// Transfer vectors of a mesh for its key poses in their file format: T[k] = value * scale(pose,
+// vertex). A separate scale for each coefficient gave no measurable gain.
 struct TransferBytes {
   int count = 0;  // coefficients: 9, 16, 25 or 36
   size_t poses = 0;
@@ -32,34 +31,35 @@ struct TransferBytes {
   std::vector<int8_t> values;  // [pose][vertex][3][count]
 };
 
-// vectors: [pose][vertex][3][count]. Each is off by half a scale at most.
+// vectors: [pose][vertex][3][count]. The error of each value is at most half a scale.
 TransferBytes QuantiseTransfer(std::span<const float> vectors, int count, size_t poses);
 
-// [3][count] of one vertex and pose.
+// Decodes [3][count] values of one vertex and pose.
 void DecodeTransfer(const TransferBytes& transfer,
                     size_t pose,
                     size_t vertex,
                     std::span<float> vectors);
 
-// The same as it is read from frame to frame, in three fifths of the memory: what reaches a vertex
-// is mostly light that comes straight from outside, alike in all channels, and what surfaces
-// nearby tint of it is smooth. So the channels' mean is kept whole; by how much red and blue
-// differ from it, for the first four coefficients; and for the others in what ratio. Green is what
-// the mean leaves.
+// Transfer vectors in the form that is read in each frame, in three fifths of the memory. Most
+// light at a vertex comes straight from outside and is equal in all channels, and the tint by
+// nearby surfaces is smooth. Therefore the mean of the channels is kept in full; the differences of
+// red and blue from it are kept for the first four coefficients, and only as ratios for the others.
+// Green follows from the mean.
 class Transfer {
  public:
   Transfer() = default;
-  // On all cores.
+  // Converts on all cores.
   explicit Transfer(const TransferBytes& bytes);
 
   int count() const { return count_; }
   size_t poses() const { return poses_; }
   size_t vertices() const { return vertices_; }
-  // What is kept, [3][count].
+  // Decodes the stored values, [3][count].
   void Decode(size_t pose, size_t vertex, std::span<float> vectors) const;
 
-  // Of a row: the mean's coefficients as bytes, red's differences, blue's, red's ratio to the mean
-  // less 1 and blue's, in 1/kRatioUnit; what all but the ratios are to be multiplied by.
+  // Layout of a row: the mean's coefficients as bytes; the differences of red and of blue; the
+  // ratios to the mean, less 1, of red and of blue, in 1/kRatioUnit; and the scale of everything
+  // but the ratios.
   static constexpr size_t kTinted = 4;
   static constexpr float kRatioUnit = 64.0f;
   size_t red_at() const { return static_cast<size_t>(count_); }
@@ -67,7 +67,7 @@ class Transfer {
   size_t ratios_at() const { return blue_at() + kTinted; }
   size_t scale_at() const { return ratios_at() + 4; }
   size_t stride() const { return scale_at() + sizeof(float); }
-  // Whole registers of the mean may be read: they end before the row does.
+  // Reading the mean in whole registers is safe: they end before the row does.
   const int8_t* row(size_t pose, size_t vertex) const {
     return rows_.get() + (pose * vertices_ + vertex) * stride();
   }
@@ -80,8 +80,8 @@ class Transfer {
   std::shared_ptr<const int8_t[]> rows_;  // [pose][vertex]
 };
 
-// Light of receivers as vertices read it: [receiver][3][padded count], in whole numbers of
-// unit(), so that a register holds sixteen of them. Made once; filling it does not allocate.
+// Light of receivers in the form that vertices read: [receiver][3][padded count], as integers in
+// units of unit(), so that a register holds sixteen of them. Only the constructor allocates.
 class ReceiverLight {
  public:
   ReceiverLight(int count, size_t receivers)
@@ -102,29 +102,29 @@ class ReceiverLight {
   std::vector<int16_t> values_;
 };
 
-// light: in the receivers' bone frames (sh_turn.h). Each is off by half a unit at most: by
-// 1/64000 to 1/32000 of the largest coefficient that any receiver has. The unit stays while it
-// is within these, so that what was packed before can be compared.
+// light: in the receivers' bone frames (sh_turn.h). The error of each value is at most half a unit,
+// that is, 1/64000 to 1/32000 of the largest coefficient of all receivers. The unit is kept while
+// it is within these limits, so that packed values of different frames can be compared.
 void PackReceiverLight(const ShRowsRgb& light, ReceiverLight& packed);
 
-// The receivers that light a vertex. Weights in 1/255, sum 255, the largest first; those
-// after a weight of 0 are not looked at.
+// The receivers that light a vertex. Weights are in 1/255 with the sum 255, the largest first;
+// receivers after a weight of 0 are ignored.
 struct VertexReceivers {
   std::array<uint16_t, kReceiversOfVertex> receiver{};
   std::array<uint8_t, kReceiversOfVertex> weight{};
 };
 
-// irradiance[v] for the vertices [begin, end), never negative: transfer and light blended
-// at the vertex and multiplied. pose_weights: [receiver][kMaxKeyPoses] (key_poses.h).
-// Several ranges may run together. Allocates nothing.
+// Computes irradiance[v], never negative, for the vertices [begin, end): blends transfer and light
+// at the vertex and multiplies them. pose_weights: [receiver][kMaxKeyPoses] (key_poses.h). Several
+// ranges may run in parallel. Allocates nothing.
 struct LightVerticesJob {
   const Transfer* transfer = nullptr;
   std::span<const VertexReceivers> receivers;  // [vertex]
   const ReceiverLight* light = nullptr;
   std::span<const float> pose_weights;
   std::span<glm::vec3> irradiance;  // [vertex]
-  // Of each receiver whether its light has changed; vertices none of whose receivers has stay as
-  // they are. Empty: all have.
+  // For each receiver, whether its light has changed. Vertices without a changed receiver keep
+  // their value. Empty: all receivers have changed.
   std::span<const uint8_t> changed = {};
 
   void Run(size_t begin, size_t end) const;

@@ -10,14 +10,14 @@
 
 namespace lararium::render {
 
-// Projects points in camera coordinates: what display projects to pixel (u, v)
-// covers OpenGL's sample at the centre of column u and row v from the top. near,
-// far: metres, 0 < near < far. display's distortion is not used: everything
-// drawn is pinhole.
+// The projection from camera coordinates to clip space. A point that display projects to pixel
+// (u, v) covers OpenGL's sample at the centre of column u and row v, counted from the top. near
+// and far are in metres, 0 < near < far. The distortion of display is ignored: everything is
+// drawn with a pinhole camera.
 glm::mat4 ClipFromCamera(const geometry::CameraModel& display, float near, float far);
 
-// camera_from_stage of a camera at eye that looks at target with up (of the
-// stage) upwards in its image. Any roll when up is parallel to the view.
+// Returns camera_from_stage of a camera at eye that looks at target; the stage direction up
+// points upwards in its image. If up is parallel to the viewing direction, the roll is arbitrary.
 geometry::Rigid3 LookAt(const Eigen::Vector3d& eye,
                         const Eigen::Vector3d& target,
                         const Eigen::Vector3d& up);

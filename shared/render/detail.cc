@@ -9,7 +9,7 @@ namespace {
 constexpr double kNearest = 0.5;  // metres
 constexpr float kPressureStep = 1.25f;
 constexpr float kMostPressure = 64.0f;
-// The budget lets go only where that much of it would stay free.
+// The pressure is lowered only if the picture then uses at most this share of the budget.
 constexpr float kRelief = 0.9f;
 
 Eigen::Vector3d InCamera(const geometry::Rigid3& camera_from_stage, const glm::vec3& point) {
@@ -40,7 +40,8 @@ bool MaySee(const geometry::CameraModel& display,
             const glm::vec3& centre_in_stage,
             float radius) {
   const Eigen::Vector3d centre = InCamera(camera_from_stage, centre_in_stage);
-  // Inside of the plane through the eye and one side of the picture, by the radius.
+  // True unless the ball lies entirely outside the plane through the eye and one side of the
+  // picture.
   const auto inside = [&](double across, double focal, double edge) {
     const double slope = edge / focal;
     return slope * centre.z() - across > -radius * std::hypot(1.0, slope);

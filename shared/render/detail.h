@@ -1,7 +1,7 @@
 #pragma once
 
-// How finely people are drawn: as coarse as cannot be seen, and coarser where the
-// picture would hold too many triangles.
+// Chooses the level of detail of each person: the coarsest one whose error stays invisible, and a
+// coarser one if the picture would exceed its triangle budget.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -14,13 +14,13 @@
 
 namespace lararium::render {
 
-// Pixels of a metre at a point of the stage, seen straight on; what is nearer than
-// half a metre counts as there.
+// Size on screen, in pixels, of one metre at a point of the stage, measured across the viewing
+// direction. Points nearer than 0.5 m count as 0.5 m away.
 float PixelsPerMetre(const geometry::CameraModel& display,
                      const geometry::Rigid3& camera_from_stage,
                      const glm::vec3& point_in_stage);
 
-// True when a ball may be seen: it reaches into the picture, and in front of the viewer.
+// True if a ball may be visible: it overlaps the picture and reaches in front of the viewer.
 bool MaySee(const geometry::CameraModel& display,
             const geometry::Rigid3& camera_from_stage,
             const glm::vec3& centre_in_stage,
@@ -28,16 +28,18 @@ bool MaySee(const geometry::CameraModel& display,
 
 // A level of detail of one mesh.
 struct MeshLevel {
-  float error = 0.0f;  // metres, from the full detail, times its surface's share
+  // Metres from the finest level, multiplied by human::ErrorShare of the mesh's surface.
+  float error = 0.0f;
   size_t triangles = 0;
-  // How many of the mesh's first vertices this and all coarser levels take. Files that
-  // import::OrderVertices has been at have those of coarser levels first.
+  // This level and all coarser ones use only the first `vertices` vertices of the mesh.
+  // import::OrderVertices stores the vertices of coarser levels first.
   size_t vertices = 0;
 };
-// The finest first, of one of a person's meshes.
+// The levels of one mesh of a person, finest first. mesh: index into Human::meshes.
 std::vector<MeshLevel> FindMeshLevels(const human::Human& human, size_t mesh);
 
-// Which of levels, the finest first, is drawn: the coarsest whose error is allowed, metres.
+// Returns the coarsest of levels (ordered finest first) whose error is at most allowed_error,
+// metres; the finest if there is none.
 template <typename Level>
 const Level& LevelAllowed(const std::vector<Level>& levels, float allowed_error) {
   const Level* drawn = &levels.front();
@@ -47,43 +49,47 @@ const Level& LevelAllowed(const std::vector<Level>& levels, float allowed_error)
   return *drawn;
 }
 
-// What each allowed error costs, summed over a person's meshes: ascending errors,
-// descending triangles. The first is the finest.
+// Number of triangles for each allowed error, summed over a person's meshes. FindDetailLevels
+// returns ascending errors and descending triangle counts; the first entry is the finest.
 struct DetailLevel {
-  float error = 0.0f;  // metres, from the finest
+  float error = 0.0f;  // metres from the finest level
   size_t triangles = 0;
 };
 std::vector<DetailLevel> FindDetailLevels(const human::Human& human);
 
 struct DetailOptions {
-  float tolerance_px = 0.5f;         // error that cannot be seen
-  size_t triangle_budget = 300'000;  // of all people together
-  // An allowed error stays until it would change by this share, so that nobody flickers
-  // between two levels.
+  float tolerance_px = 0.5f;         // largest error that stays invisible
+  size_t triangle_budget = 300'000;  // sum over all people
+  // Hysteresis: an allowed error is kept until it would change by more than this share, so that
+  // people do not flicker between two levels.
   float slack = 0.3f;
 };
 
-// One person of a picture.
+// One person in a picture.
 struct DetailRequest {
   std::span<const DetailLevel> levels;
-  float pixels_per_metre = 0.0f;  // 0: not seen, and free
-  // Kept from picture to picture, 0 in the first: the error allowed by distance, metres.
+  // 0: the person is not visible and costs no triangles.
+  float pixels_per_metre = 0.0f;
+  // Input and output: error allowed at this distance, metres. The caller keeps it from picture to
+  // picture; 0 in the first.
   float allowed_error = 0.0f;
-  float detail = 0.0f;  // out: SceneHuman::detail
+  // Output: value for SceneHuman::detail, metres.
+  float detail = 0.0f;
 };
 
-// Remembers from picture to picture how much the budget presses.
+// Chooses levels for one picture after another. It remembers how far the tolerance had to be
+// raised to meet the triangle budget.
 class DetailChooser {
  public:
   explicit DetailChooser(const DetailOptions& options = {}) : options_(options) {}
 
-  // From the next choice on.
+  // Takes effect with the next call of Choose.
   void SetOptions(const DetailOptions& options) { options_ = options; }
   void Choose(std::span<DetailRequest> requests);
 
  private:
   DetailOptions options_;
-  float pressure_ = 1.0f;  // tolerance is multiplied by it; at least 1
+  float pressure_ = 1.0f;  // factor on DetailOptions::tolerance_px, at least 1
 };
 
 }  // namespace lararium::render

@@ -11,16 +11,16 @@
 #include "shared/core/check.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/clip_space.h"
-#include "shared/render/gl_object.h"
-#include "shared/render/gpu_mesh.h"
-#include "shared/render/shader_program.h"
+#include "shared/render/gl/gl_object.h"
+#include "shared/render/gl/gpu_mesh.h"
+#include "shared/render/gl/shader_program.h"
 
 namespace lararium::render {
 namespace {
 
 static_assert(sizeof(OverlayPoint) == 16 && sizeof(OverlayLine) == 28);
 
-// Vertices, which may change from frame to frame.
+// A buffer of vertices that may change from frame to frame.
 struct Stream {
   GlVertexArray vertex_array = GlVertexArray::Generate();
   GlBuffer buffer = GlBuffer::Generate();

@@ -1,7 +1,7 @@
 #pragma once
 
-// The editor's drawing over, or without, the camera's image: points, lines and
-// translucent meshes under any view. Colours are sRGB-encoded, alpha is opacity.
+// The editor's drawing over the camera's image, or without one: points, lines and translucent
+// meshes from any view. Colours are sRGB-encoded; alpha is opacity.
 
 #include <glm/gtc/type_precision.hpp>
 #include <glm/mat4x4.hpp>
@@ -15,18 +15,19 @@
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 #include "shared/geometry/triangle_mesh.h"
+#include "shared/render/gl/render_target.h"
 #include "shared/render/render_scene.h"
-#include "shared/render/render_target.h"
 
 namespace lararium::render {
 
-// Any frame may serve as the stage here (the map, say), as long as all agree.
+// "Stage" may stand for any frame here (for example the map's), as long as all data use the same.
 struct OverlayView {
   geometry::CameraModel display;  // pinhole, scaled to the target's size
   geometry::Rigid3 camera_from_stage;
   float near = 0.01f;  // metres
   float far = 1000.0f;
-  std::optional<glm::vec3> clear;  // fills the target first; nullopt: draws over it
+  // Colour that fills the target first; nullopt: the overlay is drawn over its content.
+  std::optional<glm::vec3> clear;
 
   friend bool operator==(const OverlayView& a, const OverlayView& b) {
     return a.display == b.display &&
@@ -54,33 +55,33 @@ using PointsHandle = Id<OverlayPoints>;
 
 enum class OverlayDepth {
   kTest,   // hidden by nearer overlays
-  kOnTop,  // always seen: gizmos
+  kOnTop,  // always visible, for gizmos
 };
 
 class Overlay {
  public:
-  // Needs a current context; everything else happens on its thread.
+  // Needs a current context. Call all other members on the thread of that context.
   static Result<std::unique_ptr<Overlay>> Create();
   ~Overlay();
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  // Must be valid (TriangleMesh::Validate).
+  // mesh must be valid (TriangleMesh::Validate).
   MeshHandle AddMesh(const geometry::TriangleMesh& mesh);
   void RemoveMesh(MeshHandle mesh);
 
-  // Points that stay as they are from picture to picture.
+  // Uploads points that stay the same from picture to picture.
   PointsHandle AddPoints(std::span<const OverlayPoint> points);
   void RemovePoints(PointsHandle points);
 
-  // Begin, any number of Draw..., End; the target, one that has depth (RenderTarget::Depth), is
-  // borrowed in between.
+  // Call Begin, any number of Draw..., then End. The target must have depth
+  // (RenderTarget::Depth::kForOverlay) and must live until End.
   void Begin(const OverlayView& view, const RenderTarget& target);
-  // Round, size_px across.
+  // Draws round points with a diameter of size_px.
   void DrawPoints(std::span<const OverlayPoint> points,
                   float size_px,
                   OverlayDepth depth = OverlayDepth::kTest);
-  // The first so many of them; at most all.
+  // Draws the first count points of a set, or all if it has fewer.
   Status DrawPoints(PointsHandle points,
                     size_t count,
                     float size_px,
@@ -88,7 +89,7 @@ class Overlay {
   void DrawLines(std::span<const OverlayLine> lines,
                  float width_px,
                  OverlayDepth depth = OverlayDepth::kTest);
-  // Shaded by a lamp at the camera; both sides are seen.
+  // Draws both sides of a mesh, shaded by a lamp at the camera.
   Status DrawMesh(MeshHandle mesh, const glm::mat4& stage_from_mesh, glm::u8vec4 colour);
   void End();
 

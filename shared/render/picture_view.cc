@@ -6,7 +6,7 @@
 namespace lararium::render {
 namespace {
 
-// Of a ray (x, y, 1); pixels from the corner of the bottom row.
+// Maps rays (x, y, 1) to pixels, counted from the corner of the bottom row.
 Eigen::Matrix3d PixelFromRay(const PictureView& view) {
   Eigen::Matrix3d pixel_from_ray = Eigen::Matrix3d::Identity();
   pixel_from_ray(0, 0) = view.display.fx;
@@ -16,7 +16,7 @@ Eigen::Matrix3d PixelFromRay(const PictureView& view) {
   return pixel_from_ray;
 }
 
-// Likewise from the corner of the top row.
+// Maps rays (x, y, 1) to pixels, counted from the corner of the top row.
 Eigen::Matrix3d PixelFromRay(const geometry::CameraModel& display) {
   Eigen::Matrix3d pixel_from_ray = Eigen::Matrix3d::Identity();
   pixel_from_ray(0, 0) = display.fx;
@@ -26,7 +26,8 @@ Eigen::Matrix3d PixelFromRay(const geometry::CameraModel& display) {
   return pixel_from_ray;
 }
 
-// Of rays to points of a plane z = depth: R + t (0, 0, 1 / depth).
+// Maps rays of a view to rays of another, for points on the plane z = depth of the view:
+// R + t (0, 0, 1 / depth).
 Eigen::Matrix3d PlaneHomography(const geometry::Rigid3& other_from_view, float depth) {
   Eigen::Matrix3d other_from_ray = other_from_view.rotation.toRotationMatrix();
   other_from_ray.col(2) += other_from_view.translation / static_cast<double>(depth);
@@ -72,7 +73,8 @@ PictureView ViewOf(const RenderScene& scene,
   const auto turned = [&](double x, double y, double z) {
     return geometry::ToGlm(stage_from_camera.rotation * Eigen::Vector3d(x, y, z));
   };
-  // Rows count from the bottom, and the corner is half a pixel off the last one's centre.
+  // Rows are counted from the bottom. The corner is half a pixel away from the centre of the first
+  // pixel.
   const geometry::CameraModel& display = view.display;
   view.ray_at_corner = turned((-0.5 - display.cx) / display.fx,
                               (view.size.height - 0.5 - display.cy) / display.fy, 1.0);

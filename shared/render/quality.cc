@@ -16,7 +16,7 @@ constexpr Quality AtHalfRate(Quality quality) {
 Quality Clamped(const Quality& quality) {
   Quality clamped = quality;
   clamped.samples = std::max(quality.samples, 1);
-  // In this order what is not a number becomes the least.
+  // This order of min and max turns NaN into the minimum.
   clamped.layer_scale = std::min(std::max(0.25f, quality.layer_scale), 1.0f);
   clamped.shadow_cell = std::clamp(quality.shadow_cell, 4, 16);
   clamped.sun_map = quality.sun_map < 1024 ? 512 : 1024;

@@ -1,51 +1,53 @@
 #pragma once
 
-// What drawing may save where a picture takes too long. All of it may change from picture to
-// picture; images are allocated anew where their size or samples are others then. What each costs
-// and changes: docs/illumination.md.
+// Quality settings that trade looks for drawing time. All of them may change from picture to
+// picture; images are reallocated when their size or number of samples changes. The cost and the
+// effect of each setting are in docs/illumination.md.
 
 #include <span>
 
 namespace lararium::render {
 
-// As good as it gets unless set. What lies beyond a range counts as its nearest end.
+// The defaults are the best quality. Values outside a range are clamped to it (see Clamped).
 struct Quality {
-  // Of each pixel of people and props, for smooth edges: 1, none, up to what the driver offers.
+  // Samples per pixel of people and props, for smooth edges: from 1 (no antialiasing) to the
+  // driver's maximum.
   int samples = 4;
-  // The picture is put together at its own size; otherwise no finer than the camera's image is,
-  // and made larger then, people and all.
+  // True: the picture is composed at its own size. False: it is composed at no more than the
+  // resolution of the camera's image, and the result is upscaled.
   bool full_size = true;
-  // Pixels of the layer with people, props and caught shadows for one of the picture, as it is put
-  // together, along each side: 0.25 to 1.
+  // Width and height of the layer with people, props and caught shadows, divided by those of the
+  // composed picture: 0.25 to 1.
   float layer_scale = 1.0f;
-  // Pixels of the layer, along each side, for one value of the sky's light that real surfaces
-  // keep: 4 to 16.
+  // The share of the sky's light that reaches real surfaces is computed once for each square of
+  // shadow_cell x shadow_cell pixels of the layer: 4 to 16.
   int shadow_cell = 4;
-  // Texels along each side of the maps in which the sun's shadows are looked up: 1024, or 512
-  // below that.
+  // Width and height of the sun's shadow maps, texels: 1024; smaller values give 512.
   int sun_map = 1024;
-  // How often the sun is looked up where a shadow's edge may be: 4 to 14.
+  // Number of shadow map samples where a shadow's edge may be: 4 to 14.
   int sun_taps = 14;
-  // People and props are lit at each pixel, with the bumps of their surfaces; otherwise at each
-  // vertex, without reflections and soft fringes of hair: in a large layer software draws them four
-  // times as fast, in a small one no faster.
+  // True: people and props are lit per pixel, with normal maps. False: they are lit per vertex,
+  // without reflections and without the soft fringe of hair. In a large layer a software renderer
+  // draws them four times as fast; in a small layer there is no gain.
   bool pixel_light = true;
-  // Smooth surfaces mirror what is around; otherwise only where most of the light comes from.
+  // True: smooth surfaces reflect the surroundings. False: they reflect the main light only.
   bool reflections = true;
-  // Noise, softness and motion blur of the camera; the camera's image is rectified by shaders then,
-  // which can tell its pixels, and by the processor otherwise.
+  // Adds noise, softness and motion blur of the camera. If true, shaders rectify the camera's
+  // image, because the noise needs the position of its pixels; if false, the processor rectifies
+  // it.
   bool camera_look = true;
-  // By how many pixels levels of detail may be off, as errors count (human::ErrorShare), and how
-  // many triangles all people together may have (DetailOptions).
+  // Largest error of levels of detail in pixels (weighted by human::ErrorShare), and the triangle
+  // budget of all people together (see DetailOptions).
   float detail_px = 0.5f;
   int triangles = 300'000;
-  // How often textures are half as wide and high: 0 to 3. Where it becomes less they are decoded
-  // anew beside drawing; where it becomes more those that are there stay.
+  // Number of times that the width and height of textures are halved: 0 to 3. If the number falls,
+  // textures are decoded again in the background; if it rises, loaded textures are kept.
   int texture_halvings = 0;
 
-  // People and shadows are drawn over two pictures, while each picture shows those that were ready,
-  // turned to where the camera sees them now: they move at half the rate of the picture and a
-  // picture or two late (show::ShowRenderer; Renderer::DrawHalf).
+  // The layer of people and shadows is drawn over the time of two pictures. Meanwhile each picture
+  // shows the layer that was finished last, warped to the current pose of the camera. People then
+  // move at half the picture rate and one or two pictures late (show::ShowRenderer;
+  // Renderer::DrawHalf).
   bool half_rate = false;
 
   friend bool operator==(const Quality&, const Quality&) = default;
@@ -53,8 +55,8 @@ struct Quality {
 
 Quality Clamped(const Quality& quality);
 
-// From the best to the least that still looks good: each step is cheaper by a good part than
-// the one before, and changes what is seen least for that (lararium_quality_bench).
+// Quality settings from the best to the cheapest one that still looks good. Each step is clearly
+// cheaper than the one before, at the smallest visible change (measured by lararium_quality_bench).
 std::span<const Quality> QualityLadder();
 
 }  // namespace lararium::render

@@ -1,6 +1,6 @@
 #pragma once
 
-// All that one picture shows. Borrowed for the call that draws it.
+// Everything that one picture shows. Spans are borrowed during the call that draws it.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -22,32 +22,32 @@ namespace lararium::render {
 struct GpuMesh;
 struct GpuModel;
 using MeshHandle = Id<GpuMesh>;
-using ModelHandle = Id<GpuModel>;  // of a person or a prop
+using ModelHandle = Id<GpuModel>;  // a person or a prop
 
-// Real things: hide what is behind them, are not seen themselves.
+// A real object: it hides what is behind it and is not drawn itself.
 struct SceneOccluder {
   MeshHandle mesh = {};
   glm::mat4 stage_from_mesh = glm::mat4(1.0f);
-  bool receives_shadow = true;  // of RenderScene::blockers, where it is seen
+  bool receives_shadow = true;  // shadows of RenderScene::blockers and of the sun fall on it
 };
 
-// A mesh whose vertices are not those of the bind pose in this picture. Parallel to
-// its vertices.
+// Replaces the bind pose vertices of one mesh in this picture. Both spans are parallel to the
+// vertices of the mesh.
 struct SceneVertices {
   uint32_t mesh = 0;                          // index into Human::meshes
   std::span<const glm::vec3> positions = {};  // metres, actor frame
   std::span<const glm::vec3> normals = {};    // unit
-  bool posed =
-      false;  // as they are to be drawn (simulated cloth); otherwise skinned (a morphed face)
+  // True: positions are final (simulated cloth). False: they are still skinned (a morphed face).
+  bool posed = false;
 };
 
-// Says what something is, whatever it looks like: a colour, told apart without seeing colours
-// by stripes.
+// A colour with stripes that classifies an object, independent of its own look. The stripes let
+// colour-blind visitors tell the classes apart.
 struct SceneMark {
   glm::vec3 colour = glm::vec3(0.0f);  // linear
-  float share = 0.0f;                  // of the picture; 0: no mark
-  int stripes = 0;                     // in so many directions: 0, 1, or 2, which cross
-  float stripe_px = 16.0f;             // of the target, from one to the next
+  float share = 0.0f;                  // blend weight, 0 (no mark) to 1
+  int stripes = 0;                     // number of directions: 0, 1, or 2 (crossed)
+  float stripe_px = 16.0f;             // distance of stripes, pixels of the target
 };
 
 struct SceneHuman {
@@ -55,14 +55,15 @@ struct SceneHuman {
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
   std::span<const glm::mat4> skin = {};  // one for each joint (human::ComputeSkinMatrices)
   std::span<const SceneVertices> vertices = {};
-  // What falls on each vertex, all meshes in a row, with the shadows of body, people and
-  // things (show/person_light.h); empty: unshadowed light. Only those vertices count that the
-  // levels of detail take.
+  // Irradiance of each vertex, all meshes one after another, shadowed by the person's own body,
+  // other people and objects (show/person_light.h); empty: unshadowed light. Only vertices that
+  // the chosen levels of detail use are read.
   std::span<const glm::vec3> irradiance = {};
-  // Metres by which what is drawn may differ from the finest level of detail
-  // as errors count (shared/render/detail.h).
+  // Error allowed for the level of detail, metres (DetailRequest::detail in
+  // shared/render/detail.h).
   float detail = 0.0f;
-  // Where they stand. Its sun is taken for as bright, in the scene's direction; none: the scene's.
+  // Light at the person's position; nullptr: the scene's light. The brightness of its sun is used;
+  // the direction is always that of the scene's sun.
   const light::ProbeLight* light = nullptr;
   SceneMark mark = {};
 };
@@ -70,43 +71,46 @@ struct SceneHuman {
 struct SceneProp {
   ModelHandle prop = {};
   std::span<const glm::mat4> stage_from_part = {};  // one for each part
-  std::span<const uint8_t> shown = {};              // likewise: 0 hides it; empty: all are there
-  const light::ProbeLight* light = nullptr;         // as of people
-  // What falls on each vertex, all meshes in a row, as of SceneHuman.
+  std::span<const uint8_t> shown = {};              // one for each part, 0: hidden; empty: all
+  const light::ProbeLight* light = nullptr;         // same meaning as SceneHuman::light
+  // Irradiance of each vertex, all meshes one after another; empty: unshadowed light.
   std::span<const glm::vec3> irradiance = {};
-  float glow = 1.0f;  // times the emission of its meshes
+  float glow = 1.0f;  // factor on the emission of its meshes
   SceneMark mark = {};
 };
 
-// What the camera does to its image and people would lack: all off unless set.
+// Artefacts of the camera that are added to people, so that they match its image. The defaults
+// add nothing.
 struct CameraLook {
-  // Gaussian noise of the encoded picture, 0..1: variance = floor^2 + slope * value, as
-  // vision::EstimateNoise measures it. Repeatable: frame alone seeds it.
+  // Gaussian noise of the encoded picture (values 0..1): variance = floor^2 + slope * value, as
+  // measured by vision::EstimateNoise. `frame` alone seeds it, so it can be reproduced.
   float noise_floor = 0.0f;
   float noise_slope = 0.0f;
   uint32_t frame = 0;
-  // The point spread of the lens, a Gaussian: standard deviation, pixels of the picture.
+  // Standard deviation of the lens's Gaussian point spread, pixels of the picture.
   float blur_px = 0.0f;
-  // The pose one frame ago; people are smeared by what the camera moved since, times the
-  // share of the time between frames that the shutter is open.
+  // Motion blur: the camera's pose one frame ago. People are blurred along the camera's motion
+  // since then, times `shutter`, the share of the frame time during which the shutter is open.
   std::optional<geometry::Rigid3> previous_camera_from_stage = std::nullopt;
   float shutter = 0.0f;
 };
 
 struct RenderScene {
-  // What is real is seen through the picture, on a display that shows it by itself: the picture has
-  // people and props alone, sRGB-encoded, times their coverage, and alpha says how much they and
-  // their shadows hide of what is behind. Without background and look.
+  // For displays that show the real world themselves. The picture then contains people and props
+  // only: sRGB-encoded colours times coverage; alpha says how much they and their shadows hide of
+  // the real world. background and look must not be used then.
   bool see_through = false;
-  // The camera's image, CV_8UC3, sRGB-encoded, raw; empty draws black instead.
+  // The camera's image, CV_8UC3, sRGB-encoded, not rectified; empty: black.
   cv::Mat background = {};
-  geometry::CameraModel camera = {};  // of background, with distortion
+  geometry::CameraModel camera = {};  // camera of background, with distortion
 
-  // The pinhole that everything is drawn with, scaled to the target's size.
+  // Pinhole camera of the picture; it is scaled to the target's size.
   geometry::CameraModel display = {};
-  // With which the background is drawn, of an eye that is not where the camera is; none: display.
+  // Pinhole camera for the background alone, for an eye that is not at the camera's position;
+  // nullopt: display.
   std::optional<geometry::CameraModel> background_display = std::nullopt;
-  // Without a pose only the background is drawn: never people in a stale place.
+  // If there is no pose, only the background is drawn, so that people never stand in a stale
+  // position.
   std::optional<geometry::Rigid3> camera_from_stage = std::nullopt;
   float near = 0.05f;  // metres
   float far = 100.0f;
@@ -114,39 +118,38 @@ struct RenderScene {
   std::span<const SceneOccluder> occluders = {};
   std::span<const SceneHuman> humans = {};
   std::span<const SceneProp> props = {};
-  // Balls that stand for people and props where they keep the sky's light off occluders:
-  // centre, stage axes, and radius, metres. Up to 512 as they are; of more, neighbours are
-  // merged.
+  // Balls that approximate people and props when they block the sky's light from occluders: centre
+  // (stage axes) and radius, metres. If there are more than 512, neighbours are merged.
   std::span<const glm::vec4> blockers = {};
 
-  // What falls on people and props: radiance, stage axes. What is seen of them is
-  // multiplied by exposure and by gain (the image over the map's reference).
+  // Radiance around people and props, stage axes. Their colours are multiplied by exposure and by
+  // gain (brightness of the camera's image divided by that of the map's reference).
   light::ShRgb light = {};
-  // Apart from light: casts shadows with edges, from people and props on each other and on
-  // occluders that receive shadows, and from occluders on people.
+  // The sun, not included in light. It casts shadows with edges: from people and props on each
+  // other and on occluders that receive shadows, and from occluders on people.
   std::optional<light::Sun> sun = std::nullopt;
-  // Small lights, at most light::kMaxLamps. They light props, glint on people, whose
-  // irradiance has them already, and brighten occluders that receive shadows.
+  // At most light::kMaxLamps lamps. They light props and brighten occluders that receive shadows.
+  // On people they add only highlights: SceneHuman::irradiance contains their diffuse light.
   std::span<const light::Lamp> lamps = {};
-  // The sky of the hour at which the camera's image was taken, where that of light is another's:
-  // lamps brighten real surfaces by their light over this. None: light.
+  // Light at the hour at which the camera's image was taken, if `light` belongs to another hour.
+  // Lamps brighten real surfaces by the ratio of their light to this. nullopt: same as `light`.
   std::optional<light::ShRgb> picture_light = std::nullopt;
-  // What rough surfaces mirror of light: light::GlossyMap::texels, which stay the same while
-  // the number does. Empty: highlights come from the harmonics.
+  // Reflections of `light` on rough surfaces: light::GlossyMap::texels. Change glossy_number
+  // whenever the texels change. Empty: highlights are computed from the harmonics.
   std::span<const uint32_t> glossy = {};
   uint64_t glossy_number = 0;
   float exposure = 1.0f;
   glm::vec3 gain = glm::vec3(1.0f);
-  // How the camera renders highlights (the background has it already): linear up
-  // to here, above in an exponential shoulder towards white; 1 clips. Far above
-  // 1, what is drawn stays linear.
+  // How the camera compresses highlights (the background contains this already): linear up to the
+  // knee, above it an exponential shoulder towards white. 1 clips; values far above 1 keep the
+  // result linear.
   float knee = 0.6f;
-  // As it was measured, in place of the knee; nullptr: it was not.
+  // Measured response of the camera, used instead of the knee; nullptr: not measured.
   const light::CameraResponse* response = nullptr;
   CameraLook look = {};
-  // Of people and props, and of what they do to the light on real surfaces: 0, nobody is there.
+  // Opacity of people and props and of their shadows and light on real surfaces; 0: not visible.
   float people_opacity = 1.0f;
-  // Only Lambert's reflection, as path-traced references have it.
+  // Lambertian reflection only, as in path-traced references.
   bool matte = false;
 };
 

@@ -12,19 +12,21 @@
 
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/detail.h"
-#include "shared/render/linear_target.h"
+#include "shared/render/gl/linear_target.h"
+#include "shared/render/gl/shader_program.h"
+#include "shared/render/gl/texture.h"
 #include "shared/render/renderer_state.h"
-#include "shared/render/shader_program.h"
-#include "shared/render/texture.h"
 
 namespace lararium::render {
 namespace {
 
-// Nearly as fine is as fine: it would cost as much.
+// If the camera's resolution divided by the target's is above this, the picture is composed at the
+// size of the target, because a smaller one would hardly save time.
 constexpr double kLeastEnlarged = 0.9;
-// Of the picture's width, beyond each of its edges, for a layer that is carried to other poses; and
-// how far it may be carried: it would lack too much at an edge.
-constexpr float kMargin = 1.0f / 32.0f;
+// A layer that is warped to other poses extends beyond each edge of the picture by kMargin of its
+// width. If its corners move by more than kFurthestCarried of the width, too much would be missing
+// at an edge and the layer is not used.
+constexpr float kLayerMargin = 1.0f / 32.0f;
 constexpr float kFurthestCarried = 0.1f;
 
 glm::vec4 Intrinsics(const geometry::CameraModel& camera) {
@@ -49,14 +51,14 @@ ImageSize Scaled(const ImageSize& size, float scale) {
   return {scaled(size.width), scaled(size.height)};
 }
 
-// Pixels of the camera's image for one of a picture, along each side.
+// Resolution of the camera's image divided by that of a picture, along each side.
 double ImageScale(const RenderScene& scene, const ImageSize& picture) {
   const geometry::CameraModel camera =
       scene.camera.Resized(scene.background.cols, scene.background.rows);
   return camera.Focal() / scene.display.Resized(picture.width, picture.height).Focal();
 }
 
-// Of a picture what is beside and above bounds; all of it where they are empty.
+// Returns the parts of a picture outside bounds; all of it if they are empty.
 std::array<PixelBounds, 4> Around(const PixelBounds& b, const ImageSize& size) {
   if (b.empty()) {
     return {PixelBounds{0, 0, size.width, size.height}};
@@ -73,7 +75,7 @@ void FillBounds(const PixelBounds& bounds) {
   }
 }
 
-// Of the layer's pixels those of the target, whose rows count from the top.
+// Converts bounds in the layer to bounds in the target, whose rows are counted from the top.
 PixelBounds InPicture(const PixelBounds& b, float scale, const RenderTarget& target) {
   if (b.empty()) {
     return {};
@@ -89,13 +91,13 @@ PixelBounds InPicture(const PixelBounds& b, float scale, const RenderTarget& tar
           std::min(target.height() - first(b.bottom), target.height())};
 }
 
-// How far away a model's root is, along the view.
+// Depth of a model's root joint along the view, metres.
 float RootDepth(const ModelDraw& draw, const PictureView& view) {
   return (view.clip_from_stage * draw.stage_from_model * draw.skin[0][3]).w;
 }
 
-// Of a picture with a pose.
-glm::mat3 LayerFromPicture(const Layer& layer,
+// Homography from pixels of a picture to pixels of the layer. The scene must have a pose.
+glm::mat3 LayerFromPicture(const CompositeLayer& layer,
                            const RenderScene& scene,
                            const RenderTarget& picture) {
   return ViewFromPicture(layer.view, *layer.camera_from_stage, layer.depth,
@@ -135,7 +137,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create(const Quality& quality) {
   LARARIUM_ASSIGN_OR_RETURN(state->catcher_pass, CatcherPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->sun_pass, SunPass::Create());
   LARARIUM_ASSIGN_OR_RETURN(state->sun_mask, SunMask::Create());
-  LARARIUM_ASSIGN_OR_RETURN(state->enlarger, Enlarger::Create());
+  LARARIUM_ASSIGN_OR_RETURN(state->upscaler, Upscaler::Create());
   state->no_vertices = GlVertexArray::Generate();
   return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
@@ -158,7 +160,7 @@ void Renderer::RemoveModel(ModelHandle model) {
 void Renderer::SetQuality(const Quality& quality) {
   state_->quality = Clamped(quality);
   state_->textures.Refine(state_->quality.texture_halvings);
-  state_->layer = {};  // of other sizes
+  state_->layer = {};  // the size of the layer may have changed
 }
 
 Status Renderer::State::Validate(const RenderScene& scene) const {
@@ -168,7 +170,7 @@ Status Renderer::State::Validate(const RenderScene& scene) const {
     return Status::Error(kPlace, "the display's camera is not set");
   }
   if (scene.see_through && !scene.background.empty()) {
-    return Status::Error(kPlace, "what is seen through has no background");
+    return Status::Error(kPlace, "a see-through picture must not have a background");
   }
   if (!scene.background.empty() && scene.background.type() != CV_8UC3) {
     return Status::Error(kPlace, "the background must be 8-bit BGR");
@@ -204,11 +206,11 @@ Status Renderer::State::ValidateModels(const RenderScene& scene) const {
   for (const SceneProp& prop : scene.props) {
     LARARIUM_RETURN_IF_ERROR(check(prop.prop, prop.stage_from_part.size(), "a prop"));
     if (!prop.shown.empty() && prop.shown.size() != prop.stage_from_part.size()) {
-      return Status::Error(kPlace, "a prop does not say of each part whether it is shown");
+      return Status::Error(kPlace, "a prop needs one value in `shown` for each of its parts");
     }
     if (!prop.irradiance.empty() &&
         prop.irradiance.size() != models.Find(prop.prop)->vertex_count()) {
-      return Status::Error(kPlace, "a prop's irradiance is not that of its vertices");
+      return Status::Error(kPlace, "a prop needs one value of irradiance for each vertex");
     }
   }
   for (const SceneHuman& human : scene.humans) {
@@ -216,12 +218,12 @@ Status Renderer::State::ValidateModels(const RenderScene& scene) const {
     const std::vector<GpuModel::Part>& parts = models.Find(human.human)->parts;
     if (!human.irradiance.empty() &&
         human.irradiance.size() != models.Find(human.human)->vertex_count()) {
-      return Status::Error(kPlace, "a person's irradiance is not that of its vertices");
+      return Status::Error(kPlace, "a person needs one value of irradiance for each vertex");
     }
     for (const SceneVertices& moved : human.vertices) {
       if (moved.mesh >= parts.size() || moved.positions.size() != parts[moved.mesh].vertex_count ||
           moved.normals.size() != parts[moved.mesh].vertex_count) {
-        return Status::Error(kPlace, "a person's moving vertices are not those of a part");
+        return Status::Error(kPlace, "a person's moving vertices do not match a mesh");
       }
     }
   }
@@ -272,7 +274,7 @@ void Renderer::State::CollectDraw(const ModelDraw& draw,
   }
 }
 
-// Metres by which a prop may be off, as it is seen in the picture.
+// The error in metres that is as large as Quality::detail_px at the distance of the prop.
 float Renderer::State::PropDetail(const RenderScene& scene, const SceneProp& prop) const {
   if (prop.stage_from_part.empty()) {
     return 0.0f;
@@ -368,11 +370,11 @@ Status Renderer::State::DrawLit(const RenderScene& scene,
   layer.camera_from_stage = scene.camera_from_stage;
   layer.people = bounds;
   if (quality.camera_look) {
-    layer.smear = SmearOf(scene, view, bounds, layer.depth);
+    layer.motion_blur = MotionBlurOf(scene, view, bounds, layer.depth);
   }
-  // What is seen at the rim of a smear looks as far again, and a pixel on where the layer is
-  // made larger.
-  const int reach = layer.smear.reach;
+  // A blurred pixel may lie `reach` outside bounds and reads pixels up to `reach` away from it.
+  // Upscaling the layer reads one more pixel.
+  const int reach = layer.motion_blur.reach;
   LARARIUM_RETURN_IF_ERROR(DrawPeople(scene, view, bounds, 2 * reach + 2));
   const bool enlarged = view.size != view.most;
   catcher_pass.DrawCaught(sun_pass, view, {people.texture(), bounds, reach + (enlarged ? 1 : 0)});
@@ -382,11 +384,11 @@ Status Renderer::State::DrawLit(const RenderScene& scene,
 PictureView Renderer::State::LayerView(const RenderScene& scene,
                                        const RenderTarget& picture) const {
   const ImageSize size = Scaled({picture.width(), picture.height()}, quality.layer_scale);
-  const float margin = quality.half_rate ? kMargin * static_cast<float>(size.width) : 0.0f;
+  const float margin = quality.half_rate ? kLayerMargin * static_cast<float>(size.width) : 0.0f;
   return ViewOf(scene, size, picture_size, static_cast<int>(std::ceil(margin)));
 }
 
-// Of the program in use.
+// shaders must be the program in use.
 void Renderer::State::SetBackground(const ShaderProgram& shaders,
                                     const RenderScene& scene,
                                     const geometry::CameraModel& display) const {
@@ -442,7 +444,7 @@ PixelBounds Renderer::State::ChangedBy(const RenderScene& scene, const RenderTar
   if (*layer.camera_from_stage != *scene.camera_from_stage || layer.view.margin > 0) {
     return {0, 0, target.width(), target.height()};
   }
-  const PixelBounds seen = Widened(layer.people, layer.smear.reach, layer.view.size);
+  const PixelBounds seen = Widened(layer.people, layer.motion_blur.reach, layer.view.size);
   const float scale =
       static_cast<float>(layer.view.size.width) / static_cast<float>(target.width());
   return InPicture(Union(seen, catcher_pass.bounds()), scale, target);
@@ -492,8 +494,8 @@ void Renderer::State::SetLayer(const ShaderProgram& composite,
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, people.texture());
   composite.Set("people", 1);
-  look_pass.BindFor(composite, quality.camera_look ? scene.look : CameraLook(), layer.smear,
-                    Widened(layer.people, layer.smear.reach, layer.view.size));
+  look_pass.BindFor(composite, quality.camera_look ? scene.look : CameraLook(), layer.motion_blur,
+                    Widened(layer.people, layer.motion_blur.reach, layer.view.size));
   catcher_pass.BindFor(composite, 2);
 }
 
@@ -525,7 +527,7 @@ Status Renderer::State::PutTogether(const RenderScene& scene,
   LARARIUM_RETURN_IF_ERROR(scene.see_through ? CompositeSeeThrough(scene, picture)
                                              : Composite(scene, picture));
   if (&picture != &target) {
-    enlarger.Enlarge(picture, target);
+    upscaler.Enlarge(picture, target);
   }
   return Status();
 }
@@ -560,7 +562,7 @@ Status Renderer::Draw(const RenderScene& scene, const RenderTarget& target) {
 
 bool Renderer::CanCarryLayer(const RenderScene& picture, const RenderTarget& target) const {
   const State& state = *state_;
-  const Layer& layer = state.layer;
+  const CompositeLayer& layer = state.layer;
   if (!layer.camera_from_stage || !picture.camera_from_stage || picture.people_opacity <= 0.0f ||
       state.picture_size != ImageSize{target.width(), target.height()}) {
     return false;
@@ -636,7 +638,7 @@ Status Renderer::DrawLinear(const RenderScene& scene, cv::Mat& rgba) {
   RenderScene linear = scene;
   linear.exposure = 1.0f;
   linear.gain = glm::vec3(1.0f);
-  linear.knee = 65504.0f;  // the largest that the target holds
+  linear.knee = 65504.0f;  // largest 16-bit float
   linear.response = nullptr;
   linear.blockers = {};
   const ImageSize size = {scene.display.width, scene.display.height};

@@ -1,6 +1,6 @@
 #pragma once
 
-// The renderer's passes and what they draw. Private to render.
+// The renderer's passes, models and images. Private to render.
 
 #include <optional>
 #include <span>
@@ -8,33 +8,33 @@
 
 #include "shared/core/id.h"
 #include "shared/geometry/camera_model.h"
-#include "shared/render/catcher_pass.h"
-#include "shared/render/enlarger.h"
-#include "shared/render/gl_object.h"
-#include "shared/render/gpu_mesh.h"
-#include "shared/render/linear_target.h"
-#include "shared/render/look_pass.h"
-#include "shared/render/model_pass.h"
+#include "shared/render/gl/gl_object.h"
+#include "shared/render/gl/gpu_mesh.h"
+#include "shared/render/gl/linear_target.h"
+#include "shared/render/gl/shader_program.h"
+#include "shared/render/gl/texture.h"
+#include "shared/render/passes/catcher_pass.h"
+#include "shared/render/passes/look_pass.h"
+#include "shared/render/passes/model_pass.h"
+#include "shared/render/passes/rectifier.h"
+#include "shared/render/passes/screen_bounds.h"
+#include "shared/render/passes/sun_mask.h"
+#include "shared/render/passes/sun_pass.h"
+#include "shared/render/passes/upscaler.h"
 #include "shared/render/picture_view.h"
 #include "shared/render/quality.h"
-#include "shared/render/rectifier.h"
 #include "shared/render/renderer.h"
-#include "shared/render/screen_bounds.h"
-#include "shared/render/shader_program.h"
-#include "shared/render/sun_mask.h"
-#include "shared/render/sun_pass.h"
-#include "shared/render/texture.h"
 
 namespace lararium::render {
 
-// People and caught shadows as they are drawn before they go into a picture.
-struct Layer {
+// State of the layer: people and caught shadows, drawn before they are composed into a picture.
+struct CompositeLayer {
   PictureView view;
-  Smear smear;
-  float depth = 1.0f;  // of people, along the view, metres
-  // Of the camera that it was drawn for; none: nobody is in it.
+  MotionBlur motion_blur;
+  float depth = 1.0f;  // mean depth of people along the view, metres
+  // Pose that the layer was drawn for; nullopt: the layer holds no people.
   std::optional<geometry::Rigid3> camera_from_stage;
-  PixelBounds people;  // what of them is valid
+  PixelBounds people;  // the part of State::people that is valid
 };
 
 struct Renderer::State {
@@ -50,77 +50,77 @@ struct Renderer::State {
   SunMask sun_mask;
   LateProgram background_pass{"full_screen.vert", "background.frag"};
   LateProgram composite_pass{"full_screen.vert", "composite.frag"};
-  // Of an image that is the picture's, pixel by pixel.
+  // The RECTIFIED programs take a background that has the picture's pixels already.
   LateProgram rectified_background_pass{"full_screen.vert", "background.frag",
                                         "#define RECTIFIED\n"};
   LateProgram rectified_composite_pass{"full_screen.vert", "composite.frag", "#define RECTIFIED\n"};
-  // With RenderScene::look, and with RenderScene::see_through.
+  // For RenderScene::look, and for RenderScene::see_through.
   LateProgram look_composite_pass{"full_screen.vert", "composite.frag", "#define LOOK\n"};
   LateProgram see_through_composite_pass{"full_screen.vert", "composite.frag",
                                          "#define SEE_THROUGH\n"};
-  Enlarger enlarger;
-  GlVertexArray no_vertices;  // of full-screen passes
+  Upscaler upscaler;
+  GlVertexArray no_vertices;  // bound in full-screen passes
   Texture background_image;
   Rectifier rectifier;
-  std::optional<RenderTarget> small_picture;  // that is made larger
+  std::optional<RenderTarget> small_picture;  // the composed picture before upscaling
   LinearTarget people;
-  Layer layer;             // drawn last
-  ImageSize picture_size;  // likewise
+  CompositeLayer layer;    // the layer that was drawn last
+  ImageSize picture_size;  // size of the picture that layer was drawn for
   SlotMap<GpuMesh> meshes;
   SlotMap<GpuModel> models;
   TextureStore textures;
-  std::vector<ModelDraw> draws;      // of the picture at hand: what may be seen in it
-  std::vector<ModelDraw> all_draws;  // likewise: all
+  std::vector<ModelDraw> draws;      // models that may be visible in the current picture
+  std::vector<ModelDraw> all_draws;  // all models of the current picture
 
   Status Validate(const RenderScene& scene) const;
   Status ValidateModels(const RenderScene& scene) const;
   Result<ModelHandle> AddModel(Result<GpuModel> model);
-  // Fills draws, the nearest first, and all_draws. Says where they may be seen.
+  // Error allowed for a prop, metres, from its size in the picture.
   float PropDetail(const RenderScene& scene, const SceneProp& prop) const;
+  // Fills draws (nearest first) and all_draws. Returns the pixels that draws may cover.
   PixelBounds CollectDraws(const RenderScene& scene, const PictureView& view);
-  // Unless it lies outside the picture.
+  // Appends a draw to draws, unless it lies outside the picture.
   void CollectDraw(const ModelDraw& draw, const PictureView& view, ScreenBounds& bounds);
-  // As the sun mask has their shadows. Nothing is left of older pictures up to clear beyond the
-  // bounds.
+  // Draws people and props into `people`. Clears older content up to `clear` pixels beyond bounds.
   Status DrawPeople(const RenderScene& scene,
                     const PictureView& view,
                     const PixelBounds& bounds,
                     int clear);
   void DrawOccluders(std::span<const SceneOccluder> occluders,
                      const glm::mat4& clip_from_stage) const;
-  // What keeps the sun off, for draws that may be seen within the bounds.
+  // Draws the sun's shadow maps, and the sun mask of draws within bounds.
   Status DrawSunShadows(const RenderScene& scene,
                         const PictureView& view,
                         const PixelBounds& bounds);
-  // The halves of a layer, which take about as long: that, and what light real surfaces keep; then
-  // people, and the shadows that are caught.
+  // The two halves of drawing a layer, which take about the same time. DrawShadows: shadow maps,
+  // and how much light reaches real surfaces. DrawLit: people, and the shadows that real surfaces
+  // catch.
   Status DrawShadows(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
   Status DrawLit(const RenderScene& scene, const PictureView& view, const PixelBounds& bounds);
   PictureView LayerView(const RenderScene& scene, const RenderTarget& picture) const;
   void SetBackground(const ShaderProgram& shaders,
                      const RenderScene& scene,
                      const geometry::CameraModel& display) const;
-  // Of a rectified image or as it is.
+  // Uploads the camera's image, rectified first if Rectifies(scene).
   void UploadBackground(const RenderScene& scene, const geometry::CameraModel& display);
   bool Rectifies(const RenderScene& scene) const;
-  // Where the picture is put together: the target, or a smaller one (Quality::full_size).
+  // Returns where the picture is composed: the target, or a smaller one (Quality::full_size).
   Result<const RenderTarget*> ChoosePicture(const RenderScene& scene, const RenderTarget& target);
-  // The picture of what is in the layer, made larger where the target is.
+  // Composes the layer into picture, and upscales it if the target is larger.
   Status PutTogether(const RenderScene& scene,
                      const RenderTarget& picture,
                      const RenderTarget& target);
-  // The camera's image, and over it what is in the layer.
+  // Draws the camera's image and the layer over it.
   Status Composite(const RenderScene& scene, const RenderTarget& target);
-  // What is in the layer, over what is seen through the target.
+  // Draws the layer alone, with alpha (RenderScene::see_through).
   Status CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target);
-  // Where the layer changes the target: all of it where it was drawn for another pose.
+  // Returns the pixels of the target that the layer changes: all if it was drawn for another pose.
   PixelBounds ChangedBy(const RenderScene& scene, const RenderTarget& target) const;
-  // Of the program in use.
+  // Sets the layer's textures and uniforms in composite, which must be the program in use.
   void SetLayer(const ShaderProgram& composite,
                 const RenderScene& scene,
                 const RenderTarget& target);
-  // How far away the people in the picture are on average, along the view; of those who
-  // consist of a root joint and others, by the root.
+  // Mean depth of draws along the view, metres, measured at the root joint of each model.
   float PeopleDepth(const PictureView& view) const;
   static Status CheckDriver();
 };

@@ -9,10 +9,12 @@ render::CameraLook LookOf(const light::CameraTraits& traits,
                           const StagedFrame& staged,
                           const geometry::CameraModel& display) {
   const geometry::CameraModel& camera = staged.tracked.camera;
-  const double display_px = display.fx / camera.fx;  // for each pixel of the camera's image
+  // Picture pixels per pixel of the camera's image.
+  const double display_px = display.fx / camera.fx;
   const double measured_px = static_cast<double>(camera.width) / traits.width;
   const double lens = traits.blur_px * measured_px * display_px;
-  // The camera's pixels average over themselves; so do the picture's, as far as they go.
+  // A camera pixel is the average over its area. If it covers several pixels of the picture, this
+  // adds blur.
   const double pixels = std::max(0.0, (display_px * display_px - 1.0) / 12.0);
 
   render::CameraLook look;

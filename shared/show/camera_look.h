@@ -1,6 +1,6 @@
 #pragma once
 
-// How people are to be drawn so that they look as if this camera had taken them.
+// The look that makes people appear as if this camera had recorded them.
 
 #include "shared/geometry/camera_model.h"
 #include "shared/light/camera_traits.h"
@@ -9,8 +9,8 @@
 
 namespace lararium::show {
 
-// display: the pinhole of the picture, at its size. Where that shows the camera's pixels
-// larger or smaller than they are, blur goes with them; noise does by itself.
+// display: the picture's pinhole, at its size. If it scales the camera's pixels, blur scales with
+// them; the renderer scales noise itself.
 render::CameraLook LookOf(const light::CameraTraits& traits,
                           const StagedFrame& staged,
                           const geometry::CameraModel& display);

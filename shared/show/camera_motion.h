@@ -1,6 +1,6 @@
 #pragma once
 
-// How the camera moved from one frame to the next: what its own motion smears.
+// The camera's motion between frames, which causes motion blur.
 
 #include <cstdint>
 #include <optional>
@@ -10,11 +10,11 @@
 namespace lararium::show {
 
 struct CameraMotion {
-  geometry::Rigid3 before_from_stage;  // the camera's pose some frames ago
-  int64_t frames = 1;                  // since
+  geometry::Rigid3 before_from_stage;  // The camera's pose `frames` frames ago.
+  int64_t frames = 1;                  // Frames since that pose.
 };
 
-// Where the camera will be so many frames later if it goes on like this.
+// Extrapolates the camera's pose by a number of frames at constant velocity.
 geometry::Rigid3 Predict(const CameraMotion& motion,
                          const geometry::Rigid3& camera_from_stage,
                          double frames);
@@ -22,18 +22,17 @@ geometry::Rigid3 Predict(const CameraMotion& motion,
 // Follows the poses of successive frames at one place.
 class CameraMotionTracker {
  public:
-  // What lies further back says nothing about now.
+  // Older poses do not tell the present motion.
   static constexpr int64_t kLongest = 4;  // frames
-  // No head goes faster from one frame to the next: it was found elsewhere, as where a
-  // recording begins again.
+  // Faster motion is not a head's: the pose jumped, for example because a recording started again.
   static constexpr double kFarthest = 0.25;  // metres a frame
   static constexpr double kWidest = 0.44;    // radians a frame
 
-  // The motion up to this frame; none where no frame shortly before had a pose, none over
-  // a leap. The same frame once more has the same motion, whatever its pose is now.
+  // The motion up to this frame; nullopt if no recent frame had a pose, or after a jump. Another
+  // call for the same frame returns the same motion, even for another pose.
   std::optional<CameraMotion> Update(int64_t frame, const geometry::Rigid3& camera_from_stage);
 
-  // After a gap without poses, at another place.
+  // Call after a gap without poses, or at another place.
   void Reset() { now_.reset(); }
 
  private:

@@ -23,11 +23,11 @@ constexpr std::array<Look, stage::kCertaintyCount> kLooks = {{
     {Certainty::kUnsaid, {0.6f, 0.6f, 0.6f}, 0},
 }};
 constexpr float kShare = 0.85f;
-constexpr float kStripeShare = 1.0f / 40.0f;  // of the height
+constexpr float kStripeShare = 1.0f / 40.0f;  // Stripe width as a share of the picture's height.
 
 struct Words {
   std::string_view language;
-  std::array<std::string_view, stage::kCertaintyCount> words;  // by Certainty
+  std::array<std::string_view, stage::kCertaintyCount> words;  // Indexed by Certainty.
 };
 constexpr std::array<Words, 6> kWords = {{
     {"en", {"not documented", "attested", "inferred", "imagined"}},
@@ -38,13 +38,14 @@ constexpr std::array<Words, 6> kWords = {{
     {"es", {"sin documentar", "atestiguado", "deducido", "imaginado"}},
 }};
 
-// Somebody is looked at who is within so many radians of the middle; somebody else once they
-// are nearer to it by so much. What is nearer hides what is behind it: a metre counts as much
-// as so many radians.
+// A person or object is looked at if it is within kNearMiddle radians of the view's middle. Another
+// one replaces it once it is nearer by kStays radians. To prefer what is in front, a metre of
+// distance counts as kRadiansPerMetre.
 constexpr double kNearMiddle = 0.2;
 constexpr double kStays = 0.04;
 constexpr double kRadiansPerMetre = 0.03;
-constexpr std::array<float, 4> kHeights = {0.4f, 0.8f, 1.2f, 1.6f};  // of a person, metres
+// Heights of test points on a person, metres.
+constexpr std::array<float, 4> kHeights = {0.4f, 0.8f, 1.2f, 1.6f};
 
 float LinearFromSrgb(float c) {
   return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
@@ -64,12 +65,12 @@ render::SceneMark MarkOf(Certainty certainty, int height) {
           kStripeShare * static_cast<float>(height)};
 }
 
-// Lighter than on the stage, so that it is read on the dark ground.
+// Lighter than on stage, so that it is legible on the dark background.
 glm::vec3 TitleColour(Certainty certainty) {
   return glm::vec3(0.45f) + 0.55f * LookOf(certainty).colour;
 }
 
-// How far a point is from being looked at, the least first; none: it is not.
+// Distance of a point from the view's middle, as a sortable value; nullopt: too far away.
 std::optional<double> AwayFromLook(const geometry::Rigid3& camera_from_stage,
                                    const glm::vec3& point) {
   const Eigen::Vector3d at = camera_from_stage * Eigen::Vector3d(point.x, point.y, point.z);

@@ -99,7 +99,7 @@ RealtimePipeline::~RealtimePipeline() { Stop(); }
 
 void RealtimePipeline::Stop() {
   if (!capture_thread_.joinable()) {
-    return;  // it was stopped before
+    return;  // Already stopped.
   }
   for (std::jthread* thread : {&capture_thread_, &track_thread_, &simulate_thread_}) {
     thread->request_stop();
@@ -131,7 +131,7 @@ std::unique_ptr<StagedFrame> RealtimePipeline::Take(std::chrono::milliseconds ti
 }
 
 void RealtimePipeline::Recycle(std::unique_ptr<StagedFrame> staged) {
-  staged->tracked.frame = {};  // its image serves again at once
+  staged->tracked.frame = {};  // Release the image's buffer for reuse.
   const std::lock_guard lock(spare_mutex_);
   spare_.push_back(std::move(staged));
 }

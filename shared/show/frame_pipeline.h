@@ -1,8 +1,8 @@
 #pragma once
 
-// The way of a frame from its source to whoever draws it, in two paces: lock-step
-// (every frame once, in order: deterministic) and a pipeline of threads with
-// mailboxes in between (real time: a slow stage drops frames, it never queues).
+// Moves frames from their source to the caller that draws them, in one of two ways: in lock step
+// (every frame once, in order: deterministic), or through a pipeline of threads with mailboxes in
+// between (real time: a slow stage drops frames and never queues them).
 
 #include <array>
 #include <atomic>
@@ -22,7 +22,7 @@
 
 namespace lararium::show {
 
-// What the frames pass through. Borrowed; each is used by one thread at a time.
+// The stages that frames pass through. Borrowed; each is used by one thread at a time.
 struct FrameStages {
   capture::FrameSource& source;
   vision::PoseSource& poses;
@@ -30,7 +30,7 @@ struct FrameStages {
   ShowStatistics& statistics;
 };
 
-// The drama's time of a frame is its capture time since the first frame's.
+// Maps a frame's capture time to show time: seconds since the first frame.
 class FrameClock {
  public:
   double ShowTime(const geometry::Frame& frame) {
@@ -44,21 +44,22 @@ class FrameClock {
   std::optional<double> first_;
 };
 
-// Each call takes one frame through all stages. While the caller draws it the next one is prepared:
-// what is done to the show in between may be seen a frame later.
+// Takes one frame through all stages in each call. While the caller draws it, the next one is
+// prepared. Therefore changes to the show between two calls may take effect one frame later.
 class LockStep {
  public:
   explicit LockStep(FrameStages stages);
-  // Waits for the frame under way; what stages names is the caller's again.
+  // Waits for the frame in progress. Afterwards the caller may use the stages again.
   ~LockStep();
   LockStep(const LockStep&) = delete;
   LockStep& operator=(const LockStep&) = delete;
 
-  // False at the end of the source, and from then on; so does a failure of it stay.
+  // Returns false at the end of the source. The end, or an error of the source, is returned by all
+  // later calls too.
   Result<bool> Next(StagedFrame& staged);
 
  private:
-  // Fills a frame, whose buffers serve again.
+  // Fills a frame and reuses its buffers.
   Result<bool> Prepare(StagedFrame& staged);
 
   struct Prepared {
@@ -68,14 +69,14 @@ class LockStep {
 
   FrameStages stages_;
   FrameClock clock_;
-  Mailbox<StagedFrame> wanted_;  // to be filled
+  Mailbox<StagedFrame> wanted_;  // Frames to be filled.
   Mailbox<Prepared> prepared_;
   Result<bool> more_ = true;
   std::jthread thread_;
 };
 
-// Capture, tracking and simulation on a thread each; the caller draws. Recorded
-// sources are played at their own rate.
+// Runs capture, tracking and simulation on one thread each; the caller draws. Recorded sources are
+// played at their own frame rate.
 class RealtimePipeline {
  public:
   explicit RealtimePipeline(FrameStages stages);
@@ -84,20 +85,20 @@ class RealtimePipeline {
   RealtimePipeline(const RealtimePipeline&) = delete;
   RealtimePipeline& operator=(const RealtimePipeline&) = delete;
 
-  // The newest frame that is ready to be drawn; nullptr when none came in time.
+  // Returns the newest frame that is ready to be drawn, or nullptr if none came in time.
   std::unique_ptr<StagedFrame> Take(std::chrono::milliseconds timeout);
-  // Gives a drawn frame back, so that its buffers serve again.
+  // Returns a drawn frame, so that its buffers can be reused.
   void Recycle(std::unique_ptr<StagedFrame> staged);
 
-  // True when the source has ended and its last frame was taken.
+  // True if the source has ended and its last frame was taken.
   bool Finished() const { return staged_.Finished(); }
-  // Why the source ended, if it failed.
+  // The error with which the source ended, if any.
   Status status() const;
-  // Seconds for which one frame has been tracked, or one staged, by now, the longer of both; 0:
-  // neither is. A source that waits for its camera is no work. From any thread.
+  // Seconds since the frame now in tracking or staging entered that stage, the longer of both; 0:
+  // both are idle. Waiting for the camera does not count. From any thread.
   double LongestWork() const;
 
-  // Stops early. Statistics are complete after this.
+  // Stops before the source ends. Statistics are complete afterwards.
   void Stop();
 
  private:
@@ -112,13 +113,13 @@ class RealtimePipeline {
   };
 
   enum Worker : size_t { kTracks, kStages, kWorkers };
-  // Marks work while it lives.
+  // Marks a worker as busy during the object's lifetime.
   class Work;
 
   void Capture(const std::stop_token& stop);
   void Track(const std::stop_token& stop);
   void Simulate(const std::stop_token& stop);
-  // One that serves again, or another.
+  // Returns a recycled frame, or a new one.
   std::unique_ptr<StagedFrame> SpareFrame();
 
   FrameStages stages_;
@@ -126,10 +127,11 @@ class RealtimePipeline {
   Mailbox<LocatedFrame> located_;
   Mailbox<std::unique_ptr<StagedFrame>> staged_;
   std::mutex spare_mutex_;
-  std::vector<std::unique_ptr<StagedFrame>> spare_;  // drawn, or skipped for newer ones
+  // Frames that were drawn, or skipped for newer ones.
+  std::vector<std::unique_ptr<StagedFrame>> spare_;
   mutable std::mutex status_mutex_;
   Status status_;
-  // When the work under way began, ticks of the steady clock; 0: there is none.
+  // Start of each worker's current frame, in ticks of the steady clock; 0: idle.
   std::array<std::atomic<int64_t>, kWorkers> work_since_ = {};
   std::jthread capture_thread_;
   std::jthread track_thread_;

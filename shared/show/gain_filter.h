@@ -1,36 +1,35 @@
 #pragma once
 
-// Steadies the camera gain of successive frames, so that noise in the estimate
-// does not make people flicker, and does not lag behind a camera that hunts for its exposure.
+// Smooths the camera gain of successive frames, so that noise in the estimate does not make people
+// flicker, without lag when the camera adapts its exposure.
 
 #include <array>
 #include <optional>
 
 namespace lararium::show {
 
-// The straight line through log(gain) over time, channel by channel, by least squares whose
-// weights fade by exp(-age / kMemory), read at its newest end: the critically damped g-h
-// filter (Brookner, "Tracking and Kalman Filtering Made Easy", 1998, section 1.2.6). A gain
-// that changes at an even rate is followed without lag; what is left of a step decays within
-// some kMemory, with a tenth of it beyond. Each gain is measured by itself against the map, so
-// that nothing adds up.
+// Fits a line to log(gain) over time, for each channel, by least squares with weights exp(-age /
+// kMemory), and evaluates it at the newest time: the critically damped g-h filter (Brookner,
+// "Tracking and Kalman Filtering Made Easy", 1998, section 1.2.6). It follows a constant rate
+// without lag; the error after a step decays within a few kMemory, with an overshoot of a tenth.
+// Each gain is measured against the map, so errors do not accumulate.
 class GainFilter {
  public:
   static constexpr double kMemory = 0.06;  // seconds
-  // Larger differences are no noise and no drift: taken at once. Of natural logarithms.
+  // Larger differences in log gain are neither noise nor drift and are taken at once.
   static constexpr double kJump = 0.35;
 
-  // gain: linear R, G, B, positive; time: of the frame, seconds. Time that goes back
-  // begins anew, the same time changes nothing.
+  // gain: linear R, G, B, positive. time: of the frame, seconds. A step back restarts the filter;
+  // an equal time does not change it.
   std::array<float, 3> Update(const std::array<float, 3>& gain, double time);
 
-  // The next gain is taken as it is: after a gap without poses, or at another place.
+  // Takes the next gain unfiltered. Call after a gap without poses, or at another place.
   void Reset() { time_.reset(); }
 
  private:
   struct Line {
-    double at = 0.0;    // the newest time
-    double rate = 0.0;  // for each second
+    double at = 0.0;    // Value at the newest time.
+    double rate = 0.0;  // Slope per second.
   };
   std::optional<double> time_;
   std::array<Line, 3> log_gain_ = {};

@@ -1,27 +1,27 @@
 #pragma once
 
-// What a visitor who has lost the place, or whose visit is over, is told, in the languages that
-// the program knows. An author says it better, by the lines "guide_PLACE", "guide" or "farewell"
-// of the show.
+// Built-in texts for visitors whose tracking is lost or whose visit is over, in the languages that
+// the program knows. Authors can replace them by the lines "guide_PLACE", "guide" or "farewell" of
+// the show.
 
 #include <string>
 #include <string_view>
 
-#include "shared/render/caption_font.h"
+#include "shared/render/text/caption_font.h"
 
 namespace lararium::show {
 
 struct GuideTexts {
-  std::string look;  // beside a picture of where to look
-  std::string dark;  // the camera sees nothing
+  std::string look;  // Shown beside a picture of where to look.
+  std::string dark;  // Shown if the camera image is too dark.
   std::string farewell;
 };
 
-// English for languages that the program does not know, and where a font lacks letters.
-// language: as "la", "en-GB"; what follows a hyphen does not count.
+// The texts in a language; in English if the program does not know it or the font lacks a glyph.
+// language: for example "la" or "en-GB"; the part after a hyphen is ignored.
 GuideTexts BuiltInGuide(std::string_view language, const render::CaptionFont& font);
 
-// Whether a font has all letters of a text.
+// Whether a font has glyphs for a whole text.
 bool CanWrite(const render::CaptionFont& font, std::string_view text);
 
 }  // namespace lararium::show

@@ -11,8 +11,9 @@
 namespace lararium::show {
 namespace {
 
-constexpr float kStill = 0.02f;   // metres that a lamp may move and keep its walls
-constexpr float kHolder = 0.06f;  // beyond its radius: what is nearer holds the lamp
+constexpr float kStill = 0.02f;  // Metres that a lamp may move and keep its walls.
+// Metres beyond the lamp's radius; occluders nearer than that hold the lamp.
+constexpr float kHolder = 0.06f;
 constexpr float kFar = 50.0f;
 
 Eigen::Vector3f ToEigen(const glm::vec3& v) { return {v.x, v.y, v.z}; }
@@ -49,7 +50,7 @@ void LampShade::SetWalls(std::span<light::Lamp> lamps) {
   }
 }
 
-// An entry that nobody needs, with walls that nobody reads any more.
+// An unused entry whose walls no frame refers to, or a new one.
 LampShade::Known& LampShade::Entry(const glm::vec3& position) {
   auto entry = std::find_if(known_.begin(), known_.end(), [](const Known& known) {
     return !known.used && known.walls.use_count() == 1;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps the light of lamps behind the walls and furniture of the place that they burn at.
+// Confines the light of lamps to the walls and furniture of their place.
 
 #include <glm/vec3.hpp>
 #include <memory>
@@ -18,16 +18,16 @@ class LampShade {
  public:
   explicit LampShade(std::span<const stage::Occluder> occluders);
 
-  // Gives each lamp its walls. Lamps that have not moved keep those that were found for them;
-  // for others about 2000 rays are cast, and memory is allocated while more lamps move than
-  // before. Not for more than light::kMaxLamps.
+  // Gives each lamp its walls. Lamps that have not moved keep the walls found earlier. For each
+  // other lamp about 2000 rays are cast; memory is allocated if more lamps move than before. At
+  // most light::kMaxLamps lamps.
   void SetWalls(std::span<light::Lamp> lamps);
 
  private:
   struct Known {
     glm::vec3 position = glm::vec3(0.0f);
     std::shared_ptr<light::LampWalls> walls;
-    bool used = false;  // in the last call
+    bool used = false;  // True if the last call used this entry.
   };
 
   Known& Entry(const glm::vec3& position);

@@ -9,10 +9,11 @@ namespace lararium::show {
 namespace {
 
 constexpr int kPictureWidth = 480;
-// A keyframe is found well that sees this share of the points of the one that sees most.
+// A keyframe is easy to find if it observes at least this share of the largest number of observed
+// points.
 constexpr double kGoodShare = 0.5;
 
-std::vector<size_t> CountSights(const vision::SceneDatabase& map) {
+std::vector<size_t> CountObservations(const vision::SceneDatabase& map) {
   std::vector<size_t> counts(map.keyframes.size(), 0);
   for (const vision::Observation& observation : map.observations) {
     ++counts[observation.keyframe];
@@ -23,7 +24,7 @@ std::vector<size_t> CountSights(const vision::SceneDatabase& map) {
   return counts;
 }
 
-// The map's own measure of length: how far its points are from its keyframes.
+// The map's unit of length: the median distance of points from keyframes.
 double TypicalDistance(const vision::SceneDatabase& map) {
   std::vector<double> distances;
   const size_t step = std::max<size_t>(1, map.observations.size() / 256);
@@ -44,7 +45,7 @@ double TypicalDistance(const vision::SceneDatabase& map) {
 
 std::optional<size_t> ChooseGuideView(const vision::SceneDatabase& map,
                                       const std::optional<geometry::Rigid3>& last_camera_from_map) {
-  const std::vector<size_t> counts = CountSights(map);
+  const std::vector<size_t> counts = CountObservations(map);
   const auto most = std::max_element(counts.begin(), counts.end());
   if (most == counts.end() || *most == 0) {
     return std::nullopt;

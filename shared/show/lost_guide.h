@@ -1,7 +1,7 @@
 #pragma once
 
-// Which picture a visitor who has lost the place is shown: the keyframe that is nearest to where
-// they were seen last, among those that are found well.
+// Chooses the picture that guides a visitor whose tracking is lost: of the keyframes that are easy
+// to find, the one nearest to the last pose.
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -13,28 +13,28 @@
 
 namespace lararium::show {
 
-// Of a frame.
+// The guide in a frame.
 struct StagedGuide {
   enum class Says {
     kLookThere,
-    kDark,      // the camera sees nothing: a picture would not help
-    kFarewell,  // the visit is over
+    kDark,      // The image is too dark; a picture would not help.
+    kFarewell,  // The visit is over.
   };
 
-  float opacity = 0.0f;  // 0: there is nothing to be drawn
+  float opacity = 0.0f;  // 0: nothing is drawn.
   Says says = Says::kLookThere;
-  cv::Mat picture;              // CV_8UC1, small; empty: the map keeps none
-  uint64_t picture_number = 0;  // another one for another picture
+  cv::Mat picture;              // CV_8UC1, small; empty: the map has no images.
+  uint64_t picture_number = 0;  // Changes with the picture.
 };
 
-// The keyframe to look for; none where the map keeps no images. Without a last pose the one
-// that sees most of the map.
+// Returns the keyframe to show; nullopt if the map has no images. Without a last pose it is the
+// keyframe that observes most points.
 std::optional<size_t> ChooseGuideView(const vision::SceneDatabase& map,
                                       const std::optional<geometry::Rigid3>& last_camera_from_map);
 
 class LostGuide {
  public:
-  // opacity: of the guide in this frame. map: in which the last pose lay; nullptr: there is none.
+  // opacity: of the guide in this frame. map: the map of the last pose; nullptr: none.
   void Update(float opacity,
               const vision::TrackedFrame& tracked,
               const vision::SceneDatabase* map,

@@ -19,40 +19,40 @@ namespace {
 
 using human::LightTransfer;
 
-// As many coefficients of visibility as its table has, and transfer wants.
+// Number of visibility coefficients: limited by both its table and the transfer.
 int VisibilityCount(const LightTransfer& transfer) { return std::min(transfer.count, 25); }
 
-// What went away since the key poses can brighten only what transfer has not put out:
-// half of it was measured to come nearest to path-traced poses.
+// Blockers that have moved away since the key poses can brighten only light that the transfer has
+// not removed. Half of it came nearest to path-traced poses in measurements.
 constexpr float kBrightening = 0.5f;
 
-// A lamp that gives a facing surface less than this is passed over: what shows on white
-// skin as less than a step of eight bits.
+// Lamps with a lower irradiance on a facing surface are skipped: less than one 8-bit step on white
+// skin.
 constexpr float kLeastLampIrradiance = 0.01f;
-// All of somebody lies so near to the point as far above their feet, metres.
+// A sphere of this radius, centred this far above the feet, encloses a person; metres.
 constexpr float kBodyReach = 1.0f;
 
-// Blockers that one ball may stand for, and the sine of the angle from its middle to its rim
-// up to which it does.
+// Mean number of blockers in a group that one sphere may replace, and the largest sine of the angle
+// between its centre and its rim at which it does.
 constexpr size_t kBlockersOfGroup = 6;
 constexpr float kSmall = 0.3f;
 
-// Further than this nothing moves from one frame to the next but by a leap, metres; and no light
-// changes by such a share.
+// A larger motion between frames (metres), or a larger relative change of light, is a jump.
 constexpr float kLeap = 0.2f;
 constexpr float kRelit = 0.02f;
-// Things have no more receivers; they are lit only when something has changed.
+// Objects have at most this many receivers; they are lit only after a change, and then completely.
 constexpr size_t kFew = 64;
-// In so many frames all receivers have looked anew.
+// Number of frames in which all receivers are updated.
 constexpr size_t kParts = 3;
-// Every other block of so many vertices takes up their light in a frame.
+// Vertices are updated in blocks of this size, every other block in a frame.
 constexpr size_t kBlock = 64;
-// Of a receiver's light: in this frame, and in the one before, when half of the vertices waited.
+// A receiver's light changed in this frame, or in the previous one, when half of the vertices
+// waited.
 constexpr uint8_t kChangedNow = 1;
 constexpr uint8_t kChangedBefore = 2;
 
-// One part in so many of a receiver's light is a step of eight bits; key poses differ by a third
-// of that light at most.
+// A change by this part of a receiver's light is one 8-bit step. Key poses change that light by a
+// third at most.
 constexpr int kSeenParts = 128;
 constexpr float kSeenWeight = 1.0f / 48.0f;
 
@@ -78,7 +78,7 @@ light::ShRowsRgb RowsRgb(int count, size_t slots) {
 
 glm::quat RotationOf(const glm::mat4& matrix) { return human::ToDualQuaternion(matrix).real; }
 
-// Of one mesh.
+// The transfer vectors of one mesh.
 light::Transfer Unpack(const LightTransfer& transfer,
                        std::vector<float> scale,
                        std::vector<int8_t> coefficients,
@@ -164,8 +164,8 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human,
   FindKeyLogs();
 }
 
-void PersonLight::SetFigure(std::shared_ptr<const human::Human> human,
-                            std::shared_ptr<const UnpackedLight> light) {
+void PersonLight::SetMesh(std::shared_ptr<const human::Human> human,
+                          std::shared_ptr<const UnpackedLight> light) {
   human_ = std::move(human);
   transfers_ = std::move(light);
   CHECK(transfers_->size() == human_->light.meshes.size());
@@ -257,7 +257,7 @@ void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_f
   MergeGroups();
 }
 
-// Joins the two nearest groups until few are left.
+// Joins the two nearest groups until few enough are left.
 void PersonLight::GroupBlockers() {
   const std::vector<LightTransfer::Blocker>& blockers = human_->light.blockers;
   std::vector<std::vector<uint32_t>> groups;
@@ -272,7 +272,7 @@ void PersonLight::GroupBlockers() {
     float least = std::numeric_limits<float>::max();
     for (size_t i = 0; i < groups.size(); ++i) {
       for (size_t k = i + 1; k < groups.size(); ++k) {
-        // Small groups first, so that none grows long.
+        // Join small groups first, so that no group grows long.
         const float distance = glm::distance(centres[i], centres[k]) *
                                static_cast<float>(groups[i].size() + groups[k].size());
         if (distance < least) {
@@ -295,7 +295,8 @@ void PersonLight::GroupBlockers() {
   }
 }
 
-// From afar shares of the sky add up: those of balls grow with the square of the radius.
+// From a distance, covered shares of the sky add up; a sphere's share grows with the square of its
+// radius.
 void PersonLight::MergeGroups() {
   low_ = glm::vec3(std::numeric_limits<float>::max());
   high_ = -low_;
@@ -447,7 +448,7 @@ void PersonLight::LightVertices(float detail, std::span<glm::vec3> irradiance) {
     const size_t wanted = render::LevelAllowed(mesh.levels, detail).vertices;
     light::LightVerticesJob job{&(*transfers_)[i], mesh.receivers, &used_light_, used_weights_,
                                 mesh.irradiance};
-    // What a coarser level left out is lit by what is used now.
+    // Vertices that a coarser level left out are lit completely.
     job.Run(std::min(mesh.lit, wanted), wanted);
     job.changed = changed_;
     LightBlocks(job, std::min(mesh.lit, wanted));

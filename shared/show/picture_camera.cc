@@ -6,7 +6,7 @@
 namespace lararium::show {
 namespace {
 
-// What is left of a picture from a point of it on, pixels.
+// Crops a picture to width x height from its pixel (left, top) on.
 void Cut(geometry::CameraModel& display, double left, double top, int width, int height) {
   display.cx -= left;
   display.cy -= top;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What of the camera's view a picture shows, and how an eye beside the camera sees it.
+// The part of the camera's view that a picture shows, and the view of an eye beside the camera.
 
 #include <Eigen/Geometry>
 #include <limits>
@@ -10,22 +10,22 @@
 
 namespace lararium::show {
 
-// Of the camera's plane z = 1; empty: all of it.
+// A rectangle on the camera's plane z = 1; empty: the whole view.
 using ViewPart = Eigen::AlignedBox2d;
 
-// The display's pinhole of a camera (CameraModel::DisplayPinhole) without what lies outside part;
-// whole where the camera sees nothing of part.
+// A camera's display pinhole (CameraModel::DisplayPinhole), cropped to `part`; not cropped if the
+// camera sees nothing of it.
 geometry::CameraModel PartOfView(const geometry::CameraModel& camera, const ViewPart& part);
 
-// The same, cut to the proportions of width x height about its middle: nothing is stretched, and
-// no border stays empty.
+// The same, cropped around its middle to the aspect ratio width : height, so that nothing is
+// stretched and no border is empty.
 geometry::CameraModel PictureCamera(const geometry::CameraModel& camera,
                                     int width,
                                     int height,
                                     const ViewPart& part = {});
 
-// An eye that looks the way the camera does. It sees the camera's image as a plane across its
-// view, so far from the camera, and people through it as through a window.
+// An eye that looks in the camera's direction. It sees the camera's image as a plane at
+// picture_distance from the camera, and people through it as through a window.
 struct PictureEye {
   Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();                // metres
   double picture_distance = std::numeric_limits<double>::infinity();  // metres
@@ -35,15 +35,15 @@ struct PictureEye {
   }
 };
 
-// An eye that looks anywhere at what is real, past the camera and its image.
+// An eye with a free pose that sees the real surroundings directly, not the camera's image.
 struct FreeEye {
-  geometry::CameraModel camera;  // a pinhole
+  geometry::CameraModel camera;  // A pinhole.
   geometry::Rigid3 eye_from_stage;
-  float opacity = 1.0f;  // of people and things: 0, nobody is there
+  float opacity = 1.0f;  // Opacity of people and objects.
 };
 
-// For points before the eye, in its axes, the pixel of a picture that shows the camera's view:
-// what is as far away as the picture falls where the camera saw it.
+// Projects points in the eye's axes to pixels of a picture of the camera's view. Points at the
+// picture's distance fall on the pixels where the camera saw them.
 geometry::CameraModel ForEye(const geometry::CameraModel& picture, const PictureEye& eye);
 
 }  // namespace lararium::show

@@ -9,9 +9,9 @@
 namespace lararium::show {
 namespace {
 
-constexpr float kFilled = 0.6f;      // of a box's volume: between a ball's and a box's own
-constexpr float kLeastSize = 0.01f;  // metres: thinner things shade like this
-constexpr int kMostPieces = 4;       // along an axis
+constexpr float kFilled = 0.6f;      // Filled share of a box, between a sphere's and the whole box.
+constexpr float kLeastSize = 0.01f;  // Metres; thinner objects are treated as this thick.
+constexpr int kMostPieces = 4;       // Pieces along one axis.
 
 struct Box {
   glm::vec3 low = glm::vec3(std::numeric_limits<float>::max());
@@ -29,8 +29,8 @@ Box BoxOf(const stage::PropPart& part) {
   return box;
 }
 
-// Of the middle one of the three sizes: flat things are cut into squares, long ones into
-// cubes.
+// Chooses the piece's size by the middle one of the three extents, so that flat objects are cut
+// into squares and long ones into cubes.
 glm::ivec3 CountPieces(const glm::vec3& size) {
   const float middle = size.x + size.y + size.z - std::max({size.x, size.y, size.z}) -
                        std::min({size.x, size.y, size.z});

@@ -1,6 +1,6 @@
 #pragma once
 
-// Balls that stand for a thing where it keeps light off people and real surfaces.
+// Spheres that represent an object where it blocks light from people and real surfaces.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -11,13 +11,13 @@
 namespace lararium::show {
 
 struct PropBlocker {
-  uint32_t part = 0;                   // index into Prop::parts
-  glm::vec3 centre = glm::vec3(0.0f);  // part frame, metres
+  uint32_t part = 0;                   // Index into Prop::parts.
+  glm::vec3 centre = glm::vec3(0.0f);  // Part frame, metres.
   float radius = 0.0f;
 };
 
-// For each part with meshes its box, cut into pieces about as long as they are wide, and
-// a ball of as much of each piece's volume as things tend to fill.
+// For each part with meshes, cuts its bounding box into roughly cubic pieces and puts a sphere into
+// each piece, with the share of its volume that objects typically fill.
 std::vector<PropBlocker> FindBlockers(const stage::Prop& prop);
 
 }  // namespace lararium::show

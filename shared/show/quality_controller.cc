@@ -10,18 +10,18 @@ namespace lararium::show {
 namespace {
 
 constexpr size_t kKeptSteps = 256;
-// Of the time between two images of the camera: what the slowest stage may take.
+// Share of the time between two camera images that the slowest stage may take.
 constexpr double kBudgetShare = 0.95;
-// Share of what the finer one costs, until it has been measured.
+// Assumed cost relative to the next finer level, until measured.
 constexpr double kCostOfLevel = 0.6;
-constexpr double kNewest = 0.15;  // weight of a frame in the mean
-// A step up that is taken back within this many seconds was in vain.
+constexpr double kNewest = 0.15;  // Weight of a frame in the mean.
+// A step up that is reversed within this many seconds has failed.
 constexpr double kInVainSeconds = 10.0;
-// After a step has settled, until its cost is known.
+// Time after settling until a level's cost is known.
 constexpr double kLearningSeconds = 0.5;
-// There was no time to spare in a pause.
+// A gap between frames of this length ends a period of headroom.
 constexpr double kPauseSeconds = 0.5;
-// What cooled or was charged by less changes nothing.
+// Smaller falls of temperature or rises of charge are ignored.
 constexpr double kCelsiusSlack = 3.0;
 constexpr double kBatterySlack = 0.05;
 
@@ -74,12 +74,12 @@ QualityController::QualityController(QualityOptions options, size_t level)
   steps_.reserve(kKeptSteps);
 }
 
-// In proportion: scenes change, and all levels with them.
+// Scales by relative costs: when the scene changes, the costs of all levels change in proportion.
 double QualityController::ExpectedAt(size_t level) const {
   return smoothed_ms_.value_or(0.0) * cost_[level] / cost_[level_];
 }
 
-// What two levels beside each other cost is known when one was drawn right after the other.
+// Learns the cost ratio of two adjacent levels when one was drawn right after the other.
 void QualityController::Learn(double time) {
   if (!left_ || time < settled_at_ + kLearningSeconds) {
     return;
@@ -128,7 +128,7 @@ bool QualityController::AddFrame(double time, double work_ms) {
   smoothed_ms_ = smoothed_ms_ ? *smoothed_ms_ + kNewest * (work_ms - *smoothed_ms_) : work_ms;
   Learn(time);
   if (stepped_up_at_ && time - *stepped_up_at_ > kInVainSeconds) {
-    patience_ = std::min(patience_, options_.patience_seconds);  // it held
+    patience_ = std::min(patience_, options_.patience_seconds);  // The step up succeeded.
     stepped_up_at_.reset();
   }
   if (*smoothed_ms_ > options_.budget_ms) {
@@ -142,7 +142,7 @@ bool QualityController::AddFrame(double time, double work_ms) {
       stepped_up_at_.reset();
     }
     patience_ = std::max(patience_, options_.patience_seconds);
-    // As far down as is needed, at once.
+    // Step down as far as needed at once.
     size_t level = level_ + 1;
     while (level + 1 < level_count() && ExpectedAt(level) > options_.budget_ms) {
       ++level;
@@ -166,7 +166,7 @@ bool QualityController::SetPower(double time, const PowerState& power) {
   const auto changed = [](std::optional<double> before, std::optional<double> now, double slack) {
     return before.has_value() != now.has_value() || (now && std::abs(*now - *before) >= slack);
   };
-  // Small changes downwards do not count: nothing swings about a bound.
+  // Ignore small changes for the better, so that quality does not oscillate around a limit.
   if (changed(power_.celsius, power.celsius, kCelsiusSlack) ||
       power.celsius.value_or(0.0) > power_.celsius.value_or(0.0)) {
     power_.celsius = power.celsius;
@@ -188,7 +188,7 @@ bool QualityController::SetPower(double time, const PowerState& power) {
     return StepTo(time, least_,
                   by_heat >= by_battery ? QualityReason::kHot : QualityReason::kBattery);
   }
-  // What was held down by heat or battery comes back as frames allow it.
+  // A level that heat or battery excluded returns when frame times allow it.
   if (least_ < before) {
     fits_since_.reset();
     patience_ = options_.patience_seconds;

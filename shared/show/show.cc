@@ -14,13 +14,13 @@ namespace lararium::show {
 namespace {
 
 constexpr double kTicksPerSecond = drama::Drama::kTicksPerSecond;
-// Further ahead than this, seeking is cheaper than playing through.
+// Beyond this distance, seeking is cheaper than playing.
 constexpr double kSeekAheadSeconds = 2.0;
-// Of whoever is on stage, metres: roughly what is seen of a person, and how far hands,
-// clothes and what they hold may be from the middle of the body.
+// Height of a person, and distance from the middle of the body up to which hands, clothes and held
+// objects may reach; metres. The same for every person, children included.
 constexpr float kPersonHeight = 1.7f;
 constexpr float kPersonReach = 1.6f;
-// Before the camera, metres: where real surfaces are that people cast their shadows on.
+// Assumed distance, in metres, from the camera to the real surfaces that receive people's shadows.
 constexpr float kViewedDistance = 3.0f;
 
 }  // namespace
@@ -31,9 +31,9 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
   CHECK(!content.places.empty());
   std::unique_ptr<Show> show(new Show(std::move(content)));
   LARARIUM_RETURN_IF_ERROR(show->FillStage());
-  show->finer_.emplace(show->content_.finer, show->content_.cast, log);
+  show->lod_streamer_.emplace(show->content_.finer, show->content_.cast, log);
   LARARIUM_ASSIGN_OR_RETURN(show->sound_, SoundDirector::Create(show->content_, log));
-  show->DropSounds();
+  show->ReleaseSoundData();
   LARARIUM_RETURN_IF_ERROR(show->sound_->Teach(show->stage_.sounds()));
   if (const Status status = show->PrepareFloor(); !status.ok()) {
     log.warn("{}", status.message());
@@ -76,7 +76,7 @@ Status Show::FillStage() {
   }
   light_.emplace(cast, light);
   for (const std::shared_ptr<human::Human>& figure : figures) {
-    figure->meshes = {};  // PersonLight has what it needs of them
+    figure->meshes = {};  // PersonLight keeps the data that it needs from them.
     figure->light.meshes = {};
   }
   for (const ShowPlace& place : content_.places) {
@@ -88,8 +88,8 @@ Status Show::FillStage() {
   return Status();
 }
 
-// The library has what of them is heard.
-void Show::DropSounds() {
+// Sounds are decoded into the library; the originals can be released.
+void Show::ReleaseSoundData() {
   for (Speech& line : content_.speech) {
     Release(line.sound);
   }
@@ -98,7 +98,7 @@ void Show::DropSounds() {
   }
 }
 
-// The show goes on where nobody can walk, but for the walks.
+// On an error actors cannot walk, but the rest of the show works.
 Status Show::PrepareFloor() {
   std::vector<stage::Place> places = content_.elsewhere;
   for (const ShowPlace& place : content_.places) {
@@ -119,7 +119,7 @@ void Show::AdvanceTo(double time) {
   const bool behind = wanted < tick_;
   const bool far_ahead = static_cast<double>(wanted - tick_) > kSeekAheadSeconds * kTicksPerSecond;
   if (behind || far_ahead) {
-    // Stop one tick early, so that both snapshots are of this time.
+    // Stop one tick early, so that both snapshots lie around this time.
     const int64_t before = std::max<int64_t>(wanted - 1, 0);
     if (drama_->Seek(static_cast<double>(before) / kTicksPerSecond).ok()) {
       tick_ = before;
@@ -149,7 +149,8 @@ void Show::PlaceObject(size_t index, const stage::Pose& stage_from_object) {
   previous_ = current_;
 }
 
-// The object is there at once where nobody has moved it since, with what stands on it.
+// Moves the object to its initial pose, with the objects that stand on it, unless something has
+// moved it since the beginning.
 void Show::PlaceAtBeginning(size_t index) {
   stage::Object& object = *stage_.Find(object_ids_[index]);
   const stage::Pose& now = object.state.stage_from_object;
@@ -176,7 +177,7 @@ Status Show::LayFloor() {
   if (!std::exchange(floor_changed_, false)) {
     return Status();
   }
-  for (size_t i = 0; i < object_ids_.size(); ++i) {  // seeking has brought back what was kept
+  for (size_t i = 0; i < object_ids_.size(); ++i) {  // Seeking restored the old initial poses.
     PlaceAtBeginning(i);
   }
   Status status = PrepareFloor();
@@ -185,14 +186,14 @@ Status Show::LayFloor() {
   return status.ok() ? played : status;
 }
 
-// The stage at the drama's time.
+// Captures the stage at the drama's time.
 void Show::ShowTick() {
   tick_ = std::llround(drama_->time() * kTicksPerSecond);
   stage_.Capture(current_);
   previous_ = current_;
 }
 
-void Show::TellOfVisitor(const std::optional<geometry::Rigid3>& camera_from_stage) {
+void Show::UpdateVisitor(const std::optional<geometry::Rigid3>& camera_from_stage) {
   drama::Visitor visitor;
   {
     const std::lock_guard lock(input_mutex_);
@@ -214,15 +215,15 @@ double Show::DramaTime(double time) {
   const double passed = time - last_time_;
   last_time_ = time;
   if (passed < 0.0) {
-    held_seconds_ = 0.0;  // somebody goes back
+    held_seconds_ = 0.0;  // Time was set back.
   } else if (drama_->holds()) {
     held_seconds_ += passed;
   }
   return std::clamp(time - start_ - held_seconds_, 0.0, drama::Drama::kMaxTime);
 }
 
-Status Show::GoOnFrom(const Show& before) {
-  sound_->GoOnFrom(*before.sound_);
+Status Show::ResumeFrom(const Show& before) {
+  sound_->ResumeFrom(*before.sound_);
   const double time = before.drama_->time();
   drama_->SetPastVisitor(before.drama_->visitor_log(), time);
   return PrepareAt(time);
@@ -266,8 +267,8 @@ void Show::TakeRestart(double time) {
 void Show::ResetPose() {
   gain_filter_.Reset();
   camera_motion_.Reset();
-  if (ladder_) {
-    ladder_->Reset();
+  if (fader_) {
+    fader_->Reset();
   }
 }
 
@@ -288,16 +289,17 @@ void Show::PressKey(std::string_view key) {
   drama::AddKey(key, keys_);
 }
 
-LostLadder::View Show::Climb(const vision::TrackedFrame& tracked,
-                             const std::optional<geometry::Rigid3>& camera_from_stage,
-                             uint32_t place) {
-  if (ladder_) {
-    ladder_->SetGlides(!reduced_motion_);
-    return ladder_->Update(tracked.frame.capture_time, camera_from_stage, place, tracked.camera,
-                           tracked.reason == vision::TrackReason::kTooDark);
+TrackingLossFader::View Show::Update(const vision::TrackedFrame& tracked,
+                                     const std::optional<geometry::Rigid3>& camera_from_stage,
+                                     uint32_t place) {
+  if (fader_) {
+    fader_->SetGlides(!reduced_motion_);
+    return fader_->Update(tracked.frame.capture_time, camera_from_stage, place, tracked.camera,
+                          tracked.reason == vision::TrackReason::kTooDark);
   }
-  LostLadder::View view;
-  view.rung = camera_from_stage ? LostLadder::Rung::kShown : LostLadder::Rung::kGone;
+  TrackingLossFader::View view;
+  view.rung =
+      camera_from_stage ? TrackingLossFader::State::kShown : TrackingLossFader::State::kGone;
   view.camera_from_stage = camera_from_stage;
   view.place = place;
   view.opacity = 1.0f;
@@ -312,7 +314,7 @@ void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
     place = tracked.map;
     located = stage::CameraFromStage(content_.places[place].stage, *tracked.camera_from_map);
   }
-  const LostLadder::View view = Climb(tracked, located, place);
+  const TrackingLossFader::View view = Update(tracked, located, place);
   if (view.place != place_) {
     gain_filter_.Reset();
     camera_motion_.Reset();
@@ -333,13 +335,13 @@ void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
   }
   staged.gain = gain_;
   guide_.Update(view.guide, tracked, content_.places[place].map.get(), staged.guide);
-  TellOfVisitor(located);
+  UpdateVisitor(located);
   staged.tracked = std::move(tracked);
 }
 
 void Show::ChooseDetails(const StagedFrame& staged) {
   if (!staged.camera_from_stage) {
-    return;  // nothing is drawn: as it was
+    return;  // Nothing is drawn; keep the previous choice.
   }
   const geometry::CameraModel& camera = staged.tracked.camera;
   geometry::CameraModel display = camera.DisplayPinhole();
@@ -351,7 +353,7 @@ void Show::ChooseDetails(const StagedFrame& staged) {
     requests_[cast].levels = levels_[cast];
     requests_[cast].pixels_per_metre = 0.0f;
   }
-  // Who may be drawn more roughly is simulated as if seen from further away.
+  // With a larger drawing tolerance, people are simulated as if seen from further away.
   render::DetailOptions options;
   {
     const std::lock_guard lock(input_mutex_);
@@ -371,31 +373,31 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   detail_chooser_.Choose(requests_);
   for (size_t cast = 0; cast < requests_.size(); ++cast) {
     if (requests_[cast].pixels_per_metre > 0.0f) {
-      finer_->Want(cast, requests_[cast].detail);
+      lod_streamer_->Want(cast, requests_[cast].detail);
     }
   }
 }
 
-void Show::TakeFiner() {
-  std::optional<FinerCast::Person> person = finer_->Take();
+void Show::SwapFinishedLods() {
+  std::optional<LodStreamer::Person> person = lod_streamer_->Take();
   if (!person) {
     return;
   }
   const auto cast = static_cast<uint32_t>(person->cast);
   const std::shared_ptr<const human::Human>& human = person->figure.human;
   levels_[cast] = render::FindDetailLevels(*human);
-  light_->SetFigure(cast, human, std::move(person->light));
-  content_.cast[cast].light = nullptr;  // nobody is lit by it any more
+  light_->SetMesh(cast, human, std::move(person->light));
+  content_.cast[cast].light = nullptr;  // The old level is no longer lit.
   if (!other_bodies_.empty()) {
-    other_bodies_[cast].SetFigure(Figure(human));
+    other_bodies_[cast].SetMesh(CharacterMesh(human));
   }
-  bodies_[cast].SetFigure(std::move(person->figure));
+  bodies_[cast].SetMesh(std::move(person->figure));
 }
 
 void Show::LayOutActors(StagedFrame& staged) {
   uint32_t vertices = 0;
   for (const Visible& visible : visible_) {
-    const Body& body = bodies_[visible.cast];
+    const CharacterInstance& body = bodies_[visible.cast];
     StagedActor& actor = staged.actors.emplace_back();
     actor.cast = visible.cast;
     actor.figure = body.figure();
@@ -406,13 +408,13 @@ void Show::LayOutActors(StagedFrame& staged) {
     staged.skin.insert(staged.skin.end(), body.skin().begin(), body.skin().end());
     actor.mesh_begin = static_cast<uint32_t>(staged.meshes.size());
     actor.mesh_count = static_cast<uint32_t>(body.moving_meshes().size());
-    for (const Body::MovingMesh& mesh : body.moving_meshes()) {
+    for (const CharacterInstance::MovingMesh& mesh : body.moving_meshes()) {
       const auto count = static_cast<uint32_t>(actor.figure->meshes[mesh.mesh].positions.size());
       staged.meshes.push_back({mesh, vertices, count});
       vertices += count;
     }
   }
-  // No more than that: they are megabytes.
+  // Reserve exactly: the arrays have megabytes.
   staged.positions.reserve(vertices);
   staged.normals.reserve(vertices);
   staged.positions.resize(vertices);
@@ -483,7 +485,7 @@ void Show::BlendProbes(StagedFrame& staged) const {
   }
 }
 
-// Who is not seen still shades.
+// People who are not visible still cast shadows.
 void Show::LayOutLight(StagedFrame& staged) {
   uint32_t vertices = 0;
   const auto lay_out = [&](auto& lit, size_t cast, bool wanted) {
@@ -499,11 +501,11 @@ void Show::LayOutLight(StagedFrame& staged) {
   for (StagedObject& object : staged.objects) {
     lay_out(object, content_.cast.size() + object.object, true);
   }
-  staged.irradiance.reserve(vertices);  // likewise
+  staged.irradiance.reserve(vertices);  // Reserve exactly, as in LayOutActors().
   staged.irradiance.resize(vertices);
 }
 
-// The sun has shadows of its own (render/sun_pass.h).
+// The sun's shadows are drawn separately (render/sun_pass.h).
 void Show::LightStage(StagedFrame& staged) {
   LayOutLight(staged);
   lit_.clear();
@@ -548,7 +550,7 @@ void Show::KeepLightOfThings(const StagedFrame& staged) {
   }
 }
 
-// What is in a hand goes with the hand as it is drawn.
+// An object in a hand follows the hand as drawn.
 stage::Pose Show::DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const {
   const stage::ObjectState& state = entry.state;
   const auto holder = std::find_if(visible_.begin(), visible_.end(), [&](const Visible& visible) {
@@ -591,7 +593,7 @@ void Show::StageObjects(StagedFrame& staged) {
       StageVisible(object, *entry, staged);
     }
   }
-  // Flicker does not change who is among the brightest from frame to frame: lamps differ more.
+  // Flicker does not change the choice from frame to frame: intensities of lamps differ by more.
   if (staged.lamps.size() > light::kMaxLamps) {
     std::sort(staged.lamps.begin(), staged.lamps.end(),
               [](const auto& a, const auto& b) { return a.intensity.g > b.intensity.g; });
@@ -625,7 +627,7 @@ void Show::StageLines(double behind, StagedFrame& staged) const {
   }
 }
 
-// Who lies outside of the picture, or is not drawn, still has a mouth.
+// Actors outside the picture, or not drawn, have a mouth too.
 Mouth Show::MouthOf(uint32_t cast, const stage::ActorState& state) const {
   Mouth mouth = bodies_[cast].actor_from_mouth();
   const glm::mat4 stage_from_actor = stage::StageFromActor(state);
@@ -634,7 +636,7 @@ Mouth Show::MouthOf(uint32_t cast, const stage::ActorState& state) const {
   return mouth;
 }
 
-// None: it is heard around the listener.
+// Position of a sound; nullopt: around the listener.
 std::optional<glm::vec3> Show::PlaceOf(const stage::StageSound& sound) const {
   switch (sound.at) {
     case stage::StageSound::At::kListener:
@@ -660,7 +662,7 @@ std::optional<glm::vec3> Show::PlaceOf(const stage::StageSound& sound) const {
   return std::nullopt;
 }
 
-// Places are as drawn, times as of the tick after it.
+// Positions are those drawn; times are those of the tick after the frame.
 void Show::StageSounds(StagedFrame& staged) {
   const double tick_time = static_cast<double>(tick_) / kTicksPerSecond;
   audio::SoundScene& scene = staged.sound;
@@ -695,7 +697,7 @@ void Show::StageSounds(StagedFrame& staged) {
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
   time = std::max(time, 0.0);
   TakeRestart(time);
-  TakeFiner();
+  SwapFinishedLods();
   Locate(std::move(tracked), staged);
   time = DramaTime(time);
   AdvanceTo(time);
@@ -723,7 +725,7 @@ void Show::StagePeopleAndThings(double time, StagedFrame& staged) {
   LightStage(staged);
 }
 
-Status Show::StageOther(double time, const StagedFrame& now, StagedFrame& other) {
+Status Show::StageAtTime(double time, const StagedFrame& now, StagedFrame& other) {
   other.tracked = now.tracked;
   other.place = now.place;
   other.camera_from_stage = now.camera_from_stage;
@@ -732,13 +734,13 @@ Status Show::StageOther(double time, const StagedFrame& now, StagedFrame& other)
   if (other_bodies_.empty()) {
     for (size_t cast = 0; cast < actor_ids_.size(); ++cast) {
       other_bodies_.emplace_back(stage_.Find(actor_ids_[cast])->model);
-      other_bodies_.back().SetFigure(Figure(bodies_[cast].figure()));
+      other_bodies_.back().SetMesh(CharacterMesh(bodies_[cast].figure()));
     }
   }
-  for (Body& body : other_bodies_) {
+  for (CharacterInstance& body : other_bodies_) {
     body.Settle();
   }
-  // What remembers the frames before.
+  // State that persists between frames; restored below.
   std::vector<Thing> things = things_;
   const std::vector<BodyDetail> details = details_;
   const std::vector<render::DetailRequest> requests = requests_;

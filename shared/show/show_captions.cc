@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "shared/render/notice.h"
+#include "shared/render/text/notice.h"
 #include "shared/show/evidence.h"
 
 namespace lararium::show {
@@ -12,14 +12,14 @@ namespace {
 
 constexpr size_t kMostAtOnce = 2;
 
-// Of the staff's dot, sRGB.
+// Colours of the staff's status dot, sRGB.
 constexpr glm::vec3 kGood = {0.35f, 0.80f, 0.45f};
 constexpr glm::vec3 kPoor = {0.95f, 0.75f, 0.25f};
 constexpr glm::vec3 kBad = {0.92f, 0.35f, 0.30f};
 constexpr double kLongLoss = 2.0;  // seconds
 
-// Light colours that differ at a glance on a dark ground, also for the colour-blind (after
-// Okabe & Ito, Color Universal Design, 2008, lightened), by the order of the cast.
+// Light colours that are easy to distinguish on a dark background, also for colour-blind people
+// (after Okabe & Ito, Color Universal Design, 2008, lightened), in the order of the cast.
 constexpr std::array<glm::vec3, 6> kColours = {{{0.98f, 0.80f, 0.36f},
                                                 {0.52f, 0.80f, 0.98f},
                                                 {0.60f, 0.90f, 0.68f},
@@ -27,7 +27,7 @@ constexpr std::array<glm::vec3, 6> kColours = {{{0.98f, 0.80f, 0.36f},
                                                 {0.90f, 0.74f, 0.94f},
                                                 {0.96f, 0.94f, 0.60f}}};
 
-// What is only read has no voice to follow: its last cue stays as long as it is shown.
+// A caption without speech has no voice to follow: its last cue stays as long as the line is shown.
 const stage::CaptionCue* CueOf(const CaptionTexts& texts, const StagedLine& line) {
   const std::vector<stage::CaptionCue>& cues = texts.lines[line.line];
   if (line.cast != StagedLine::kNobody || cues.empty()) {
@@ -88,7 +88,7 @@ void CollectCaptions(const CaptionTexts& texts,
                      const StagedFrame& staged,
                      std::vector<render::Caption>& captions) {
   captions.clear();
-  // By how long ago the line began: few people speak at once.
+  // Iterate by increasing age of the lines: few people speak at once.
   double after = -1.0;
   uint32_t after_cast = 0;
   while (captions.size() < kMostAtOnce) {
@@ -124,7 +124,7 @@ std::string TrackingText(const StagedFrame& staged) {
                   static_cast<double>(tracked.confidence));
     return text;
   }
-  const char* what = staged.rung == LostLadder::Rung::kSearching ? "searching" : "lost";
+  const char* what = staged.rung == TrackingLossFader::State::kSearching ? "searching" : "lost";
   std::snprintf(text, sizeof(text), "%s for %.1f s: %s", what, staged.lost_seconds,
                 std::string(vision::Name(tracked.reason)).c_str());
   return text;

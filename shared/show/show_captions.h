@@ -1,7 +1,7 @@
 #pragma once
 
-// What is to be read at the moment of a frame, over its finished picture: captions, what tells a
-// visitor who has lost the place where to look, and, for staff alone, how tracking is.
+// Draws the texts of a frame over its finished picture: captions, the guide for a visitor whose
+// tracking is lost, and the tracking state for staff.
 
 #include <memory>
 #include <optional>
@@ -11,51 +11,51 @@
 #include <vector>
 
 #include "shared/core/status.h"
-#include "shared/render/captions.h"
-#include "shared/render/menu.h"
+#include "shared/render/text/captions.h"
+#include "shared/render/text/menu.h"
 #include "shared/show/show.h"
 
 namespace lararium::show {
 
-// What captions need of a show.
+// The texts of a show that captions use.
 struct CaptionTexts {
-  // By ShowContent::speech; descriptions in brackets.
+  // Parallel to ShowContent::speech. Audio descriptions are in brackets.
   std::vector<std::vector<stage::CaptionCue>> lines;
-  std::vector<std::string> speakers;  // by ShowContent::cast
+  std::vector<std::string> speakers;  // Parallel to ShowContent::cast.
 };
 CaptionTexts TextsOf(const ShowContent& content);
 
-// The caption so many seconds after its line began; nullptr: none then.
+// Returns the caption at a time after its line began, or nullptr if there is none.
 const stage::CaptionCue* FindCue(std::span<const stage::CaptionCue> cues, double seconds);
 
-// Where a speaker is who cannot be seen because the camera looks elsewhere.
+// Side of the picture on which a speaker outside the view is.
 render::CaptionSide SideOf(const StagedFrame& staged, uint32_t cast);
 
-// At most two captions, those that began last; the newest lowest.
+// Collects the two captions that began last, newest first.
 void CollectCaptions(const CaptionTexts& texts,
                      const StagedFrame& staged,
                      std::vector<render::Caption>& captions);
 
 class Evidence;
 
-// How tracking is, for staff: "following 0.98", "lost for 3.2 s: too dark".
+// Tracking state for staff: "following 0.98", "lost for 3.2 s: too dark".
 std::string TrackingText(const StagedFrame& staged);
 
-// A show that has no letters has pictures only.
+// Without a caption font only the pictures of guides are drawn.
 class ShowCaptions {
  public:
   static Result<std::unique_ptr<ShowCaptions>> Create(const ShowContent& content);
 
-  // From now on the tracking's state is shown, with this behind it; nullopt: not.
+  // Shows the tracking state followed by this text; nullopt: neither.
   void SetStaff(std::optional<std::string> more) { staff_ = std::move(more); }
 
-  // From now on; the menu has its own.
+  // Style of all texts except the menu, which has its own.
   void SetStyle(const render::CaptionStyle& style) { style_ = style; }
 
-  // From now on over all of it; nullopt: there is none.
+  // Shows a menu over everything; nullopt: none.
   void SetMenu(std::optional<render::Menu> menu) { menu_ = std::move(menu); }
 
-  // evidence: whose legend is drawn too; nullptr: none.
+  // evidence: also draws its legend; nullptr: no legend.
   void Draw(const StagedFrame& staged, Evidence* evidence, const render::RenderTarget& target);
 
  private:
@@ -64,7 +64,7 @@ class ShowCaptions {
   void DrawGuide(const StagedFrame& staged, const render::RenderTarget& target);
 
   CaptionTexts texts_;
-  std::vector<std::string> guides_;  // of each place
+  std::vector<std::string> guides_;  // Parallel to ShowContent::places.
   std::string dark_guide_;
   std::string farewell_;
   render::CaptionStyle style_;

@@ -15,7 +15,7 @@
 namespace lararium::show {
 namespace {
 
-// Those of the bundle's places that are wanted.
+// The bundle's place of that name, or all places if the name is empty.
 Result<std::span<const bundle::PlaceEntry>> ChoosePlaces(const bundle::Bundle& bundle,
                                                          std::string_view name) {
   const std::span<const bundle::PlaceEntry> places = bundle.manifest().places;
@@ -108,7 +108,7 @@ CastMember MakeCastMember(human::Human human, float finest, human::TexturePool& 
   textures.Share(human.textures);
   person.light = TakeLight(human.light);
   person.finest = finest;
-  person.model = human::MakePerformanceModel(std::move(human));
+  person.model = human::MakeAnimationRig(std::move(human));
   person.human = person.model->human;
   return person;
 }
@@ -137,7 +137,7 @@ Status LoadPerson(const bundle::Bundle& bundle,
   return Status();
 }
 
-// Several at once: people are most of what is loaded.
+// Loads people in parallel: they are most of the content.
 Status LoadCast(const bundle::Bundle& bundle,
                 float finest,
                 human::TexturePool& textures,
@@ -154,13 +154,14 @@ Status LoadCast(const bundle::Bundle& bundle,
   return Status();
 }
 
-// The file's bytes are many times what stays of them, and do not stay.
+// Reads a human directly from the bundle's file. The bytes, which are much larger than the result,
+// are released again.
 Result<human::Human> ReadHuman(const bundle::StoredMember& member, float finest) {
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, member.Read());
   return human::ParseHuman(bytes, member.file.string() + ": " + member.name, finest);
 }
 
-// When the bundle is closed.
+// Reads people from the bundle's file after the bundle was closed.
 Result<ReadPerson> ReadsAgain(const bundle::Bundle& bundle,
                               std::shared_ptr<human::TexturePool> textures) {
   std::vector<bundle::StoredMember> members;
@@ -173,11 +174,11 @@ Result<ReadPerson> ReadsAgain(const bundle::Bundle& bundle,
   });
 }
 
-// Objects of one member share its model.
+// Objects with the same prop share its model.
 Status LoadObjects(const bundle::Bundle& bundle,
                    human::TexturePool& textures,
                    std::vector<StageObject>& objects) {
-  std::map<std::string, StageObject> known;  // by its prop
+  std::map<std::string, StageObject> known;  // Keyed by prop.
   for (const bundle::ObjectEntry& entry : bundle.manifest().objects) {
     StageObject& object = known[entry.prop];
     if (object.model == nullptr) {
@@ -203,7 +204,7 @@ Result<std::string> LoadText(const bundle::Bundle& bundle, const std::string& me
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-using CaptionBooks = std::map<std::string, stage::CaptionBook>;  // by spoken language
+using CaptionBooks = std::map<std::string, stage::CaptionBook>;  // Keyed by spoken language.
 
 Result<CaptionBooks> LoadCaptionBooks(const bundle::Bundle& bundle,
                                       const std::vector<bundle::SpokenLanguage>& languages) {
@@ -219,8 +220,8 @@ Result<CaptionBooks> LoadCaptionBooks(const bundle::Bundle& bundle,
   return books;
 }
 
-// The language in which a line is said: the wanted one, or else the first of the show's
-// that it has.
+// The language in which a line is spoken: the wanted one, or else the first of the show's languages
+// that the line has.
 const std::pair<const std::string, bundle::SpokenEntry>* FindSpoken(
     const std::vector<bundle::SpokenLanguage>& languages,
     const bundle::LineEntry& line,
@@ -235,7 +236,7 @@ const std::pair<const std::string, bundle::SpokenEntry>* FindSpoken(
   return found == line.spoken.end() ? nullptr : &*found;
 }
 
-// nullptr: there is none.
+// Returns nullptr if there is no such entry.
 template <typename T>
 const T* FindIn(const stage::CaptionBook::ById<stage::CaptionBook::ByLanguage<T>>& ids,
                 std::string_view id,
@@ -248,7 +249,7 @@ const T* FindIn(const stage::CaptionBook::ById<stage::CaptionBook::ByLanguage<T>
   return found == languages->second.end() ? nullptr : &found->second;
 }
 
-// said_in: languages that there are for what the line is, a voice or a description.
+// said_in: the show's languages for this kind of line, speech or audio description.
 Result<Speech> LoadLine(const bundle::Bundle& bundle,
                         const bundle::LineEntry& entry,
                         const std::vector<bundle::SpokenLanguage>& said_in,
@@ -258,7 +259,7 @@ Result<Speech> LoadLine(const bundle::Bundle& bundle,
   line.name = entry.name;
   const auto* spoken = FindSpoken(said_in, entry, languages.spoken);
   if (spoken == nullptr) {
-    return line;  // nobody says it; it takes no time
+    return line;  // The line has no speech and takes no time.
   }
   const auto& [language, members] = *spoken;
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, members.visemes));
@@ -289,7 +290,7 @@ void NameSpeakers(const CaptionBooks& books,
   }
 }
 
-// The first caption of a line in any book; "" where there is none.
+// The first caption of a line in any book; "" if there is none.
 std::string FirstCaption(const CaptionBooks& books,
                          const std::string& line,
                          std::string_view language) {
@@ -302,7 +303,7 @@ std::string FirstCaption(const CaptionBooks& books,
   return "";
 }
 
-// What is said to whoever has lost the place, or is to go, is read even where captions are off.
+// Guide and farewell texts are shown even if captions are off.
 void LoadGuide(const CaptionBooks& books, std::string_view language, ShowContent& content) {
   if (!content.caption_font) {
     return;
@@ -357,7 +358,7 @@ Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, Sho
     content.speech.push_back(std::move(line));
   }
   NameSpeakers(books, languages, content);
-  // Also where no captions are wanted: guide and evidence view are read.
+  // The font is needed without captions too, for guide and evidence view.
   if (manifest.caption_font) {
     LARARIUM_ASSIGN_OR_RETURN(const std::string metrics,
                               LoadText(bundle, manifest.caption_font->metrics));

@@ -1,6 +1,6 @@
 #pragma once
 
-// All that one show needs at its places, ready to run.
+// All data that one show needs at its places, loaded and ready to run.
 
 #include <cstddef>
 #include <functional>
@@ -14,12 +14,12 @@
 #include "shared/audio/sound_library.h"
 #include "shared/bundle/bundle.h"
 #include "shared/core/status.h"
+#include "shared/human/animator.h"
 #include "shared/human/face.h"
 #include "shared/human/human.h"
-#include "shared/human/performance.h"
 #include "shared/human/texture_pool.h"
 #include "shared/light/glossy_map.h"
-#include "shared/render/caption_font.h"
+#include "shared/render/text/caption_font.h"
 #include "shared/show/person_light.h"
 #include "shared/stage/caption_file.h"
 #include "shared/stage/object_use.h"
@@ -31,52 +31,56 @@
 namespace lararium::show {
 
 struct CastMember {
-  std::string name;  // as the drama calls the actor
+  std::string name;  // The actor's name in the drama.
   std::shared_ptr<const human::Human> human;
-  std::string title = {};  // as captions call the actor; empty: they do not
-  // What was taken out of the human's light; nullptr: it has all of it.
+  std::string title = {};  // The speaker's name in captions; empty: captions do not name the actor.
+  // Transfer vectors that TakeLight() moved out of the human; nullptr: they are still inside the
+  // human.
   std::shared_ptr<const UnpackedLight> light = nullptr;
-  // In what detail the human was read (human::ParseHuman).
+  // Detail at which the human was read, in metres (parameter `finest` of human::ParseHuman).
   float finest = 0.0f;
-  // What moves the human, where it is known already; nullptr: it is made of the human.
-  std::shared_ptr<const human::PerformanceModel> model = nullptr;
+  // The human's animation rig; nullptr: the stage builds it from `human`.
+  std::shared_ptr<const human::AnimationRig> model = nullptr;
 };
 
-// The member, still without a name, who is such a human, read in that detail.
+// Makes a member, without a name yet, from a human that was read at the detail `finest`.
 CastMember MakeCastMember(human::Human human, float finest, human::TexturePool& textures);
 
-// Somebody as they are drawn, whatever moves them.
+// A person as drawn, independent of what animates it.
 struct DrawnPerson {
-  std::shared_ptr<const human::Human> human;   // without clips
-  std::shared_ptr<const UnpackedLight> light;  // as CastMember's
+  std::shared_ptr<const human::Human> human;   // Has no clips.
+  std::shared_ptr<const UnpackedLight> light;  // See CastMember::light.
 };
 DrawnPerson MakeDrawnPerson(human::Human human, human::TexturePool& textures);
 
-// Reads one of the cast again, in other detail. From any thread.
+// Reads a member of the cast again at another detail (metres, as in human::ParseHuman). Callable
+// from any thread.
 using ReadPerson = std::function<Result<DrawnPerson>(size_t cast, float finest)>;
 
-// A thing that people use, or scenery.
+// A prop that people use, or scenery.
 struct StageObject {
-  std::string name;  // as the drama calls it
+  std::string name;  // The object's name in the drama.
   std::shared_ptr<const stage::ObjectModel> model;
-  stage::Pose stage_from_object;  // at the beginning
-  // What was taken out of the prop's light; nullptr: it has all of it.
+  stage::Pose stage_from_object;  // Pose at the beginning of the drama.
+  // Transfer vectors that TakeLight() moved out of the prop; nullptr: they are still inside the
+  // prop.
   std::shared_ptr<const UnpackedLight> light = nullptr;
 };
 
-// A line that somebody can say, as it is said and to be read in the languages of a show.
-// Its index is that of stage::Utterance::line.
+// A line that an actor can say: its sound, visemes and captions in the chosen languages. Its index
+// in ShowContent::speech is stage::Utterance::line.
 struct Speech {
-  std::string name;  // its id, as the drama calls it
+  std::string name;  // The line's id in the drama.
   human::VisemeTrack visemes;
-  // FLAC or Ogg; empty: nothing is heard. It begins with the visemes.
+  // FLAC or Ogg, starting together with the visemes; empty: the line is silent.
   std::vector<std::byte> sound = {};
-  std::vector<stage::CaptionCue> captions = {};  // empty: nothing is to be read
-  // To visitors who do not see well, in the language that others read.
+  std::vector<stage::CaptionCue> captions = {};  // Empty: the line has no captions.
+  // Audio description for visitors with impaired vision. Its language is that of the captions.
   bool describes = false;
 };
 
-// What a show is to be heard and read in; empty: as its author chose. No captions: "off".
+// Languages of speech and captions. Empty: the author's default. kNoCaptions in `captions` turns
+// captions off.
 struct LanguageChoice {
   std::string spoken;
   std::string captions;
@@ -85,8 +89,9 @@ struct LanguageChoice {
 };
 inline constexpr std::string_view kNoCaptions = "off";
 
-// The one of the languages that there are that is meant by a choice; the first where
-// nothing was chosen, "" where there is none. kind: "speech" or "captions", for the error.
+// Returns `chosen` if `languages` contains it, and an error otherwise. If `chosen` is empty,
+// returns the first language, or "" if there is none. kind: "speech" or "captions", for the error.
+// place: where the error happened.
 Result<std::string> ChooseLanguage(std::span<const std::string> languages,
                                    const std::string& chosen,
                                    const std::string& kind,
@@ -96,51 +101,52 @@ Result<std::string> ChooseLanguage(std::span<const std::string> languages,
 struct ShowPlace {
   stage::Place stage;
   std::shared_ptr<const vision::SceneDatabase> map;
-  // What rough surfaces mirror of each of the stage's probes; may be empty.
+  // Prefiltered reflections for rough surfaces, one map per probe of the stage; may be empty.
   std::vector<light::GlossyMap> glossy = {};
-  std::string guide = {};  // says where to look when tracking is lost; may be empty
+  std::string guide = {};  // Text that tells where to look when tracking is lost; may be empty.
 };
 
 struct ShowContent {
   std::string title;
-  std::vector<ShowPlace> places;  // at least one
-  // Further places of the drama that this show is not at: what is in the way there is in the way
-  // here too, so that the drama is the same everywhere. Only their occluders count.
+  std::vector<ShowPlace> places;  // Has at least one place.
+  // Places of the drama at which this show does not run. Their occluders block walking here too, so
+  // that the drama is the same at all places; nothing else of them is used.
   std::vector<stage::Place> elsewhere = {};
   std::vector<CastMember> cast;
-  ReadPerson finer = {};  // empty: there is no more detail to be had
+  ReadPerson finer = {};  // Reads finer levels of detail; empty: the cast is already complete.
   std::vector<StageObject> objects;
   std::vector<Speech> speech;
-  std::vector<std::string> spoken_languages;   // that it could be heard in
-  std::vector<std::string> caption_languages;  // likewise read
-  bool has_descriptions = false;               // for visitors who do not see well
+  std::vector<std::string> spoken_languages;   // Languages of speech that the show offers.
+  std::vector<std::string> caption_languages;  // Languages of captions that the show offers.
+  bool has_descriptions = false;               // True if any line is an audio description.
   std::optional<render::CaptionFont> caption_font;
-  std::string dark_guide;                // what is said instead where the camera sees nothing
-  std::string farewell;                  // what is said when the visit is over
-  std::vector<audio::SoundData> sounds;  // that things, places and the drama make
-  stage::Paradata paradata;              // what is known of all that
-  std::string language;                  // what is to be read is in it
-  std::string drama;                     // Lua source
-  std::string drama_file;                // what messages call it
+  std::string dark_guide;  // Guide text for an image that is too dark.
+  std::string farewell;    // Text shown at the end of a visit.
+  // Sounds of objects, places and the drama; speech is in `speech`.
+  std::vector<audio::SoundData> sounds;
+  stage::Paradata paradata;  // Evidence for each person and object.
+  std::string language;      // Language of all texts.
+  std::string drama;         // Lua source
+  std::string drama_file;    // File name of the drama in error messages.
 };
 
-// What the tracker is created with: TrackedFrame::map is then an index into places.
+// The places' maps for the tracker. TrackedFrame::map is then an index into `places`.
 std::vector<std::shared_ptr<const vision::SceneDatabase>> Maps(std::span<const ShowPlace> places);
 
-// The occluders of a place as its map has them, which hide the map's points.
+// The occluders of a place in the map's frame; they hide map points from the tracker.
 std::vector<vision::OccluderMesh> OccludersInMap(const stage::Place& place);
 
-// Tells a tracker with the maps of the places about their occluders.
+// Passes the places' occluders to a tracker that was created with Maps().
 void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses);
 
-// The bundle's places, or only the named one. Every member is checked by its own reader.
+// Loads all places of the bundle, or only the named one. Each member's reader validates it.
 Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
                                               std::string_view place = {});
 
-// The content of a bundle at all of its places, or only at the named one. Every
-// member is checked by its own reader. A line that lacks the chosen language is in the
-// show's first. finest: as human::ParseHuman takes it, of the cast; finer detail is had from the
-// bundle's file then.
+// Loads a show from a bundle at all of its places, or only at the named one. Each member's reader
+// validates it. A line without the chosen language uses the show's first language that it has.
+// finest: detail of the cast in metres, as in human::ParseHuman; if positive, ShowContent::finer
+// reads more detail from the bundle's file.
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
                                     std::string_view place = {},
                                     const LanguageChoice& languages = {},

@@ -12,16 +12,16 @@
 namespace lararium::show {
 namespace {
 
-// Of the weights between probes with which reflections are blended.
+// Quantisation steps of the probe weights that blend reflections.
 constexpr float kWeightSteps = 32.0f;
-// A layer drawn by halves is seen in the next picture and in the one after it.
+// A layer drawn in halves is shown in the next picture and the one after it.
 constexpr double kPicturesUntilSeen = 1.5;
 
 bool CatchesShadows(const ShowPlace& place) {
   return std::ranges::any_of(place.stage.occluders, &stage::Occluder::receives_shadow);
 }
 
-// As the camera will see it so many frames later.
+// Moves the camera to its predicted pose after a number of frames.
 void LookAhead(double frames, StagedFrame& staged) {
   if (staged.motion && staged.camera_from_stage) {
     const geometry::Rigid3 now = *staged.camera_from_stage;
@@ -78,7 +78,7 @@ Status ShowRenderer::SetTexts(const ShowContent& content) {
   return Status();
 }
 
-// Objects of one model share what is on the GPU.
+// Objects of one model share its GPU data.
 Status ShowRenderer::AddObjects(const ShowContent& content) {
   for (size_t i = 0; i < content.objects.size(); ++i) {
     const auto same = std::find_if(
@@ -97,7 +97,7 @@ Status ShowRenderer::AddObjects(const ShowContent& content) {
   return Status();
 }
 
-// Its textures are there: those of what was.
+// The new level of detail shares the textures of the old one, which are already uploaded.
 Status ShowRenderer::UploadFigures(const StagedFrame& staged) {
   for (const StagedActor& actor : staged.actors) {
     CastModel& known = cast_[actor.cast];
@@ -289,11 +289,11 @@ Status ShowRenderer::DrawSeeThrough(const StagedFrame& staged,
   return Status();
 }
 
-Status ShowRenderer::DrawGhosts(const StagedFrame& staged,
-                                const render::SceneMark& mark,
-                                const render::RenderTarget& target) {
+Status ShowRenderer::DrawOverlays(const StagedFrame& staged,
+                                  const render::SceneMark& mark,
+                                  const render::RenderTarget& target) {
   if (!staged.camera_from_stage) {
-    return Status::Error("ghosts", "cannot be drawn without a pose");
+    return Status::Error("overlays", "cannot be drawn without a camera pose");
   }
   LARARIUM_ASSIGN_OR_RETURN(render::RenderScene scene, SceneOf(staged, target.height()));
   for (render::SceneHuman& human : humans_) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What stats.json reports of a run.
+// The statistics of a run in stats.json.
 
 #include <cstdint>
 #include <string>
@@ -12,19 +12,20 @@
 
 namespace lararium::show {
 
-// How tracking went, frame by frame.
+// Counts tracking results frame by frame.
 class TrackingStatistics {
  public:
   void Add(const vision::TrackedFrame& frame);
 
   int64_t frames() const { return frames_; }
-  double tracked_fraction() const;   // of all frames
-  double followed_fraction() const;  // of all frames: pose from the frame before
-  // Poses that followed a frame without one, the first pose not counted.
+  double tracked_fraction() const;  // Share of frames with a pose.
+  // Share of frames whose pose was tracked from the previous frame.
+  double followed_fraction() const;
+  // Number of poses after a frame without one, not counting the first pose.
   int64_t relocalizations() const { return relocalizations_; }
-  double mean_inliers() const;     // of tracked frames
-  double mean_confidence() const;  // of tracked frames
-  // Tracked frames in each map, as far as the last map with any.
+  double mean_inliers() const;     // Mean over frames with a pose.
+  double mean_confidence() const;  // Mean over frames with a pose.
+  // Tracked frames in each map, up to the last map that has any.
   const std::vector<int64_t>& frames_in_map() const { return frames_in_map_; }
 
  private:
@@ -33,40 +34,40 @@ class TrackingStatistics {
   int64_t followed_ = 0;
   int64_t relocalizations_ = 0;
   int64_t inliers_ = 0;
-  double confidence_ = 0.0;  // sum
+  double confidence_ = 0.0;  // Sum over frames with a pose.
   std::vector<int64_t> frames_in_map_;
   bool had_pose_ = false;
   bool was_tracking_ = false;
 };
 
-// Each StageTimes is written by the one thread that runs the stage; read them
-// when the threads have ended.
+// Each StageTimes is written by the one thread that runs the stage. Read them only after the
+// threads have ended.
 struct ShowStatistics {
   StageTimes capture;
   StageTimes track;
   StageTimes simulate;
   StageTimes render;
-  DurationHistogram total;  // from an image's arrival until it is composited
-  // How old an image is when it is located, staged, drawn and handed to the display.
+  DurationHistogram total;  // Time between an image's arrival and its composite.
+  // Age of an image when it is located, staged, drawn, and handed to the display.
   DurationHistogram located_age;
   DurationHistogram staged_age;
   DurationHistogram drawn_age;
   DurationHistogram shown_age;
-  DurationHistogram interval;     // between pictures
+  DurationHistogram interval;     // Time between pictures.
   Json quality = Json::object();  // QualityController::ToJson
   TrackingStatistics tracking;
-  std::vector<std::string> places;  // names, in the order of the tracker's maps
+  std::vector<std::string> places;  // Names, in the order of the tracker's maps.
   uint64_t dropped_frames = 0;
-  double startup_seconds = 0.0;  // from the start of the program to the first composite
+  double startup_seconds = 0.0;  // Time between the start of the program and the first composite.
   std::string gpu;
-  std::string graphics;  // what it is drawn with
+  std::string graphics;  // Graphics API in use.
 
   Json ToJson() const;
 };
 
-// The most memory that this process has had resident, in MiB.
+// Peak resident memory of this process, in MiB.
 double PeakResidentMebibytes();
-// And what it has now; 0 where that is not known.
+// Present resident memory in MiB; 0 if unknown.
 double ResidentMebibytes();
 
 }  // namespace lararium::show

@@ -12,11 +12,11 @@ using audio::Bus;
 using audio::SoundScene;
 using audio::Voice;
 
-// Before the first pose: somebody who stands before the stage.
+// Position of the listener before the first pose: in front of the stage.
 constexpr glm::vec3 kVisitorsHead = {0.0f, 1.6f, 2.0f};
-// As loud as a voice two metres away.
+// As loud as a voice at a distance of two metres.
 constexpr float kDescriptionGain = 0.5f;
-// Lines have names of their own, which no sound can have.
+// Prefix for clips of lines; no sound can have such a name.
 constexpr const char* kLinePrefix = "line ";
 
 enum class Kind : uint64_t { kLine = 1, kAction, kState, kAmbience, kDrama, kDescription };
@@ -28,7 +28,7 @@ uint64_t SourceId(Kind kind, size_t which, size_t part = 0) {
 
 float FromDb(float db) { return std::pow(10.0f, db / 20.0f); }
 
-// Things of one kind do not sound in step.
+// Phase offset, so that objects of one kind do not sound in step.
 double Phase(size_t which) { return std::fmod(0.6180339887 * static_cast<double>(which + 1), 1.0); }
 
 }  // namespace
@@ -70,7 +70,7 @@ Result<SoundDirector> SoundDirector::Create(const ShowContent& content, Log& log
   return director;
 }
 
-// -1 where there is none.
+// Returns -1 if there is no such sound.
 int SoundDirector::ClipOf(const std::string& name, const std::string& who, Log& log) const {
   const int clip = name.empty() ? -1 : library_->Find(name);
   if (!name.empty() && clip < 0) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// Says what of a stage is to be heard: who speaks, what is done with things, what the
-// place is full of, what the drama plays.
+// Collects the sounds of a stage: speech, sounds of objects, ambience of the place, and sounds that
+// the drama plays.
 
 #include <memory>
 #include <optional>
@@ -13,7 +13,7 @@
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
-#include "shared/show/body.h"
+#include "shared/show/character_instance.h"
 #include "shared/show/show_content.h"
 #include "shared/stage/object.h"
 #include "shared/stage/sounds.h"
@@ -22,58 +22,58 @@ namespace lararium::show {
 
 class SoundDirector {
  public:
-  // Decodes or opens every sound. What is asked for and not there is silent, and the log
-  // says so.
+  // Decodes or opens every sound. A missing sound is silent and is reported in the log.
   static Result<SoundDirector> Create(const ShowContent& content, Log& log);
 
   const std::shared_ptr<const audio::SoundLibrary>& library() const { return library_; }
-  // The sounds that a drama can play, for its stage.
+  // Registers the sounds that the drama can play with its stage.
   Status Teach(stage::Sounds& sounds) const;
-  // Another way in which a place is.
+  // Updates a place's acoustics and occluders.
   void SetPlace(size_t index, const stage::Place& place);
 
-  // Goes on from another one's pictures: frame_time is counted from its first.
-  void GoOnFrom(const SoundDirector& before) { first_capture_ = before.first_capture_; }
+  // Continues the frame times of another director: frame_time counts from its first frame.
+  void ResumeFrom(const SoundDirector& before) { first_capture_ = before.first_capture_; }
 
-  // A moment: first Begin, then what is heard, then Finish. Allocates nothing once the
-  // scene has held as many voices.
+  // For each moment call Begin(), then Add...() for each sound, then Finish(). Allocates nothing
+  // once the scene has held as many voices.
   //
-  // The ears are at the camera; without a pose they stay where they were.
+  // The listener is at the camera; without a pose it stays where it was.
   void Begin(double time,
              size_t place,
              const std::optional<geometry::Rigid3>& camera_from_stage,
              audio::SoundScene& scene);
-  // capture_time: of its picture. Where pictures go on and the drama does not, it is held.
+  // capture_time: of the frame, seconds. If it advances and the drama's time does not, the scene is
+  // marked as held.
   void BeginFrame(double capture_time, audio::SoundScene& scene);
-  // The mouth in stage axes.
+  // mouth: stage axes.
   void AddLine(
       size_t actor, size_t line, double began, const Mouth& mouth, audio::SoundScene& scene);
-  // In the middle of the listener's head.
+  // Plays a description inside the listener's head.
   void AddDescription(size_t line, double began, audio::SoundScene& scene) const;
-  // tick_time: of the drama, when the state is so.
+  // tick_time: drama time of `state`, seconds.
   void AddObject(size_t object,
                  const stage::ObjectState& state,
                  const stage::Pose& stage_from_object,
                  double tick_time,
                  audio::SoundScene& scene);
-  // at: where it is; none: around the listener.
+  // at: position on stage; empty: around the listener.
   void AddSound(const stage::StageSound& sound,
                 const std::optional<glm::vec3>& at,
                 double tick_time,
                 audio::SoundScene& scene);
-  // Finds what is hidden.
+  // Computes the obstruction of all voices.
   void Finish(size_t place, audio::SoundScene& scene) const;
 
  private:
-  // Clips of what a thing does; -1: silent.
+  // Clips of an object's actions and states; -1: silent.
   struct ObjectClips {
     std::shared_ptr<const stage::ObjectModel> model;
-    std::vector<int> actions;  // parallel to ObjectUse::actions
-    std::vector<int> sounds;   // parallel to ObjectUse::sounds
+    std::vector<int> actions;  // Parallel to ObjectUse::actions.
+    std::vector<int> sounds;   // Parallel to ObjectUse::sounds.
   };
   struct PlaceSound {
     stage::Acoustics acoustics;
-    std::vector<int> ambience;  // parallel to Acoustics::ambience
+    std::vector<int> ambience;  // Parallel to Acoustics::ambience.
     audio::SoundBlockers blockers;
   };
 
@@ -84,13 +84,13 @@ class SoundDirector {
   void AddAmbience(size_t place, audio::SoundScene& scene) const;
 
   std::shared_ptr<const audio::SoundLibrary> library_;
-  std::vector<int> lines_;         // clip of each line
-  std::vector<int> drama_sounds_;  // clip of each of the stage's sounds
+  std::vector<int> lines_;         // Clip of each line.
+  std::vector<int> drama_sounds_;  // Clip of each sound of the stage.
   std::vector<ObjectClips> objects_;
   std::vector<PlaceSound> places_;
   audio::Listener listener_;
   std::optional<double> first_capture_;
-  std::optional<double> last_time_;  // of the drama
+  std::optional<double> last_time_;  // Time of the drama in the last frame.
 };
 
 }  // namespace lararium::show

@@ -1,7 +1,6 @@
 #pragma once
 
-// The sound of a show as it is left behind: in the video of its composite, in a file of
-// its own, or in both.
+// Records the sound of a show: in the video of its composite, in a sound file, or in both.
 
 #include <filesystem>
 #include <memory>
@@ -16,30 +15,30 @@ namespace lararium::show {
 
 class SoundRecording {
  public:
-  // Whether videos of the show have sound: their writer has to know.
+  // Whether the show has sounds; the writer of its video has to know.
   static bool Sounds(const Show& show) { return !show.sounds()->clips().empty(); }
 
-  // video: a writer with sound where the show sounds; nullptr: none. file: .wav; empty:
-  // none. hrtf: as headphones want it. Borrows video.
+  // video: a writer with sound if the show has sounds; nullptr: no video. file: .wav; empty: no
+  // file. hrtf: for headphones. Borrows video.
   static Result<SoundRecording> Create(const Show& show,
                                        bool hrtf,
                                        capture::VideoWriter* video,
                                        const std::filesystem::path& file);
 
-  // Goes on with another show, whose frames go on from those of the one before
-  // (Show::GoOnFrom): in another language, say.
+  // Continues with another show whose frames continue those of the previous one (Show::ResumeFrom),
+  // for example in another language.
   Status SetShow(const Show& show);
 
-  // What is heard until a frame.
+  // Adds the sound up to a frame.
   Status Add(const audio::SoundScene& scene);
-  // The last frame was shown for so long. Completes the file, not the video.
+  // last_seconds: duration of the last frame. Completes the file, but not the video.
   Status Finish(double last_seconds);
 
  private:
   SoundRecording() = default;
 
   std::unique_ptr<audio::AudioOut> file_;
-  std::unique_ptr<audio::SoundTrack> track_;  // nullptr: nothing is wanted
+  std::unique_ptr<audio::SoundTrack> track_;  // nullptr: nothing is recorded.
 };
 
 }  // namespace lararium::show

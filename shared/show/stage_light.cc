@@ -33,12 +33,12 @@ StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast
   others_.resize(people_.size());
 }
 
-void StageLight::SetFigure(uint32_t cast,
-                           std::shared_ptr<const human::Human> human,
-                           std::shared_ptr<const UnpackedLight> light) {
+void StageLight::SetMesh(uint32_t cast,
+                         std::shared_ptr<const human::Human> human,
+                         std::shared_ptr<const UnpackedLight> light) {
   vertex_counts_[cast] = CountVertices(*human);
   if (people_[cast] != nullptr) {
-    people_[cast]->SetFigure(std::move(human), std::move(light));
+    people_[cast]->SetMesh(std::move(human), std::move(light));
   }
 }
 
@@ -61,7 +61,7 @@ double StageLight::Pose(std::span<const LitActor> actors) {
   return helpers;
 }
 
-// What is not the actor's own, for each; and all there is.
+// Collects the blockers of all actors, without hidden parts.
 void StageLight::CollectBlockers(std::span<const LitActor> actors) {
   all_blockers_.clear();
   for (const LitActor& actor : actors) {

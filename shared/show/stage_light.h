@@ -1,6 +1,6 @@
 #pragma once
 
-// The light on everybody and everything on stage, frame by frame.
+// The light on all people and objects on stage, frame by frame.
 
 #include <cstdint>
 #include <memory>
@@ -13,46 +13,45 @@
 
 namespace lararium::show {
 
-// So many metres up is what is not there: a blocker there is none.
+// Height in metres at which hidden parts are placed; a blocker there has no effect.
 inline constexpr float kNowhere = 1e5f;
 
-// Who or what is lit by what, and where the result goes.
+// A person or object to be lit, its light, and the output.
 struct LitActor {
   uint32_t cast = 0;
-  const light::ShRgb* light = nullptr;  // where they stand, without the sun; stage axes
+  const light::ShRgb* light = nullptr;  // Light at its position without the sun, stage axes.
   std::span<const glm::mat4> skin;
   glm::mat4 stage_from_actor = glm::mat4(1.0f);
-  std::span<glm::vec3> irradiance;  // of all vertices of all meshes; empty: not wanted
-  float detail = 0.0f;              // StagedActor::detail
+  std::span<glm::vec3> irradiance;  // All vertices of all meshes; empty: not needed.
+  float detail = 0.0f;              // See StagedActor::detail.
 };
 
 class StageLight {
  public:
-  // cast: who may be on stage, figures of things among them (thing_light.h). Those without
-  // baked transfer take no shade; those without blockers cast none. light: what was taken out of
-  // each (TakeLight); empty where nothing was.
+  // cast: the people that may be on stage, followed by figures of objects (thing_light.h). Members
+  // without baked transfer receive no shadow; members without blockers cast none. light: the
+  // vectors that TakeLight() moved out of each member; may be empty.
   explicit StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
                       std::span<const std::shared_ptr<const UnpackedLight>> light = {});
 
-  // The same member in another detail (human::ParseHuman).
-  void SetFigure(uint32_t cast,
-                 std::shared_ptr<const human::Human> human,
-                 std::shared_ptr<const UnpackedLight> light);
+  // Replaces the mesh by the same member at another detail (human::ParseHuman).
+  void SetMesh(uint32_t cast,
+               std::shared_ptr<const human::Human> human,
+               std::shared_ptr<const UnpackedLight> light);
 
   bool Lights(uint32_t cast) const { return lights_[cast]; }
-  // Vertices of all meshes of a member.
+  // Number of vertices of all meshes of a member.
   size_t vertex_count(uint32_t cast) const { return vertex_counts_[cast]; }
 
-  // Where the frame's actors are, each of whom has another cast. Returns the processor
-  // milliseconds of other threads, as Light does.
+  // Poses the blockers of the frame's actors. Each actor has a different `cast`. Returns CPU
+  // milliseconds of other threads, like Light().
   double Pose(std::span<const LitActor> actors);
 
-  // Lights the actors of the last Pose, who cast shade on each other, by the light of where they
-  // stand and by lamps. Spread over the cores. After the first frame nothing is allocated while
-  // as many are there.
+  // Lights the actors of the last Pose(), which shadow each other, by the light at their positions
+  // and by lamps. Runs in parallel. Allocates nothing while the number of actors stays the same.
   double Light(std::span<const light::Lamp> lamps, std::span<const LitActor> actors);
 
-  // Blockers of the last Pose, stage axes: centre and radius.
+  // Blockers of the last Pose(), stage axes: centre and radius.
   std::span<const glm::vec4> blockers() const { return all_blockers_; }
 
  private:
@@ -60,18 +59,20 @@ class StageLight {
   void CollectOthers(std::span<const LitActor> actors, size_t index);
   void LightActor(const LitActor& actor, std::span<const light::Lamp> lamps, size_t index);
 
-  // The light of a person as a matrix; made again when the light has changed.
+  // The light of a person as a matrix; computed again when the light changes.
   struct PersonMatrix {
     light::ShRgb light = {};
     std::optional<light::LightMatrix> matrix;
   };
   const light::LightMatrix& MatrixFor(const LitActor& actor);
 
-  std::vector<std::unique_ptr<PersonLight>> people_;  // of each member, or none
-  std::vector<PersonMatrix> matrices_;                // likewise
-  std::vector<bool> lights_;  // likewise: takes light, rather than only giving shade
+  // Parallel to the cast; nullptr: neither lit nor casting shadows.
+  std::vector<std::unique_ptr<PersonLight>> people_;
+  std::vector<PersonMatrix> matrices_;  // Parallel to the cast.
+  // Parallel to the cast: whether the member has baked transfer and is lit.
+  std::vector<bool> lights_;
   std::vector<size_t> vertex_counts_;
-  std::vector<SphereSet> others_;  // of each lit actor of the frame
+  std::vector<SphereSet> others_;  // Blockers of the others, for each lit actor of the frame.
   std::vector<glm::vec4> all_blockers_;
 };
 

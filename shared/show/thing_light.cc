@@ -14,14 +14,14 @@
 namespace lararium::show {
 namespace {
 
-// What has moved by less, in shares of its distance from the thing's surface, or in metres
-// where it touches, shades as before: a step of eight bits is not reached.
+// A blocker that has moved by less, as a share of its distance from the object's surface, or in
+// metres near contact, changes the light by less than one 8-bit step.
 constexpr float kMovedShare = 1.0f / 64.0f;
 constexpr float kMovedNear = 0.002f;
-constexpr float kTurned = 1e-3f;              // of a matrix's entry
-constexpr float kBrightened = 1.0f / 256.0f;  // of the mean radiance
-constexpr float kFlickered = 1.0f / 64.0f;    // of a lamp's
-constexpr float kLeastIrradiance = 0.01f;     // as PersonLight passes lamps over
+constexpr float kTurned = 1e-3f;              // Change of a matrix entry.
+constexpr float kBrightened = 1.0f / 256.0f;  // Share of the mean radiance.
+constexpr float kFlickered = 1.0f / 64.0f;    // Share of a lamp's intensity.
+constexpr float kLeastIrradiance = 0.01f;     // Equals kLeastLampIrradiance in person_light.cc.
 
 bool SameLight(const light::ShRgb& a, const light::ShRgb& b) {
   const float least = kBrightened * glm::length(a[0]);
@@ -56,7 +56,7 @@ human::Skeleton SkeletonOf(const stage::Prop& prop) {
   return skeleton;
 }
 
-// Only as much as light asks of it.
+// Copies only the data that lighting needs.
 human::SkinnedMesh MeshOf(const stage::PropMesh& mesh) {
   human::SkinnedMesh skinned;
   skinned.positions = mesh.positions;
@@ -86,7 +86,7 @@ std::shared_ptr<human::Human> FigureOf(const stage::Prop& prop) {
     }
   }
   if (figure->light.empty()) {
-    // It shades all the same: figures without light have one key pose and no receivers.
+    // The figure still casts shadows: figures without light have one key pose and no receivers.
     figure->light.count = 9;
     figure->light.key_poses = {figure->skeleton.rest};
   }

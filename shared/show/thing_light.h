@@ -1,8 +1,8 @@
 #pragma once
 
-// Things in the light: a prop with baked light transfer is lit as a person is
-// (person_light.h), by a figure whose joints are its parts. What stands in light that does not
-// change is not lit again in each frame.
+// Lights objects: a prop with baked light transfer is lit like a person (person_light.h), as a
+// figure whose joints are the prop's parts. An object in constant light is not lit again in each
+// frame.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -19,24 +19,24 @@
 
 namespace lararium::show {
 
-// Without light where the prop has none; blockers it has always.
+// The figure of a prop. It has light transfer only if the prop has, but always has blockers.
 std::shared_ptr<human::Human> FigureOf(const stage::Prop& prop);
 
-// The figure's matrices where its actor frame is that of the first part. A part that is not
-// there is very far away, where it keeps no light off anything.
+// The figure's skin matrices; its actor frame is that of the first part. Hidden parts are moved
+// very far away, where they block no light.
 void SkinOfFigure(std::span<const glm::mat4> stage_from_part,
                   std::span<const uint8_t> shown,
                   std::span<glm::mat4> skin);
 
-// What one thing was lit by when that was last worked out.
+// Remembers the conditions under which one object was last lit.
 class ThingMemory {
  public:
-  // radius: of a ball about the thing's own frame that holds all its parts at rest, metres.
+  // radius: of a sphere around the object's origin that encloses all its parts at rest, metres.
   explicit ThingMemory(float radius) : radius_(radius) {}
 
-  // Whether light, the thing, or a lamp or blocker (centre and radius, stage axes) near enough
-  // to matter has changed by more than can be seen; if so, this is remembered. Blockers of the
-  // thing itself count too. Allocates nothing once as many were near.
+  // Returns whether the light, the object, or a lamp or blocker (centre and radius, stage axes)
+  // near enough to matter has visibly changed; if so, remembers the new conditions. The object's
+  // own blockers count too. Allocates nothing once as many lamps and blockers were near.
   bool Update(const light::ShRgb& light,
               std::span<const light::Lamp> lamps,
               const glm::mat4& stage_from_thing,
@@ -44,7 +44,7 @@ class ThingMemory {
               std::span<const glm::vec4> blockers);
 
  private:
-  // All that it depends on, but for the light.
+  // All conditions except the distant light.
   struct Surroundings {
     glm::mat4 stage_from_thing = glm::mat4(1.0f);
     std::vector<glm::mat4> skin;
@@ -56,11 +56,11 @@ class ThingMemory {
   float radius_;
   bool known_ = false;
   light::ShRgb light_ = {};
-  Surroundings then_;  // when it was lit
-  Surroundings now_;   // of the call
+  Surroundings then_;  // Conditions when the object was lit last.
+  Surroundings now_;   // Conditions in the present call.
 };
 
-// Of the ball of ThingMemory.
+// Radius for ThingMemory, metres.
 float RadiusOf(const stage::Prop& prop);
 
 }  // namespace lararium::show

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a place sounds: what is always heard there, and how its walls answer.
+// The acoustics of a place: its ambient sounds and its reverberation.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -10,8 +10,7 @@
 
 namespace lararium::stage {
 
-// Rooms by what they are built of; the player has a preset of late reverberation for
-// each (audio/sound_graph.cc).
+// Kind of room. The player has a preset of late reverberation for each (audio/sound_graph.cc).
 enum class Reverb : uint8_t {
   kNone,
   kSmallRoom,   // plaster and furniture
@@ -24,11 +23,11 @@ enum class Reverb : uint8_t {
   kStreet,
 };
 
-// Something that is heard as long as one is there.
+// A sound that is heard as long as the listener is in the place.
 struct Ambience {
-  std::string sound;                  // name of a sound of the project
+  std::string sound;                  // Name of a sound of the project.
   float gain_db = 0.0f;               // -60..12
-  std::optional<glm::vec3> position;  // stage, metres; none: all around the listener
+  std::optional<glm::vec3> position;  // Stage frame, metres; none: from all directions.
 
   friend bool operator==(const Ambience&, const Ambience&) = default;
 };
@@ -37,7 +36,7 @@ struct Acoustics {
   static constexpr size_t kMaxAmbience = 16;
 
   Reverb reverb = Reverb::kNone;
-  float reverb_db = 0.0f;  // of the late sound, -60..12
+  float reverb_db = 0.0f;  // Gain of the late reverberation, -60..12.
   std::vector<Ambience> ambience;
 
   friend bool operator==(const Acoustics&, const Acoustics&) = default;

@@ -11,26 +11,14 @@ namespace {
 constexpr double kMinDb = -60.0;
 constexpr double kMaxDb = 12.0;
 constexpr double kMaxMetres = 1e4;
-constexpr size_t kMaxName = 200;
+constexpr size_t kMaxMaterialName = 200;
 
-// In the order of the enumeration.
+// Indexed by Reverb.
 constexpr std::array<std::string_view, 9> kReverbs = {"none",       "small_room", "wooden_room",
                                                       "stone_room", "corridor",   "hall",
                                                       "vault",      "courtyard",  "street"};
 
-Status CheckFields(const JsonView& json, std::initializer_list<std::string_view> known) {
-  if (!json.json().is_object()) {
-    return json.Problem("must be an object");
-  }
-  for (const auto& item : json.json().items()) {
-    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
-      return json.Problem("the field \"" + item.key() + "\" is not known", "remove it");
-    }
-  }
-  return Status();
-}
-
-// 0 where the field is missing.
+// Gain in dB; 0 if the field is missing.
 Result<float> ParseDb(const JsonView& json, std::string_view key) {
   if (!json.Has(key)) {
     return 0.0f;
@@ -40,14 +28,14 @@ Result<float> ParseDb(const JsonView& json, std::string_view key) {
 }
 
 Result<Ambience> ParseAmbience(const JsonView& json) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(json, {"sound", "gain_db", "at"}));
+  LARARIUM_RETURN_IF_ERROR(json.CheckFields({"sound", "gain_db", "at"}));
   Ambience ambience;
-  LARARIUM_ASSIGN_OR_RETURN(ambience.sound, json.Text("sound", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(ambience.sound, json.Text("sound", kMaxMaterialName));
   LARARIUM_ASSIGN_OR_RETURN(ambience.gain_db, ParseDb(json, "gain_db"));
   if (json.Has("at")) {
     LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> at, json.Numbers("at", 3));
     if (std::any_of(at.begin(), at.end(), [](double c) { return std::abs(c) > kMaxMetres; })) {
-      return json.Problem("\"at\" lies too far away");
+      return json.Problem("\"at\" lies too far away", "use coordinates of at most 10000 metres");
     }
     ambience.position = glm::vec3(at[0], at[1], at[2]);
   }
@@ -55,7 +43,7 @@ Result<Ambience> ParseAmbience(const JsonView& json) {
 }
 
 Result<Reverb> ParseReverb(const JsonView& json) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, json.Text("reverb", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, json.Text("reverb", kMaxMaterialName));
   const auto found = std::find(kReverbs.begin(), kReverbs.end(), name);
   if (found != kReverbs.end()) {
     return static_cast<Reverb>(found - kReverbs.begin());
@@ -72,7 +60,7 @@ Result<Reverb> ParseReverb(const JsonView& json) {
 std::string_view ReverbName(Reverb reverb) { return kReverbs[static_cast<size_t>(reverb)]; }
 
 Result<Acoustics> ParseAcoustics(const JsonView& json) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(json, {"reverb", "reverb_db", "ambience"}));
+  LARARIUM_RETURN_IF_ERROR(json.CheckFields({"reverb", "reverb_db", "ambience"}));
   Acoustics acoustics;
   if (json.Has("reverb")) {
     LARARIUM_ASSIGN_OR_RETURN(acoustics.reverb, ParseReverb(json));

@@ -1,6 +1,6 @@
 #pragma once
 
-// The field "acoustics" of a place, in projects and in bundles (docs/file-formats.md).
+// Reads and writes the field "acoustics" of a place in projects and bundles (docs/file-formats.md).
 
 #include <string_view>
 
@@ -10,11 +10,11 @@
 
 namespace lararium::stage {
 
-// Fields that are not known are an error.
+// Unknown fields are an error.
 Result<Acoustics> ParseAcoustics(const JsonView& json);
 Json FormatAcoustics(const Acoustics& acoustics);
 
-// As files call it.
+// The name of a reverberation in files, such as "stone_room".
 std::string_view ReverbName(Reverb reverb);
 
 }  // namespace lararium::stage

@@ -10,7 +10,7 @@
 namespace lararium::stage {
 namespace {
 
-// A step this long in one tick is no motion but a change of place: 30 m/s.
+// Metres in one tick. A longer step (30 m/s) is a jump, which must not be interpolated.
 constexpr float kJump = human::kTeleport;
 
 }  // namespace
@@ -26,7 +26,7 @@ Pose StageFromActorPose(const ActorState& state) {
 
 Pose StageFromUpperBody(const Actor& actor) {
   return StageFromActorPose(actor.state) *
-         Pose{human::HipsShift(actor.model->sitting, actor.state.performance.sitting)};
+         Pose{human::HipsShift(actor.model->sitting, actor.state.animation_state.sitting)};
 }
 
 glm::vec2 Direction(float heading) { return {-std::sin(heading), -std::cos(heading)}; }
@@ -46,7 +46,8 @@ ActorState Interpolate(const ActorState& previous, const ActorState& current, fl
   ActorState mixed = current;
   mixed.position = glm::mix(previous.position, current.position, alpha);
   mixed.heading = previous.heading + alpha * TurnBetween(previous.heading, current.heading);
-  mixed.performance = human::Interpolate(previous.performance, current.performance, alpha);
+  mixed.animation_state =
+      human::Interpolate(previous.animation_state, current.animation_state, alpha);
   return mixed;
 }
 

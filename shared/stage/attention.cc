@@ -11,21 +11,21 @@ namespace {
 using Target = Attention::Target;
 using Choice = Attention::Choice;
 
-constexpr float kNotice = 5.0f;     // metres within which others are noticed
-constexpr float kInView = 1.4f;     // radians to either side
-constexpr float kListenFor = 8.0f;  // metres from which speech is listened to
+constexpr float kNotice = 5.0f;     // Metres; others are noticed up to this distance.
+constexpr float kInView = 1.4f;     // Half angle of the field of view, radians.
+constexpr float kListenFor = 8.0f;  // Metres; speech attracts attention up to this distance.
 constexpr size_t kMaxPeople = 64;
 
 glm::vec3 EyesOf(const Actor& actor) { return StageFromUpperBody(actor) * actor.model->gaze.eyes; }
 
-// How far it is to a point, and whether it lies before the actor.
+// Whether a point lies in front of the actor and nearer than `within` metres.
 bool IsInView(const Actor& actor, const glm::vec3& point, float within) {
   const glm::vec2 way = glm::vec2(point.x, point.z) - actor.place();
   return glm::length(way) < within &&
          std::abs(TurnBetween(actor.state.heading, HeadingOf(way))) < kInView;
 }
 
-// Who speaks in hearing distance, the nearest.
+// The nearest actor who speaks within hearing distance; none: an empty id.
 ActorId SpeakerFor(const World& world, ActorId listener) {
   ActorId nearest;
   float distance = kListenFor;
@@ -42,8 +42,8 @@ ActorId SpeakerFor(const World& world, ActorId listener) {
   return nearest;
 }
 
-// By itself, for a few seconds: somebody in view, the visitor, or nothing much. Who is
-// nearer is looked at more often.
+// Draws a random target for a few seconds: an actor in view, the visitor, or nothing. Nearer actors
+// are more likely.
 Choice Choose(const World& world, ActorId id, Random& random) {
   const Actor& actor = *world.actors.Find(id);
   std::array<Choice, kMaxPeople> choices;
@@ -90,7 +90,7 @@ Choice Decide(const World& world, const Tasks& tasks, ActorId id, Actor& actor, 
     return {Target::kObject, {}, {}, *object};
   }
   if (actor.walk.phase == Walk::Phase::kGo) {
-    return {};  // where it goes
+    return {};  // Looks where it walks.
   }
   if (!actor.state.utterance.speaking) {
     if (const ActorId speaker = SpeakerFor(world, id)) {
@@ -136,7 +136,7 @@ void DirectAttention(World& world, const Tasks& tasks, float seconds) {
     if (!actor.state.visible) {
       continue;
     }
-    human::Gaze& gaze = actor.state.performance.gaze;
+    human::Gaze& gaze = actor.state.animation_state.gaze;
     LookAt(world, Decide(world, tasks, id, actor, seconds), gaze);
     gaze.speaking = actor.state.utterance.speaking;
   }

@@ -1,14 +1,14 @@
 #pragma once
 
-// What people look at when nobody tells them: what they use, who speaks, each other,
-// the visitor. Private to the room.
+// Chooses what actors look at when the drama does not say: the object that they use, the actor who
+// speaks, each other or the visitor. Internal to shared/stage.
 
 #include "shared/stage/tasks.h"
 #include "shared/stage/world.h"
 
 namespace lararium::stage {
 
-// One tick: sets what the gaze of each visible actor is to look at.
+// Sets the gaze target of each visible actor for one tick.
 void DirectAttention(World& world, const Tasks& tasks, float seconds);
 
 }  // namespace lararium::stage

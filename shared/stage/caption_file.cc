@@ -9,8 +9,8 @@ namespace lararium::stage {
 namespace {
 
 constexpr double kMaxSeconds = 3600.0;
-constexpr size_t kMaxCues = 1000;  // of one line
-constexpr size_t kMaxText = 1000;  // bytes
+constexpr size_t kMaxCues = 1000;  // Per line.
+constexpr size_t kMaxText = 1000;  // Bytes.
 constexpr size_t kMaxName = 200;
 constexpr size_t kMaxIds = 100'000;
 constexpr size_t kMaxBytes = size_t{64} << 20;
@@ -35,7 +35,7 @@ Result<std::vector<CaptionCue>> ReadCues(const JsonView& view) {
 
 Result<std::string> ReadName(const JsonView& view) { return view.Text(kMaxName); }
 
-// {"id": {"language": value}} below a key.
+// Reads {"id": {"language": value}} from the field `key`.
 template <typename T>
 Result<CaptionBook::ById<CaptionBook::ByLanguage<T>>> ReadByLanguage(
     const JsonView& root, std::string_view key, Result<T> (*read)(const JsonView&)) {
@@ -51,7 +51,8 @@ Result<CaptionBook::ById<CaptionBook::ByLanguage<T>>> ReadByLanguage(
     }
     for (const auto& [language, ignored_too] : languages.json().items()) {
       if (!IsLanguageTag(language)) {
-        return languages.Problem("\"" + language + "\" is no language tag");
+        return languages.Problem("\"" + language + "\" is not a valid language tag",
+                                 "use one such as \"it\" or \"en-GB\"");
       }
       LARARIUM_ASSIGN_OR_RETURN(const JsonView value, languages.Field(language));
       LARARIUM_ASSIGN_OR_RETURN(ids[id][language], read(value));
@@ -76,7 +77,7 @@ Status CheckCues(const std::vector<CaptionCue>& cues, const std::string& place) 
     const CaptionCue& cue = cues[i];
     const std::string where = place + "[" + std::to_string(i) + "]";
     if (!(cue.begin >= before) || !(cue.end > cue.begin) || !std::isfinite(cue.end)) {
-      return Status::Error(where, "its time is empty or lies before the end of the one before");
+      return Status::Error(where, "its time is empty or overlaps the caption before it");
     }
     if (cue.text.empty() || std::count(cue.text.begin(), cue.text.end(), '\n') > 1) {
       return Status::Error(where, "it must have one or two lines of text");

@@ -1,7 +1,7 @@
 #pragma once
 
-// captions.json of a bundle: what is to be read while lines are said in one language, in
-// all languages that there are (docs/file-formats.md).
+// captions.json of a bundle: the captions of all lines in all caption languages, for one spoken
+// language (docs/file-formats.md).
 
 #include <map>
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace lararium::stage {
 
-// One text on the screen: at most two lines, apart by '\n'.
+// One text on the screen: at most two lines, separated by '\n'.
 struct CaptionCue {
-  double begin = 0.0;  // seconds since the line began to be said
-  double end = 0.0;    // may lie after the line's own end, so that there is time to read
-  std::string text;    // UTF-8
+  double begin = 0.0;  // Seconds since the line began.
+  double end = 0.0;    // Seconds; may lie after the end of the line, to leave time to read.
+  std::string text;    // UTF-8..
 
   friend bool operator==(const CaptionCue&, const CaptionCue&) = default;
 };
@@ -27,19 +27,20 @@ struct CaptionBook {
   template <typename T>
   using ById = std::map<std::string, T, std::less<>>;
 
-  ById<ByLanguage<std::string>> names;              // of speakers
-  ById<ByLanguage<std::vector<CaptionCue>>> lines;  // cues ascend and do not overlap
+  ById<ByLanguage<std::string>> names;              // Names of the speakers.
+  ById<ByLanguage<std::vector<CaptionCue>>> lines;  // Cues ascend and do not overlap.
 
   friend bool operator==(const CaptionBook&, const CaptionBook&) = default;
 };
 
-// BCP 47 as far as we need it: "la", "pt-BR"; letters, digits and '-', at most 16.
+// Whether the tag follows the part of BCP 47 that is used here, such as "la" or "pt-BR": letters,
+// digits and '-', at most 16 characters.
 bool IsLanguageTag(std::string_view tag);
 
-// What is wrong with the cues, if anything: order, length, lines.
+// Checks the order, the duration and the number of text lines of the cues.
 Status CheckCues(const std::vector<CaptionCue>& cues, const std::string& place);
 
-// place: what errors call the text; they name the field.
+// Error messages begin with `place` and name the field.
 Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& place);
 std::string FormatCaptions(const CaptionBook& book);
 

@@ -7,15 +7,15 @@
 namespace lararium::stage {
 namespace {
 
-constexpr float kEyesOfCarrier = 1.58f;   // metres, of somebody 1.7 m tall
-constexpr float kInHandPerSecond = 6.0f;  // how fast an object comes to follow the palm
-constexpr int kMaxPile = 8;               // things on things
-// Where the hand of somebody 1.7 m tall hangs, right side: palm towards the body.
+constexpr float kEyesOfCarrier = 1.58f;   // Eye height of a person 1.7 m tall, metres.
+constexpr float kInHandPerSecond = 6.0f;  // Rate of ObjectState::in_hand, 1/s.
+constexpr int kMaxPile = 8;               // Maximum height of a pile, in objects.
+// Where the right hand of a person 1.7 m tall hangs, actor frame. The palm faces the body.
 constexpr glm::vec3 kHangingHand = {0.24f, 0.78f, -0.03f};
 
 human::GripFrame ToGripFrame(const Pose& pose) { return {pose.position, pose.rotation}; }
 
-// actor_from_hand of a hand that hangs by the side.
+// actor_from_hand of a hand that hangs at the side, for a person 1.7 m tall.
 Pose HangingHand(int side) {
   const float sign = human::SideSign(side);
   // Fingers down (-Z of the hand), the palm (-Y) towards the body.
@@ -30,7 +30,7 @@ Pose Mirrored(const Pose& pose) {
           glm::quat(pose.rotation.w, pose.rotation.x, -pose.rotation.y, -pose.rotation.z)};
 }
 
-// 1: one hand that is the left; the carry pose of an object is written for its own hands.
+// Whether the object is carried with one hand, and that is not the hand of its carry pose.
 bool IsMirrored(const HandGrips& hands, const HandGrips& written) {
   return (hands[human::kLeft] >= 0) != (written[human::kLeft] >= 0) &&
          (hands[human::kRight] >= 0) != (written[human::kRight] >= 0);
@@ -54,18 +54,19 @@ void AdvanceHeld(World& world, Object& object, float seconds) {
     return;
   }
   const bool hangs = !object.use().carry->holder_from_object;
-  human::Reach& reach = holder->state.performance.reaches[static_cast<size_t>(object.state.hand)];
+  human::Reach& reach =
+      holder->state.animation_state.reaches[static_cast<size_t>(object.state.hand)];
   const bool arrives = reach.to_weight > 0.0f && reach.time < reach.duration;
   const float step =
       (object.held.comes_loose || arrives ? -kInHandPerSecond : kInHandPerSecond) * seconds;
   object.state.in_hand = std::clamp(object.state.in_hand + step, 0.0f, 1.0f);
   if (hangs && object.held.rests && object.held.time >= object.held.duration &&
       reach.to_weight > 0.0f) {
-    human::EndReach(reach, kLetGoSeconds);  // it hangs in the hand, which swings freely
+    human::EndReach(reach, kLetGoSeconds);  // The hand swings freely now.
   }
 }
 
-// stage_from_object of what stands on others, from the lowest up.
+// stage_from_object of an object that stands on others, computed from the lowest one up.
 Pose SupportedPose(const World& world, const Object& object, int depth) {
   const Object* base = world.objects.Find(object.state.support.object);
   if (base == nullptr || depth == 0) {
@@ -104,9 +105,9 @@ float ReachFor(Actor& actor, const Object& object, const HandGrips& hands) {
     const human::GripFrame goal = ActorFromGrip(actor, object, grip);
     const glm::vec3 hanging = ScaledTo(actor, HangingHand(side)).position;
     const float seconds = human::ReachSeconds(glm::distance(hanging, goal.position));
-    auto& performance = actor.state.performance;
-    human::StartReach(performance.reaches[static_cast<size_t>(side)], goal, seconds);
-    human::SetHandPose(performance.hands[static_cast<size_t>(side)],
+    auto& animation_state = actor.state.animation_state;
+    human::StartReach(animation_state.reaches[static_cast<size_t>(side)], goal, seconds);
+    human::SetHandPose(animation_state.hands[static_cast<size_t>(side)],
                        object.use().grips[static_cast<size_t>(grip)].hand_pose, seconds);
     longest = std::max(longest, seconds);
   }
@@ -115,7 +116,7 @@ float ReachFor(Actor& actor, const Object& object, const HandGrips& hands) {
 
 void MoveHands(Actor& actor, const Object& object, const HandGrips& hands, const Pose& offset) {
   for (size_t side = 0; side < 2; ++side) {
-    human::Reach& reach = actor.state.performance.reaches[side];
+    human::Reach& reach = actor.state.animation_state.reaches[side];
     if (hands[side] < 0 || reach.to_weight <= 0.0f) {
       continue;
     }
@@ -131,8 +132,8 @@ void MoveHands(Actor& actor, const Object& object, const HandGrips& hands, const
 void LetGo(Actor& actor, const HandGrips& hands) {
   for (size_t side = 0; side < 2; ++side) {
     if (hands[side] >= 0) {
-      human::EndReach(actor.state.performance.reaches[side], kLetGoSeconds);
-      human::SetHandPose(actor.state.performance.hands[side], human::HandPose::kRelaxed,
+      human::EndReach(actor.state.animation_state.reaches[side], kLetGoSeconds);
+      human::SetHandPose(actor.state.animation_state.hands[side], human::HandPose::kRelaxed,
                          kLetGoSeconds);
     }
   }
@@ -184,7 +185,8 @@ std::optional<HandGrips> ChooseReceivingHands(const World& world,
       }
       const bool is_other = static_cast<int>(grip) != of.state.hands[0] &&
                             static_cast<int>(grip) != of.state.hands[1];
-      // Fingers forward and across the body come easily; so does a grip that is free.
+      // Fingers that point forward and across the body are comfortable. A grip that the giver does
+      // not use is better.
       const float ease = -fingers.z - 0.3f * human::SideSign(side) * fingers.x +
                          (is_other ? 1.0f : 0.0f) + (side == human::kRight ? 0.2f : 0.0f);
       if (ease > best_ease) {
@@ -289,7 +291,7 @@ bool RestsOn(const World& world, ObjectId object, ObjectId base) {
     }
     object = at->state.support.object;
   }
-  return true;  // deeper than piles go: refuse
+  return true;  // The pile is too high: refuse.
 }
 
 }  // namespace lararium::stage

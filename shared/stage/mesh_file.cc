@@ -11,8 +11,8 @@ namespace {
 
 static_assert(sizeof(fb::Vec3) == sizeof(glm::vec3));
 
-constexpr uint32_t kVersion = 1;
-constexpr FlatbufferKind kKind = {".larmesh", kVersion, "import the mesh again"};
+constexpr uint32_t kMeshVersion = 1;
+constexpr FlatbufferKind kMeshKind = {".larmesh", kMeshVersion, "import the mesh again"};
 
 template <typename To, typename From>
 void ReadBlock(const flatbuffers::Vector<From>* from, std::vector<To>& to) {
@@ -30,7 +30,7 @@ std::vector<std::byte> SerializeMesh(const geometry::TriangleMesh& mesh) {
   const auto positions = WriteBlock<fb::Vec3>(builder, mesh.positions);
   const auto normals = WriteBlock<fb::Vec3>(builder, mesh.normals);
   const auto indices = builder.CreateVector(mesh.indices);
-  fb::FinishMeshBuffer(builder, fb::CreateMesh(builder, kVersion, positions, normals, indices));
+  fb::FinishMeshBuffer(builder, fb::CreateMesh(builder, kMeshVersion, positions, normals, indices));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};
 }
@@ -41,8 +41,9 @@ Result<geometry::TriangleMesh> ParseMesh(std::span<const std::byte> bytes,
     const std::vector<std::byte> aligned(bytes.begin(), bytes.end());
     return ParseMesh(aligned, place);
   }
-  LARARIUM_ASSIGN_OR_RETURN(const fb::Mesh* from,
-                            OpenFlatbuffer<fb::Mesh>(bytes, fb::MeshIdentifier(), kKind, place));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const fb::Mesh* from,
+      OpenFlatbuffer<fb::Mesh>(bytes, fb::MeshIdentifier(), kMeshKind, place));
   geometry::TriangleMesh mesh;
   ReadBlock(from->positions(), mesh.positions);
   ReadBlock(from->normals(), mesh.normals);

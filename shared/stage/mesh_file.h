@@ -1,6 +1,6 @@
 #pragma once
 
-// The .larmesh file: a triangle mesh (mesh.fbs).
+// Reads and writes .larmesh files, which hold one triangle mesh (mesh.fbs).
 
 #include <cstddef>
 #include <span>
@@ -12,11 +12,10 @@
 
 namespace lararium::stage {
 
-// The same mesh gives the same bytes.
+// Deterministic: the same mesh gives the same bytes.
 std::vector<std::byte> SerializeMesh(const geometry::TriangleMesh& mesh);
 
-// Everything is checked before use: structure, version, sizes, indices, numbers.
-// place: what errors call the bytes.
+// Checks structure, version, sizes, indices and numbers first. Error messages begin with `place`.
 Result<geometry::TriangleMesh> ParseMesh(std::span<const std::byte> bytes,
                                          const std::string& place);
 

@@ -19,14 +19,14 @@ namespace lararium::stage {
 namespace {
 
 constexpr float kCellHeight = 0.05f;
-constexpr float kBelowFloor = 0.3f;    // metres of space below the floor that are looked at
-constexpr float kMaxExtent = 100.0f;   // metres
-constexpr int kMaxCellsAcross = 1000;  // cells grow on larger floors
+constexpr float kBelowFloor = 0.3f;    // Space below the floor that is voxelised, metres.
+constexpr float kMaxExtent = 100.0f;   // Largest distance of a corner from the origin, metres.
+constexpr int kMaxCellsAcross = 1000;  // Larger floors get larger cells.
 constexpr int kCrowdTicks = 4;
 constexpr float kCrowdSeconds =
     static_cast<float>(kCrowdTicks) / static_cast<float>(Navigation::kTicksPerSecond);
 constexpr int kMaxPath = 256;
-constexpr float kRoom = 0.22f;  // radius that a person takes against others
+constexpr float kRoom = 0.22f;  // Radius of a walker among others, metres.
 constexpr unsigned char kSteering = DT_CROWD_ANTICIPATE_TURNS | DT_CROWD_OBSTACLE_AVOIDANCE |
                                     DT_CROWD_OPTIMIZE_VIS | DT_CROWD_OPTIMIZE_TOPO;
 constexpr float kAcceleration = 2.5f;  // m/s^2
@@ -51,7 +51,7 @@ using CrowdPtr = std::unique_ptr<dtCrowd, Freeing<dtFreeCrowd>>;
 
 struct Point3 {
   explicit Point3(glm::vec2 p) : values{p.x, 0.0f, p.y} {}
-  operator const float*() const { return values.data(); }  // NOLINT: what Detour takes
+  operator const float*() const { return values.data(); }  // NOLINT: Detour expects it.
   std::array<float, 3> values;
 };
 
@@ -73,7 +73,7 @@ bool Inside(const std::vector<glm::vec2>& outline, glm::vec2 p) {
   return inside;
 }
 
-// Builds the mesh, step by step as Recast's manual has it.
+// Builds the mesh in the steps of Recast's manual.
 class MeshBuilder {
  public:
   MeshBuilder(const NavigationOptions& options,
@@ -150,7 +150,7 @@ class MeshBuilder {
     for (const uint32_t index : solid.mesh->indices) {
       const Eigen::Vector3d p =
           solid.stage_from_mesh * geometry::ToEigen(solid.mesh->positions[index]);
-      // Far corners are pulled in: nothing out there matters, and cells are counted in int.
+      // Clamps far corners: they do not matter, and Recast counts cells in int.
       for (int axis = 0; axis < 3; ++axis) {
         corners.push_back(static_cast<float>(std::clamp(p[axis], -1e4, 1e4)));
       }
@@ -196,7 +196,7 @@ class MeshBuilder {
     return Status();
   }
 
-  // As rcOffsetPoly wants outlines, so that it widens them.
+  // Orders the corners so that rcOffsetPoly widens the outline.
   static std::vector<glm::vec2> Clockwise(std::vector<glm::vec2> outline) {
     float area = 0.0f;
     for (size_t i = 0, k = outline.size() - 1; i < outline.size(); k = i++) {
@@ -218,7 +218,7 @@ class MeshBuilder {
       return Failed("the floor is too large or too intricate", "make it smaller");
     }
     if (polygons_->npolys == 0) {
-      return Failed("nobody can walk anywhere on the stage's floor",
+      return Failed("there is no place to walk on the stage's floor",
                     "make the floor larger or remove what stands in the way");
     }
     for (int i = 0; i < polygons_->npolys; ++i) {
@@ -279,13 +279,13 @@ struct MeshPoint {
 };
 
 struct Walker {
-  bool goes = false;                  // by itself
-  glm::vec2 from = glm::vec2(0.0f);   // at the last step of the crowd
-  glm::vec2 to = glm::vec2(0.0f);     // at the next one
-  glm::vec2 speed = glm::vec2(0.0f);  // velocity; of who is held, as it was placed
+  bool goes = false;                  // The crowd moves it; false: only Place() does.
+  glm::vec2 from = glm::vec2(0.0f);   // Position at the last step of the crowd.
+  glm::vec2 to = glm::vec2(0.0f);     // Position at the next step.
+  glm::vec2 speed = glm::vec2(0.0f);  // Velocity, m/s; that given to Place() if held.
 };
 
-// All of a settled agent but its way and what it knows of its surroundings.
+// Copies all of a settled agent except its corridor and its cached surroundings.
 void CopyAgent(const dtCrowdAgent& from, dtCrowdAgent& to) {
   to.active = from.active;
   to.state = from.state;
@@ -317,14 +317,14 @@ void CopyAgent(const dtCrowdAgent& from, dtCrowdAgent& to) {
 struct Navigation::State {
   struct Agent {
     int walker = 0;
-    std::array<float, 3> position = {};  // where its way begins
+    std::array<float, 3> position = {};  // Start of the corridor.
     std::array<float, 3> target = {};
     std::vector<dtPolyRef> path;
     dtCrowdAgent plain;
   };
-  std::vector<std::unique_ptr<Agent>> agents;  // Detour's cannot be moved
+  std::vector<std::unique_ptr<Agent>> agents;  // Pointers, because dtCrowdAgent cannot be moved.
   std::array<Walker, kMaxWalkers> walkers = {};
-  std::vector<uint8_t> gates;  // whether open
+  std::vector<uint8_t> gates;  // 1: open.
   int ticks = 0;
 };
 
@@ -335,10 +335,10 @@ struct Navigation::Parts {
   dtQueryFilter filter;
   std::array<Walker, kMaxWalkers> walkers = {};
   std::vector<std::vector<dtPolyRef>> gates;
-  std::vector<uint8_t> open;  // of each gate
+  std::vector<uint8_t> open;  // Per gate; 1: open.
   mutable std::array<dtPolyRef, kMaxPath> path = {};
   mutable std::array<float, 3 * kMaxPath> corners = {};
-  int ticks = 0;  // since the last step of the crowd
+  int ticks = 0;  // Ticks since the last step of the crowd.
 
   std::optional<MeshPoint> Nearest(glm::vec2 point, float within) const {
     const float extents[3] = {within, kSearchHeight, within};
@@ -356,7 +356,7 @@ struct Navigation::Parts {
     return found;
   }
 
-  // The nearest anywhere.
+  // The nearest point at any distance.
   std::optional<MeshPoint> Nearest(glm::vec2 point) const {
     for (const float within : {0.5f, 2.0f, 8.0f, 2.0f * kMaxExtent}) {
       if (const auto found = Nearest(point, within)) {
@@ -366,7 +366,7 @@ struct Navigation::Parts {
     return std::nullopt;
   }
 
-  // Fills corner and length of a way through the first polygons of path.
+  // Computes corner and length of the path through the first `polygons` entries of `path`.
   void MeasureWay(glm::vec2 from, int polygons, Reached& reached) const {
     int count = 0;
     query->findStraightPath(Point3(from), Point3(reached.point), path.data(), polygons,
@@ -414,7 +414,7 @@ struct Navigation::Parts {
 
   dtCrowdAgent& Agent(int walker) { return *crowd->getEditableAgent(walker); }
 
-  // Tells the crowd where those are who do not go by themselves.
+  // Updates the crowd with the positions of the walkers that it does not move.
   void PlaceHeld() {
     for (int i = 0; i < kMaxWalkers; ++i) {
       dtCrowdAgent& agent = Agent(i);
@@ -447,7 +447,7 @@ Status NavigationOptions::Validate() const {
   }
   if (!(walker_radius >= 0.0f && walker_radius <= 2.0f && walker_height >= 0.5f &&
         walker_height <= 4.0f && step >= 0.0f && step <= 1.0f && cell >= 0.01f && cell <= 1.0f)) {
-    return Failed("a size of walkers or cells is not a possible one");
+    return Failed("the size of the walkers or of the cells is out of range");
   }
   return Status();
 }
@@ -545,7 +545,7 @@ std::optional<int> Navigation::AddWalker(glm::vec2 position) {
 void Navigation::RemoveWalker(int walker) { parts_->crowd->removeAgent(walker); }
 
 void Navigation::Aim(int walker, glm::vec2 target, float speed) {
-  parts_->PlaceHeld();  // where it begins
+  parts_->PlaceHeld();  // The walk begins at the current position.
   dtCrowdAgentParams params = parts_->Agent(walker).params;
   params.maxSpeed = speed;
   parts_->crowd->updateAgentParameters(walker, &params);
@@ -595,7 +595,7 @@ void Navigation::Settle() {
     }
   }
   if (waits) {
-    Restore(*Save());  // nobody's old questions are left in the queue
+    Restore(*Save());  // Removes the old path queries from the queue.
   }
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
-// Where people can walk, and how several of them do without running into each
-// other: a navigation mesh of the stage's floor (Recast) with paths and a crowd
-// (Detour; its avoidance samples velocities after van den Berg et al., "Reciprocal
-// Velocity Obstacles", ICRA 2008). One thread, no random numbers: the same calls
-// give the same positions.
+// Path finding and collision avoidance for walking actors: a navigation mesh of the stage's floor
+// (Recast) with paths and a crowd (Detour; its avoidance samples velocities after van den Berg et
+// al., "Reciprocal Velocity Obstacles", ICRA 2008). Single-threaded and without random numbers: the
+// same calls give the same positions.
 
 #include <glm/vec2.hpp>
 #include <memory>
@@ -19,26 +18,26 @@
 
 namespace lararium::stage {
 
-// Points on the floor are (x, z) of the stage, metres.
+// Points on the floor are (x, z) in the stage frame, metres.
 struct NavigationOptions {
-  // Outline of the floor at y = 0; corners in their order, not crossing itself.
+  // Outline of the floor at y = 0: a simple polygon, corners in order.
   std::vector<glm::vec2> floor = {
       {-10.0f, -10.0f}, {10.0f, -10.0f}, {10.0f, 10.0f}, {-10.0f, 10.0f}};
-  float walker_radius = 0.25f;  // kept from what is solid
-  float walker_height = 1.7f;   // what hangs lower is in the way
-  float step = 0.12f;           // what is lower is stepped over
-  float cell = 0.06f;           // resolution
+  float walker_radius = 0.25f;  // Distance kept from solids, metres.
+  float walker_height = 1.7f;   // Anything that hangs lower is an obstacle, metres.
+  float step = 0.12f;           // Walkers step over anything lower, metres.
+  float cell = 0.06f;           // Size of a voxel in x and z, metres.
 
   Status Validate() const;
 };
 
-// A mesh that nobody walks through, such as an occluder. Borrowed.
+// A mesh that blocks walkers, such as an occluder. `mesh` is borrowed.
 struct NavigationSolid {
   const geometry::TriangleMesh* mesh = nullptr;
   geometry::Similarity3 stage_from_mesh;
 };
 
-// A convex outline that is kept free. Gates can be opened and shut.
+// A convex outline that walkers must not enter, unless it is a gate and open.
 struct BlockedArea {
   std::vector<glm::vec2> outline;
   bool gate = false;
@@ -49,10 +48,10 @@ class Navigation {
   static constexpr size_t kMaxGates = 60;
   static constexpr int kMaxWalkers = 64;
   static constexpr int kTicksPerSecond = 120;
-  // How far from the mesh somebody may stand and still step onto it.
+  // How far from the mesh a walker may stand and still step onto it, metres.
   static constexpr float kStepOn = 0.6f;
 
-  // Errors: nothing of the floor is left, too large, too many gates.
+  // Errors: no walkable floor is left, the floor is too large, or there are too many gates.
   static Result<std::unique_ptr<Navigation>> Create(const NavigationOptions& options,
                                                     std::span<const NavigationSolid> solids,
                                                     std::span<const BlockedArea> areas);
@@ -60,48 +59,48 @@ class Navigation {
   Navigation(const Navigation&) = delete;
   Navigation& operator=(const Navigation&) = delete;
 
-  // No walkers, all gates shut: as created.
+  // Removes all walkers and shuts all gates, as after Create.
   void Reset();
 
-  // Gates are counted among the areas that are gates, in their order; shut at first.
+  // `gate` counts only the areas that are gates, in their order. Gates are shut at first.
   void OpenGate(size_t gate, bool open);
 
-  // Where a walk from one point towards another ends.
+  // Result of a path search.
   struct Reached {
-    glm::vec2 point = glm::vec2(0.0f);   // on the mesh: as near to the target as one gets
-    glm::vec2 corner = glm::vec2(0.0f);  // where the way first bends, or its end
-    float length = 0.0f;                 // of the way, metres
-    bool complete = false;               // the point is the target's nearest on the mesh
+    glm::vec2 point = glm::vec2(0.0f);   // The reachable point nearest to the target, on the mesh.
+    glm::vec2 corner = glm::vec2(0.0f);  // First corner of the path, or its end.
+    float length = 0.0f;                 // Length of the path, metres.
+    bool complete = false;               // `point` is the point of the mesh nearest to the target.
   };
-  // None where from is further than kStepOn from the mesh.
+  // None if `from` is further than kStepOn from the mesh.
   std::optional<Reached> FindWay(glm::vec2 from, glm::vec2 to) const;
-  // The nearest point of the mesh within so many metres.
+  // The nearest point of the mesh that is at most `within` metres away.
   std::optional<glm::vec2> Nearest(glm::vec2 point, float within) const;
 
-  // Walkers: everybody on the stage, walking or standing.
-  std::optional<int> AddWalker(glm::vec2 position);  // none: there are too many
+  // Every visible actor is a walker, whether it walks or stands. None: there are kMaxWalkers.
+  std::optional<int> AddWalker(glm::vec2 position);
   void RemoveWalker(int walker);
-  // Goes to a point of the mesh by itself, avoiding others.
+  // From now on the crowd moves the walker to a point of the mesh, m/s, avoiding others.
   void Aim(int walker, glm::vec2 target, float speed);
-  // Is moved by Place() alone from now on; others avoid it.
+  // From now on only Place() moves the walker; others avoid it.
   void Hold(int walker);
   void Place(int walker, glm::vec2 position, glm::vec2 velocity);
-  // Somebody who cannot get past others takes less room: 0 as usual, 1 sideways, 2 none,
-  // where nothing else helps.
+  // Shrinks a walker that cannot pass others. `how`: 0 normal radius, 1 sideways, 2 almost none and
+  // without avoidance, as a last resort.
   void Squeeze(int walker, int how);
 
-  // What walkers know of their surroundings they look at anew, and what they wait for
-  // they ask again: what Save() then keeps is all that they remember. Whoever saves does
-  // so at fixed ticks, and settles at each of them, so that saving changes nothing.
+  // Drops what walkers have cached of their surroundings and restarts pending path queries, so that
+  // Save() keeps their whole state. Callers that save do so at fixed ticks and call Settle() at
+  // each of them, saved or not, so that saving does not change the result.
   void Settle();
-  struct State;  // of walkers and gates
+  struct State;  // State of walkers and gates.
   std::shared_ptr<const State> Save() const;
   void Restore(const State& state);
 
-  // One tick. The crowd is computed at kTicksPerSecond / 4 and moves evenly between.
+  // Advances by one tick. The crowd is updated at kTicksPerSecond / 4 and interpolated in between.
   // Allocates nothing.
   void Tick();
-  // Of a walker that goes by itself.
+  // Stage frame (x, z): metres, metres per second.
   glm::vec2 position(int walker) const;
   glm::vec2 velocity(int walker) const;
 

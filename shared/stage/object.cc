@@ -8,10 +8,10 @@
 namespace lararium::stage {
 namespace {
 
-// A step this long in one tick is no motion but a change of place: 30 m/s.
-constexpr float kJump = 0.25f;
+// Metres in one tick. A longer step (30 m/s) is a jump, which must not be interpolated.
+constexpr float kObjectJump = 0.25f;
 
-// parent_from_part with the part's joint, if it has one, at its value.
+// parent_from_part with the part's joints at their present values.
 Pose ParentFromPart(const ObjectModel& model, std::span<const float> joints, size_t part) {
   Pose pose = model.prop().parts[part].parent_from_part;
   const std::vector<ObjectJoint>& all = model.use().joints;
@@ -124,7 +124,7 @@ bool Burns(const ObjectLight& light, const ObjectState& state) {
   return (light.states >> state.state & 1u) != 0;
 }
 
-// Level and flicker of one of its lights.
+// Level times flicker of one of the object's lights.
 float BrightnessOf(const Object& object, const ObjectState& state, size_t light, double time) {
   const float flicker = object.use().lights[light].flicker;
   return state.light.level * light::Flicker(object.seed + light, time, flicker);
@@ -169,7 +169,7 @@ ObjectState Interpolate(const ObjectState& previous, const ObjectState& current,
   ObjectState mixed = current;
   const bool goes_on = previous.visible == current.visible &&
                        glm::distance(previous.stage_from_object.position,
-                                     current.stage_from_object.position) < kJump;
+                                     current.stage_from_object.position) < kObjectJump;
   if (!goes_on) {
     return mixed;
   }

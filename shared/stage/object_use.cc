@@ -15,9 +15,9 @@
 namespace lararium::stage {
 namespace {
 
-constexpr double kMaxLength = 100.0;   // metres, of anything in an object
-constexpr double kMaxDegrees = 720.0;  // of an angle
-constexpr double kMaxSeconds = 600.0;  // of an action
+constexpr double kMaxLength = 100.0;         // Limit of all lengths of an object, metres.
+constexpr double kMaxDegrees = 720.0;        // Limit of angles.
+constexpr double kMaxActionSeconds = 600.0;  // Limit of the duration of an action.
 constexpr size_t kMaxNameBytes = 64;
 constexpr size_t kMaxTextBytes = 1 << 20;
 constexpr size_t kMaxOutline = 12;
@@ -29,23 +29,6 @@ int FindByName(const std::vector<T>& items, std::string_view name) {
   const auto found =
       std::find_if(items.begin(), items.end(), [name](const T& item) { return item.name == name; });
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
-}
-
-// Refuses what nobody would read: a misspelt field must not pass silently.
-Status CheckFields(const JsonView& view, std::initializer_list<std::string_view> known) {
-  if (!view.json().is_object()) {
-    return view.Problem("must be an object");
-  }
-  for (const auto& item : view.json().items()) {
-    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
-      std::string names;
-      for (const std::string_view name : known) {
-        names += (names.empty() ? "" : ", ") + std::string(name);
-      }
-      return view.Problem("the field \"" + item.key() + "\" is not known", "known are " + names);
-    }
-  }
-  return Status();
 }
 
 Result<glm::vec3> ReadVector(const JsonView& view, double limit = kMaxLength) {
@@ -73,7 +56,7 @@ Result<glm::vec2> ReadGroundPoint(const JsonView& view) {
   return glm::vec2(v[0], v[1]);
 }
 
-// field of an object, or fallback where it is missing.
+// The number in `field`, or `fallback` if the field is missing.
 Result<double> ReadNumber(
     const JsonView& view, std::string_view field, double fallback, double min, double max) {
   return view.Has(field) ? view.Number(field, min, max) : fallback;
@@ -103,16 +86,16 @@ Result<Pose> ReadPose(const JsonView& view) {
   return pose;
 }
 
-// Reads one object.json against its prop. Sections in the order in which they name
-// one another.
+// Reads one object.json and checks it against its prop. Sections are read in the order in which
+// they refer to one another.
 class UseReader {
  public:
   UseReader(const JsonView& root, const Prop& prop) : root_(root), prop_(prop) {}
 
   Result<ObjectUse> Read() {
     LARARIUM_RETURN_IF_ERROR(
-        CheckFields(root_, {"schema", "states", "parts", "grips", "places", "surfaces", "actions",
-                            "sounds", "footprint", "carry", "capacity", "queue", "lights"}));
+        root_.CheckFields({"schema", "states", "parts", "grips", "places", "surfaces", "actions",
+                           "sounds", "footprint", "carry", "capacity", "queue", "lights"}));
     LARARIUM_RETURN_IF_ERROR(root_.Integer("schema", 1, 1).status());
     LARARIUM_RETURN_IF_ERROR(ReadStates());
     LARARIUM_RETURN_IF_ERROR(ForEach("parts", Prop::kMaxParts, &UseReader::ReadPart));
@@ -129,7 +112,7 @@ class UseReader {
   }
 
  private:
-  // Calls read for every named entry of a section, in the order of names.
+  // Calls `read` for every named entry of a section, in the order of the names.
   Status ForEach(std::string_view section,
                  size_t max_count,
                  Status (UseReader::*read)(const std::string& name, const JsonView& view)) {
@@ -164,14 +147,14 @@ class UseReader {
     for (const JsonView& item : items) {
       LARARIUM_ASSIGN_OR_RETURN(std::string name, item.Text(kMaxNameBytes));
       if (name.empty() || use_.FindState(name) >= 0) {
-        return item.Problem("states need names, each another one");
+        return item.Problem("every state needs a name of its own");
       }
       use_.states.push_back(std::move(name));
     }
     return use_.states.empty() ? view.Problem("must name at least one state") : Status();
   }
 
-  // The states that a list names, as bits; all of them where the field is missing.
+  // The states that a list names, as bits; all states if the field is missing.
   Result<uint32_t> ReadStateSet(const JsonView& view, std::string_view field) {
     return ReadSet(view, field, "state", [this](std::string_view s) { return use_.FindState(s); });
   }
@@ -191,14 +174,15 @@ class UseReader {
       LARARIUM_ASSIGN_OR_RETURN(const std::string name, item.Text(kMaxNameBytes));
       const int index = find(name);
       if (index < 0) {
-        return item.Problem("there is no " + what + " '" + name + "'", "name one of this object");
+        return item.Problem("there is no " + what + " '" + name + "'",
+                            "name one that this object has");
       }
       set |= 1u << index;
     }
     return set;
   }
 
-  // -1 where the field is missing.
+  // Index into Prop::parts; -1 if the field is missing.
   Result<int> ReadPartIndex(const JsonView& view, std::string_view field) {
     if (!view.Has(field)) {
       return -1;
@@ -216,13 +200,13 @@ class UseReader {
     if (part < 0) {
       return view.Problem("the model has no part of this name", "name a node of the model");
     }
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"hinge", "slider", "limits", "rest", "states"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"hinge", "slider", "limits", "rest", "states"}));
     if (view.Has("states")) {
       LARARIUM_ASSIGN_OR_RETURN(const uint32_t states, ReadStateSet(view, "states"));
       use_.shown.push_back({part, states});
     }
     if (view.Has("hinge") && view.Has("slider")) {
-      return view.Problem("is either a hinge or a slider");
+      return view.Problem("must be either a hinge or a slider, not both");
     }
     if (view.Has("hinge") || view.Has("slider")) {
       return ReadJoint(part, view);
@@ -259,7 +243,7 @@ class UseReader {
   }
 
   Status ReadGrip(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"part", "at", "palm", "fingers", "hand", "pose"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"part", "at", "palm", "fingers", "hand", "pose"}));
     Grip grip;
     grip.name = name;
     LARARIUM_ASSIGN_OR_RETURN(grip.part, ReadPartIndex(view, "part"));
@@ -308,7 +292,7 @@ class UseReader {
     return place;
   }
 
-  // "colour": [r, g, b] or "temperature": kelvin.
+  // Reads "colour": [r, g, b] or "temperature": kelvin.
   static Result<glm::vec3> ReadColour(const JsonView& view) {
     if (view.Has("colour") == view.Has("temperature")) {
       return view.Problem("must have either \"colour\" or \"temperature\"");
@@ -327,8 +311,8 @@ class UseReader {
   }
 
   Status ReadLight(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(CheckFields(
-        view, {"part", "at", "colour", "temperature", "intensity", "radius", "flicker", "states"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields(
+        {"part", "at", "colour", "temperature", "intensity", "radius", "flicker", "states"}));
     ObjectLight light;
     light.name = name;
     LARARIUM_ASSIGN_OR_RETURN(light.part, ReadPartIndex(view, "part"));
@@ -347,7 +331,7 @@ class UseReader {
   }
 
   Status ReadPlace(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"at", "heading"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"at", "heading"}));
     LARARIUM_ASSIGN_OR_RETURN(ApproachPlace place, ReadStanding(view));
     place.name = name;
     use_.places.push_back(std::move(place));
@@ -357,21 +341,21 @@ class UseReader {
   int FindPlace(std::string_view name) const { return FindByName(use_.places, name); }
 
   Status ReadSurface(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"part", "spots"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"part", "spots"}));
     Surface surface;
     surface.name = name;
     LARARIUM_ASSIGN_OR_RETURN(const int part, ReadPartIndex(view, "part"));
     LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("spots"));
     LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxSpots));
     for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(CheckFields(item, {"at", "heading", "turn", "place"}));
+      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"at", "heading", "turn", "place"}));
       Spot spot;
       spot.part = part;
       LARARIUM_ASSIGN_OR_RETURN(spot.part_from_spot, ReadPose(item));
       LARARIUM_ASSIGN_OR_RETURN(const std::string place, ReadName(item, "place"));
       spot.place = FindPlace(place);
       if (!place.empty() && spot.place < 0) {
-        return item.Problem("there is no place '" + place + "'", "name one of this object");
+        return item.Problem("there is no place '" + place + "'", "name one that this object has");
       }
       surface.spots.push_back(spot);
     }
@@ -390,8 +374,8 @@ class UseReader {
       return hands;
     }
     LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("hands"));
-    LARARIUM_RETURN_IF_ERROR(CheckFields(field, {"left", "right"}));
-    constexpr const char* kNames[] = {"right", "left"};  // by side
+    LARARIUM_RETURN_IF_ERROR(field.CheckFields({"left", "right"}));
+    constexpr const char* kNames[] = {"right", "left"};  // Indexed by side.
     for (size_t hand = 0; hand < 2; ++hand) {
       if (!field.Has(kNames[hand])) {
         continue;
@@ -399,7 +383,7 @@ class UseReader {
       LARARIUM_ASSIGN_OR_RETURN(const std::string name, field.Text(kNames[hand], kMaxNameBytes));
       hands[hand] = use_.FindGrip(name);
       if (hands[hand] < 0) {
-        return field.Problem("there is no grip '" + name + "'", "name one of this object");
+        return field.Problem("there is no grip '" + name + "'", "name one that this object has");
       }
       if (!use_.grips[static_cast<size_t>(hands[hand])].fits[hand]) {
         return field.Problem("the grip '" + name + "' is for the other hand");
@@ -410,8 +394,8 @@ class UseReader {
 
   Status ReadAction(const std::string& name, const JsonView& view) {
     LARARIUM_RETURN_IF_ERROR(
-        CheckFields(view, {"from", "to", "held", "places", "hands", "duration", "release", "moves",
-                           "path", "clip", "sound", "seat"}));
+        view.CheckFields({"from", "to", "held", "places", "hands", "duration", "release", "moves",
+                          "path", "clip", "sound", "seat"}));
     ObjectAction action;
     action.name = name;
     LARARIUM_ASSIGN_OR_RETURN(action.from, ReadStateSet(view, "from"));
@@ -428,16 +412,16 @@ class UseReader {
         action.places,
         ReadSet(view, "places", "place", [this](std::string_view p) { return FindPlace(p); }));
     if (action.held ? view.Has("places") || view.Has("seat") : use_.places.empty()) {
-      return view.Problem(action.held ? "what is done with a held object has no places and no seat"
-                                      : "the object needs a place where to stand for this",
+      return view.Problem(action.held ? "an action with a held object cannot have places or a seat"
+                                      : "the action needs a place where the actor stands",
                           action.held ? "" : "add one to \"places\"");
     }
     LARARIUM_ASSIGN_OR_RETURN(action.hands, ReadHands(view));
     LARARIUM_ASSIGN_OR_RETURN(const double duration,
-                              ReadNumber(view, "duration", 1.0, 0.0, kMaxSeconds));
+                              ReadNumber(view, "duration", 1.0, 0.0, kMaxActionSeconds));
     action.duration = static_cast<float>(duration);
-    LARARIUM_ASSIGN_OR_RETURN(const double release,
-                              ReadNumber(view, "release", kMaxSeconds, 0.0, kMaxSeconds));
+    LARARIUM_ASSIGN_OR_RETURN(const double release, ReadNumber(view, "release", kMaxActionSeconds,
+                                                               0.0, kMaxActionSeconds));
     action.release = static_cast<float>(release);
     LARARIUM_ASSIGN_OR_RETURN(action.clip, ReadName(view, "clip"));
     LARARIUM_RETURN_IF_ERROR(ReadActionSound(view, action));
@@ -445,7 +429,7 @@ class UseReader {
     LARARIUM_RETURN_IF_ERROR(ReadPath(view, action));
     if (view.Has("seat")) {
       LARARIUM_ASSIGN_OR_RETURN(const JsonView seat, view.Field("seat"));
-      LARARIUM_RETURN_IF_ERROR(CheckFields(seat, {"at", "heading"}));
+      LARARIUM_RETURN_IF_ERROR(seat.CheckFields({"at", "heading"}));
       LARARIUM_ASSIGN_OR_RETURN(const JsonView at, seat.Field("at"));
       ObjectAction::Seat place;
       LARARIUM_ASSIGN_OR_RETURN(place.position, ReadVector(at));
@@ -458,7 +442,7 @@ class UseReader {
     return Status();
   }
 
-  // A name, or an object.
+  // The field is either the name of a sound or an object.
   Status ReadActionSound(const JsonView& view, ObjectAction& action) {
     if (!view.Has("sound")) {
       return Status();
@@ -469,12 +453,12 @@ class UseReader {
       LARARIUM_ASSIGN_OR_RETURN(sound.name, ReadName(view, "sound"));
       return Status();
     }
-    LARARIUM_RETURN_IF_ERROR(CheckFields(field, {"name", "begin", "end", "loop", "gain_db"}));
+    LARARIUM_RETURN_IF_ERROR(field.CheckFields({"name", "begin", "end", "loop", "gain_db"}));
     LARARIUM_ASSIGN_OR_RETURN(sound.name, field.Text("name", kMaxNameBytes));
     LARARIUM_ASSIGN_OR_RETURN(const double begin,
-                              ReadNumber(field, "begin", 0.0, 0.0, kMaxSeconds));
-    LARARIUM_ASSIGN_OR_RETURN(const double end,
-                              ReadNumber(field, "end", kMaxSeconds, begin, kMaxSeconds));
+                              ReadNumber(field, "begin", 0.0, 0.0, kMaxActionSeconds));
+    LARARIUM_ASSIGN_OR_RETURN(
+        const double end, ReadNumber(field, "end", kMaxActionSeconds, begin, kMaxActionSeconds));
     sound.begin = static_cast<float>(begin);
     sound.end = static_cast<float>(end);
     if (field.Has("loop")) {
@@ -497,7 +481,7 @@ class UseReader {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView list, root_.Field("sounds"));
     LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxSounds));
     for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(CheckFields(item, {"name", "states", "at", "gain_db"}));
+      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"name", "states", "at", "gain_db"}));
       StateSound sound;
       LARARIUM_ASSIGN_OR_RETURN(sound.name, item.Text("name", kMaxNameBytes));
       LARARIUM_ASSIGN_OR_RETURN(sound.states, ReadStateSet(item, "states"));
@@ -518,7 +502,7 @@ class UseReader {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("moves"));
     LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxKeys));
     for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(CheckFields(item, {"part", "to", "begin", "end"}));
+      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"part", "to", "begin", "end"}));
       ObjectAction::Move move;
       LARARIUM_RETURN_IF_ERROR(item.Field("part").status());
       LARARIUM_ASSIGN_OR_RETURN(const int part, ReadPartIndex(item, "part"));
@@ -552,7 +536,7 @@ class UseReader {
     LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxKeys));
     double last = 0.0;
     for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(CheckFields(item, {"t", "at", "turn", "heading"}));
+      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"t", "at", "turn", "heading"}));
       LARARIUM_ASSIGN_OR_RETURN(last, item.Number("t", last, action.duration));
       LARARIUM_ASSIGN_OR_RETURN(const Pose pose, ReadPose(item));
       action.path.push_back({static_cast<float>(last), pose});
@@ -565,7 +549,7 @@ class UseReader {
       return Status();
     }
     LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field("footprint"));
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"outline", "states"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"outline", "states"}));
     LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("outline"));
     LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(kMaxOutline));
     for (const JsonView& item : items) {
@@ -602,18 +586,19 @@ class UseReader {
       return Status();
     }
     LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field("carry"));
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"hands", "at", "heading", "turn"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"hands", "at", "heading", "turn"}));
     Carry carry;
     LARARIUM_ASSIGN_OR_RETURN(carry.hands, ReadHands(view));
     const auto hands =
         std::count_if(carry.hands.begin(), carry.hands.end(), [](int grip) { return grip >= 0; });
     if (hands == 0) {
-      return view.Problem("somebody's hands must hold it", "name a grip in \"hands\"");
+      return view.Problem("at least one hand must hold the object", "name a grip in \"hands\"");
     }
     if (view.Has("at")) {
       LARARIUM_ASSIGN_OR_RETURN(carry.holder_from_object, ReadPose(view));
     } else if (hands == 2) {
-      return view.Problem("what both hands hold must say where", "add \"at\"");
+      return view.Problem("the position of an object that both hands carry is missing",
+                          "add \"at\"");
     }
     use_.carry = carry;
     return Status();
@@ -628,7 +613,7 @@ class UseReader {
       return Status();
     }
     LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field("queue"));
-    LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"at", "heading", "step"}));
+    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"at", "heading", "step"}));
     LARARIUM_ASSIGN_OR_RETURN(use_.queue, ReadStanding(view));
     if (view.Has("step")) {
       LARARIUM_ASSIGN_OR_RETURN(const JsonView step, view.Field("step"));
@@ -659,7 +644,7 @@ PartBounds BoundsOf(const PropPart& part) {
   return bounds;
 }
 
-// Of every part at rest; the parts' places in the object go to object_from_part.
+// Bounds of all parts at rest, object frame.
 void ComputeBounds(const Prop& prop, glm::vec3& lower, glm::vec3& upper) {
   lower = glm::vec3(std::numeric_limits<float>::max());
   upper = -lower;
@@ -677,12 +662,12 @@ void ComputeBounds(const Prop& prop, glm::vec3& lower, glm::vec3& upper) {
       }
     }
   }
-  if (lower.x > upper.x) {  // nothing to be seen
+  if (lower.x > upper.x) {  // No vertices.
     lower = upper = glm::vec3(0.0f);
   }
 }
 
-// What stays where it is and says nothing else is in the way as its bounds are.
+// An object that cannot be carried and gives no footprint blocks its bounding box.
 void AddDefaultFootprint(const glm::vec3& lower, const glm::vec3& upper, ObjectUse& use) {
   if (upper.x > lower.x && upper.z > lower.z) {
     use.footprint.outline = {

@@ -10,11 +10,11 @@ namespace lararium::stage {
 namespace {
 
 constexpr int kSchema = 1;
-constexpr size_t kMaxClaims = 10'000;  // of one kind
+constexpr size_t kMaxClaims = 10'000;  // Per subject.
 constexpr size_t kMaxSources = 1000;
 constexpr size_t kMaxLanguages = 64;
-constexpr size_t kMaxName = 200;   // bytes
-constexpr size_t kMaxText = 4000;  // likewise
+constexpr size_t kMaxAuthorName = 200;  // Bytes.
+constexpr size_t kMaxClaimText = 4000;  // Bytes.
 
 constexpr std::array<std::string_view, kCertaintyCount> kCertainties = {"", "attested", "inferred",
                                                                         "imagined"};
@@ -22,22 +22,10 @@ constexpr std::array<std::string_view, kSubjectCount> kSubjects = {
     "people", "garments", "clips",     "objects", "sounds",
     "lines",  "places",   "occluders", "probes",  "scenes"};
 
-Status CheckFields(const JsonView& view, std::initializer_list<std::string_view> known) {
-  if (!view.json().is_object()) {
-    return view.Problem("must be an object");
-  }
-  for (const auto& [key, value] : view.json().items()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      return view.Problem("the field \"" + key + "\" is not known",
-                          "correct its name, or remove it");
-    }
-  }
-  return Status();
-}
-
-// Names and references are a line; what visitors read may have several.
+// Reads a text without control characters. Names and references have one line; texts for visitors
+// may have several.
 Result<std::string> PlainText(const JsonView& view, bool one_line) {
-  LARARIUM_ASSIGN_OR_RETURN(std::string text, view.Text(kMaxText));
+  LARARIUM_ASSIGN_OR_RETURN(std::string text, view.Text(kMaxClaimText));
   const bool plain = std::all_of(text.begin(), text.end(), [one_line](char c) {
     return (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || (c == '\n' && !one_line);
   });
@@ -55,7 +43,7 @@ Status ParseOptionalText(const JsonView& view, std::string_view key, std::string
   return Status();
 }
 
-// The members of an object by name, each through parse.
+// Calls parse(name, member) for each member of an object.
 template <typename Parse>
 Status ParseMembers(const JsonView& view, size_t max_count, Parse parse) {
   if (!view.json().is_object() || view.json().size() > max_count) {
@@ -66,9 +54,9 @@ Status ParseMembers(const JsonView& view, size_t max_count, Parse parse) {
     const Json name_json = name;
     const Result<std::string> plain = PlainText(JsonView(name_json, member.place()), true);
     LARARIUM_RETURN_IF_ERROR(plain.status());
-    if (name.empty() || name.size() > kMaxName) {
-      return view.Problem("has a name that is empty or longer than " + std::to_string(kMaxName) +
-                          " bytes");
+    if (name.empty() || name.size() > kMaxAuthorName) {
+      return view.Problem("has a name that is empty or longer than " +
+                          std::to_string(kMaxAuthorName) + " bytes");
     }
     LARARIUM_RETURN_IF_ERROR(parse(name, member));
   }
@@ -79,7 +67,7 @@ Status ParseCertainty(const JsonView& view, Claim& claim) {
   if (!view.Has("certainty")) {
     return Status();
   }
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("certainty", kMaxName));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("certainty", kMaxAuthorName));
   const auto found = std::find(kCertainties.begin() + 1, kCertainties.end(), name);
   if (found == kCertainties.end()) {
     return view.Problem("\"certainty\" is '" + name + "'",
@@ -96,7 +84,7 @@ Status ParseSourcesOf(const JsonView& view, const Paradata& paradata, Claim& cla
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("source"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> keys, field.Array(kMaxSources));
   for (const JsonView& key : keys) {
-    LARARIUM_ASSIGN_OR_RETURN(std::string name, key.Text(kMaxName));
+    LARARIUM_ASSIGN_OR_RETURN(std::string name, key.Text(kMaxAuthorName));
     if (!paradata.sources.contains(name)) {
       return key.Problem("there is no source '" + name + "'", "list it in \"sources\"");
     }
@@ -106,7 +94,7 @@ Status ParseSourcesOf(const JsonView& view, const Paradata& paradata, Claim& cla
 }
 
 Result<Claim> ParseClaim(const JsonView& view, const Paradata& paradata) {
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"certainty", "source", "author", "licence", "text"}));
+  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"certainty", "source", "author", "licence", "text"}));
   Claim claim;
   LARARIUM_RETURN_IF_ERROR(ParseCertainty(view, claim));
   LARARIUM_RETURN_IF_ERROR(ParseSourcesOf(view, paradata, claim));
@@ -117,8 +105,8 @@ Result<Claim> ParseClaim(const JsonView& view, const Paradata& paradata) {
     LARARIUM_RETURN_IF_ERROR(ParseMembers(
         text, kMaxLanguages, [&](const std::string& language, const JsonView& member) -> Status {
           if (!IsLanguageTag(language)) {
-            return member.Problem("'" + language + "' is no language tag",
-                                  "use one like la, it or en");
+            return member.Problem("'" + language + "' is not a valid language tag",
+                                  "use one such as la, it or en");
           }
           LARARIUM_ASSIGN_OR_RETURN(claim.text[language], PlainText(member, false));
           return Status();
@@ -183,7 +171,7 @@ Result<Paradata> ParseParadata(std::string_view text, const std::string& place) 
                             ", this one reads up to " + std::to_string(kSchema) + ")",
                         "open it with that version");
   }
-  LARARIUM_RETURN_IF_ERROR(CheckFields(view, {"schema", "sources", "author", "licence", "claims"}));
+  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"schema", "sources", "author", "licence", "claims"}));
   Paradata paradata;
   LARARIUM_RETURN_IF_ERROR(ParseOptionalText(view, "author", paradata.author));
   LARARIUM_RETURN_IF_ERROR(ParseOptionalText(view, "licence", paradata.licence));
@@ -201,7 +189,7 @@ Result<Paradata> ParseParadata(std::string_view text, const std::string& place) 
         claims, kSubjectCount, [&](const std::string& kind, const JsonView& member) -> Status {
           const auto found = std::find(kSubjects.begin(), kSubjects.end(), kind);
           if (found == kSubjects.end()) {
-            return member.Problem("'" + kind + "' is nothing that claims are about",
+            return member.Problem("there are no claims about '" + kind + "'",
                                   "use people, objects, lines, ... (docs/file-formats.md)");
           }
           Paradata::Claims& of_kind =

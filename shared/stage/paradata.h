@@ -1,8 +1,8 @@
 #pragma once
 
-// What is known of the things of a show and how certain it is (The London Charter for the
-// computer-based visualisation of cultural heritage, 2.1, 2009: visitors should be able to
-// tell evidence from hypothesis). docs/file-formats.md has the text's form.
+// Paradata: what is known about the contents of a show and how certain it is (The London Charter
+// for the computer-based visualisation of cultural heritage, 2.1, 2009: visitors should be able to
+// tell evidence from hypothesis). docs/file-formats.md describes the file.
 
 #include <array>
 #include <cstdint>
@@ -18,15 +18,15 @@ namespace lararium::stage {
 
 enum class Certainty : uint8_t {
   kUnsaid,
-  kAttested,  // found, written or painted: evidence shows it
-  kInferred,  // from evidence about others of its kind
-  kImagined,  // nothing speaks for it, or against it
+  kAttested,  // Shown by evidence: a find, a text or a picture.
+  kInferred,  // Inferred from evidence about others of its kind.
+  kImagined,  // No evidence speaks for or against it.
 };
 inline constexpr size_t kCertaintyCount = 4;
-// "", "attested", "inferred", "imagined"
+// The name in files: "", "attested", "inferred", "imagined".
 std::string_view NameOf(Certainty certainty);
 
-// What a claim is about. A part of something is called "whole/part".
+// What a claim is about. The name of a part is "whole/part".
 enum class Subject : uint8_t {
   kPerson,
   kGarment,  // "keeper/tunic"
@@ -37,40 +37,42 @@ enum class Subject : uint8_t {
   kPlace,
   kOccluder,  // "maquette/counter"
   kProbe,     // "maquette/noon"
-  kScene,     // a marker of the drama; kWholeDrama
+  kScene,     // A marker of the drama, or kWholeDrama.
 };
 inline constexpr size_t kSubjectCount = 10;
 inline constexpr std::string_view kWholeDrama = "drama";
-// As files have it: "people", "garments", ...
+// The name in files: "people", "garments", ...
 std::string_view NameOf(Subject subject);
 
 struct Claim {
   Certainty certainty = Certainty::kUnsaid;
-  std::vector<std::string> sources;  // keys of Paradata::sources
-  std::string author;                // of the asset or the claim; empty: Paradata's
-  std::string licence;               // likewise
-  std::map<std::string, std::string, std::less<>> text;  // by language; what visitors read
+  std::vector<std::string> sources;  // Keys of Paradata::sources.
+  // Author and licence of the asset or the claim; empty: those of Paradata.
+  std::string author;
+  std::string licence;
+  std::map<std::string, std::string, std::less<>> text;  // Texts for visitors, by language.
 
-  // In a language, or else in English, or else in any; "" where there is none.
+  // The text in this language, else in English, else in any language; "" if there is none.
   std::string_view Text(std::string_view language) const;
 };
 
 struct Paradata {
-  using Claims = std::map<std::string, Claim, std::less<>>;  // by name
+  using Claims = std::map<std::string, Claim, std::less<>>;  // Keys are names.
 
-  std::map<std::string, std::string, std::less<>> sources;  // key to full reference
-  std::string author;                                       // where a claim names none
+  std::map<std::string, std::string, std::less<>> sources;  // Full references by key.
+  // Author and licence of claims that name none.
+  std::string author;
   std::string licence;
-  std::array<Claims, kSubjectCount> claims;  // by Subject
+  std::array<Claims, kSubjectCount> claims;  // Indexed by Subject.
 
   bool empty() const;
   const Claims& Of(Subject subject) const { return claims[static_cast<size_t>(subject)]; }
-  // nullptr: nothing is claimed.
+  // nullptr: there is no claim.
   const Claim* Find(Subject subject, std::string_view name) const;
 };
 
-// Checks every field; one that is not known, a source that is not listed and control
-// characters are errors. place: what errors call the text.
+// Checks every field. Errors: an unknown field, a source that is not listed, control characters.
+// Messages begin with `place`.
 Result<Paradata> ParseParadata(std::string_view text, const std::string& place);
 std::string FormatParadata(const Paradata& paradata);
 

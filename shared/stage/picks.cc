@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 
+#include "shared/core/units.h"
 #include "shared/geometry/triangulation.h"
 
 namespace lararium::stage {
@@ -17,17 +17,17 @@ namespace {
 
 using vision::Keyframe;
 using vision::SceneDatabase;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMinTriangulationAngle = 1.0 * kDegree;
-constexpr double kMinCorner = 3.0 * kDegree;   // at the origin, between forward and floor
-constexpr double kMinGrazing = 5.0 * kDegree;  // between a single pick's ray and its plane
+constexpr double kMinTriangulationAngle = 1.0 * kRadiansPerDegree;
+constexpr double kMinCorner =
+    3.0 * kRadiansPerDegree;  // Angle at the origin between `forward` and `floor`.
+constexpr double kMinGrazing =
+    5.0 * kRadiansPerDegree;  // Angle between a single pick's ray and its plane.
 constexpr size_t kMaxPlanePoints = 24;
 constexpr size_t kMinPlanePoints = 6;
-constexpr double kPlaneRadius = 0.15;  // of the image width
+constexpr double kPlaneRadius = 0.15;  // Fraction of the image width.
 
 // A pick that lies in a keyframe of the map.
-struct Sight {
+struct Observation {
   uint32_t keyframe = 0;
   Eigen::Vector2d pixel;
 };
@@ -43,23 +43,23 @@ Status Problem(const Anchor& anchor, std::string_view problem, std::string_view 
   return Status::Error("stage: '" + anchor.name + "'", problem, remedy);
 }
 
-std::optional<Sight> FindSight(const Pick& pick, const SceneDatabase& database) {
+std::optional<Observation> FindObservation(const Pick& pick, const SceneDatabase& database) {
   const auto found = std::find_if(database.keyframes.begin(), database.keyframes.end(),
                                   [&](const Keyframe& keyframe) { return LiesIn(pick, keyframe); });
   if (found == database.keyframes.end() || !database.camera.Contains(pick.pixel)) {
     return std::nullopt;
   }
-  return Sight{static_cast<uint32_t>(found - database.keyframes.begin()), pick.pixel};
+  return Observation{static_cast<uint32_t>(found - database.keyframes.begin()), pick.pixel};
 }
 
-std::vector<Sight> FindSights(const Anchor& anchor, const SceneDatabase& database) {
-  std::vector<Sight> sights;
+std::vector<Observation> FindObservations(const Anchor& anchor, const SceneDatabase& database) {
+  std::vector<Observation> observations;
   for (const Pick& pick : anchor.picks) {
-    if (const std::optional<Sight> sight = FindSight(pick, database)) {
-      sights.push_back(*sight);
+    if (const std::optional<Observation> observation = FindObservation(pick, database)) {
+      observations.push_back(*observation);
     }
   }
-  return sights;
+  return observations;
 }
 
 std::string FrameName(const Pick& pick) {
@@ -70,15 +70,15 @@ std::string FrameName(const Pick& pick) {
 std::vector<std::string> FramesLeftOut(const Anchor& anchor, const SceneDatabase& database) {
   std::vector<std::string> frames;
   for (const Pick& pick : anchor.picks) {
-    if (!FindSight(pick, database)) {
+    if (!FindObservation(pick, database)) {
       frames.push_back(FrameName(pick));
     }
   }
   return frames;
 }
 
-// "no pick lies in a keyframe of this map", and where they lie.
-std::string NoSight(const Anchor& anchor, const SceneDatabase& database) {
+// The problem that no pick lies in a keyframe of this map, with the frames of the picks.
+std::string NoObservation(const Anchor& anchor, const SceneDatabase& database) {
   std::string text = "no pick lies in a keyframe of this map";
   const std::vector<std::string> frames = FramesLeftOut(anchor, database);
   constexpr size_t kMaxNamed = 4;
@@ -89,11 +89,11 @@ std::string NoSight(const Anchor& anchor, const SceneDatabase& database) {
   return frames.empty() ? text : text + ")";
 }
 
-// Where a keyframe sees points of the map. One that shaped the map has observed
-// them; one that was located afterwards sees those that face it.
+// Pixels and indices of the map points that a keyframe sees. A keyframe that was used to build the
+// map has observations; for one that was located later, the points that face it are projected.
 std::vector<std::pair<Eigen::Vector2d, uint32_t>> SeenPoints(uint32_t keyframe,
                                                              const SceneDatabase& database) {
-  std::vector<std::pair<Eigen::Vector2d, uint32_t>> seen;  // pixel, point
+  std::vector<std::pair<Eigen::Vector2d, uint32_t>> seen;  // Pixel and index into `points`.
   const auto begin = std::lower_bound(
       database.observations.begin(), database.observations.end(), keyframe,
       [](const vision::Observation& o, uint32_t wanted) { return o.keyframe < wanted; });
@@ -115,11 +115,12 @@ std::vector<std::pair<Eigen::Vector2d, uint32_t>> SeenPoints(uint32_t keyframe,
   return seen;
 }
 
-// Points of the map that are seen around a pixel of a keyframe, nearest first.
-std::vector<Eigen::Vector3d> PointsAround(const Sight& sight, const SceneDatabase& database) {
-  std::vector<std::pair<double, uint32_t>> near;  // distance in pixels, point
-  for (const auto& [pixel, point] : SeenPoints(sight.keyframe, database)) {
-    const double distance = (pixel - sight.pixel).norm();
+// Map points around the pixel of an observation, nearest first.
+std::vector<Eigen::Vector3d> PointsAround(const Observation& observation,
+                                          const SceneDatabase& database) {
+  std::vector<std::pair<double, uint32_t>> near;  // Distance in pixels and index into `points`.
+  for (const auto& [pixel, point] : SeenPoints(observation.keyframe, database)) {
+    const double distance = (pixel - observation.pixel).norm();
     if (distance <= kPlaneRadius * database.camera.width) {
       near.emplace_back(distance, point);
     }
@@ -171,9 +172,8 @@ Plane LeastSquaresPlane(std::span<const Eigen::Vector3d> points) {
   return {normal, normal.dot(mean)};
 }
 
-// Least median of squares (Rousseeuw, "Least Median of Squares Regression", JASA
-// 1984) over all triples, then least squares on the inliers. Up to half of the
-// points may lie elsewhere.
+// Least median of squares (Rousseeuw, "Least Median of Squares Regression", JASA 1984) over all
+// triples, then least squares on the inliers. Tolerates up to half of the points as outliers.
 std::optional<Plane> FitPlane(std::span<const Eigen::Vector3d> points) {
   std::optional<Plane> best;
   double best_median = 0.0;
@@ -204,98 +204,105 @@ std::optional<Plane> FitPlane(std::span<const Eigen::Vector3d> points) {
 }
 
 Result<Eigen::Vector3d> PointOnPlane(const Anchor& anchor,
-                                     const Sight& sight,
+                                     const Observation& observation,
                                      const SceneDatabase& database) {
   constexpr char kRemedy[] = "pick it in a second training image as well";
-  const std::vector<Eigen::Vector3d> points = PointsAround(sight, database);
+  const std::vector<Eigen::Vector3d> points = PointsAround(observation, database);
   if (points.size() < kMinPlanePoints) {
-    return Problem(anchor, "one pick, and too few points of the map around it", kRemedy);
+    return Problem(anchor, "there is only one pick, with too few points of the map around it",
+                   kRemedy);
   }
   const std::optional<Plane> plane = FitPlane(points);
   if (!plane) {
-    return Problem(anchor, "one pick, and the points of the map around it lie on a line", kRemedy);
+    return Problem(anchor,
+                   "there is only one pick, and the points of the map around it lie on a line",
+                   kRemedy);
   }
   const geometry::Rigid3 map_from_camera =
-      database.keyframes[sight.keyframe].camera_from_map.Inverse();
-  const Eigen::Vector2d on_plane = database.camera.PlaneFromPixel(sight.pixel);
+      database.keyframes[observation.keyframe].camera_from_map.Inverse();
+  const Eigen::Vector2d on_plane = database.camera.PlaneFromPixel(observation.pixel);
   const Eigen::Vector3d ray = (map_from_camera.rotation * on_plane.homogeneous()).normalized();
   const Eigen::Vector3d& center = map_from_camera.translation;
   const double sine = plane->normal.dot(ray);
   const double depth = (plane->offset - plane->normal.dot(center)) / sine;
   if (std::abs(sine) < std::sin(kMinGrazing) || depth <= 0.0) {
-    return Problem(anchor, "one pick, and the surface there is seen edge on", kRemedy);
+    return Problem(anchor, "there is only one pick, in an image that shows the surface edge on",
+                   kRemedy);
   }
   return Eigen::Vector3d(center + depth * ray);
 }
 
 Result<Eigen::Vector3d> LocateAnchor(const Anchor& anchor,
-                                     std::span<const Sight> sights,
+                                     std::span<const Observation> observations,
                                      const SceneDatabase& database) {
-  if (sights.empty()) {
-    return Problem(anchor, NoSight(anchor, database),
+  if (observations.empty()) {
+    return Problem(anchor, NoObservation(anchor, database),
                    "pick it in one of the keyframes, better in two");
   }
-  if (sights.size() == 1) {
-    return PointOnPlane(anchor, sights[0], database);
+  if (observations.size() == 1) {
+    return PointOnPlane(anchor, observations[0], database);
   }
   std::vector<geometry::Rigid3> cameras;
   std::vector<Eigen::Vector2d> plane_points;
-  for (const Sight& sight : sights) {
-    cameras.push_back(database.keyframes[sight.keyframe].camera_from_map);
-    plane_points.push_back(database.camera.PlaneFromPixel(sight.pixel));
+  for (const Observation& observation : observations) {
+    cameras.push_back(database.keyframes[observation.keyframe].camera_from_map);
+    plane_points.push_back(database.camera.PlaneFromPixel(observation.pixel));
   }
   const std::optional<Eigen::Vector3d> point = geometry::TriangulatePoint(cameras, plane_points);
   if (!point) {
-    return Problem(anchor, "the picks do not meet in a point before the cameras",
+    return Problem(anchor, "the picks do not meet in a point in front of the cameras",
                    "pick the same point in keyframes taken from different places");
   }
   return *point;
 }
 
-double WidestAngle(std::span<const Sight> sights,
+double WidestAngle(std::span<const Observation> observations,
                    const Eigen::Vector3d& point,
                    const SceneDatabase& database) {
   double widest = 0.0;
-  for (size_t i = 0; i < sights.size(); ++i) {
-    for (size_t j = i + 1; j < sights.size(); ++j) {
+  for (size_t i = 0; i < observations.size(); ++i) {
+    for (size_t j = i + 1; j < observations.size(); ++j) {
       widest = std::max(
-          widest, geometry::TriangulationAngle(
-                      database.keyframes[sights[i].keyframe].camera_from_map.Center(),
-                      database.keyframes[sights[j].keyframe].camera_from_map.Center(), point));
+          widest,
+          geometry::TriangulationAngle(
+              database.keyframes[observations[i].keyframe].camera_from_map.Center(),
+              database.keyframes[observations[j].keyframe].camera_from_map.Center(), point));
     }
   }
   return widest;
 }
 
-double ReprojectionError(std::span<const Sight> sights,
+double ReprojectionError(std::span<const Observation> observations,
                          const Eigen::Vector3d& point,
                          const SceneDatabase& database) {
   double sum = 0.0;
-  for (const Sight& sight : sights) {
-    const geometry::Rigid3& camera_from_map = database.keyframes[sight.keyframe].camera_from_map;
+  for (const Observation& observation : observations) {
+    const geometry::Rigid3& camera_from_map =
+        database.keyframes[observation.keyframe].camera_from_map;
     const auto pixel = database.camera.Project(camera_from_map * point);
-    sum += pixel ? (*pixel - sight.pixel).squaredNorm() : 0.0;
+    sum += pixel ? (*pixel - observation.pixel).squaredNorm() : 0.0;
   }
-  return std::sqrt(sum / static_cast<double>(sights.size()));
+  return std::sqrt(sum / static_cast<double>(observations.size()));
 }
 
-// Sum of squared changes of something that depends on the anchor's point when each coordinate of
-// each pick moves by one pixel: central differences over half pixels, through the whole solution.
-// squared_change(a, b): of it from a point to another.
+// Variance of a quantity that depends on the anchor's point, if each coordinate of each pick has a
+// standard deviation of one pixel: the sum of its squared changes, by central differences over half
+// pixels through the whole solution. squared_change(a, b) is the squared change from point a to
+// point b.
 template <typename SquaredChange>
 double Variance(const Anchor& anchor,
                 const SceneDatabase& database,
                 const SquaredChange& squared_change) {
   double variance = 0.0;
-  std::vector<Sight> sights = FindSights(anchor, database);
-  for (Sight& sight : sights) {
+  std::vector<Observation> observations = FindObservations(anchor, database);
+  for (Observation& observation : observations) {
     for (int axis = 0; axis < 2; ++axis) {
-      const double exact = sight.pixel[axis];
-      sight.pixel[axis] = exact - 0.5;
-      const Result<Eigen::Vector3d> before = LocateAnchor(anchor, sights, database);
-      sight.pixel[axis] = exact + 0.5;
-      const Result<Eigen::Vector3d> after = LocateAnchor(anchor, sights, database);
-      sight.pixel[axis] = exact;
+      const double exact = observation.pixel[axis];
+      observation.pixel[axis] = exact - 0.5;
+      const Result<Eigen::Vector3d> before = LocateAnchor(anchor, observations, database);
+      observation.pixel[axis] = exact + 0.5;
+      const Result<Eigen::Vector3d> after = LocateAnchor(anchor, observations, database);
+      observation.pixel[axis] = exact;
       variance += before.ok() && after.ok() ? squared_change(*before, *after)
                                             : std::numeric_limits<double>::infinity();
     }
@@ -303,7 +310,7 @@ double Variance(const Anchor& anchor,
   return variance;
 }
 
-// Of the anchor's distance from other.
+// Variance of the anchor's distance from `other`.
 double DistanceVariance(const Anchor& anchor,
                         const Eigen::Vector3d& other,
                         const SceneDatabase& database) {
@@ -313,7 +320,7 @@ double DistanceVariance(const Anchor& anchor,
   });
 }
 
-// +Y of the stage, in the map.
+// +Y of the stage, map frame.
 Result<Eigen::Vector3d> UpDirection(const Anchor& floor_anchor,
                                     const Eigen::Vector3d& origin,
                                     const Eigen::Vector3d& forward,
@@ -341,16 +348,17 @@ bool LiesIn(const Pick& pick, const Keyframe& keyframe) {
 }
 
 Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& database) {
-  const std::vector<Sight> sights = FindSights(anchor, database);
-  LARARIUM_ASSIGN_OR_RETURN(const Eigen::Vector3d point, LocateAnchor(anchor, sights, database));
-  const double angle = WidestAngle(sights, point, database);
-  if (sights.size() > 1 && angle < kMinTriangulationAngle) {
+  const std::vector<Observation> observations = FindObservations(anchor, database);
+  LARARIUM_ASSIGN_OR_RETURN(const Eigen::Vector3d point,
+                            LocateAnchor(anchor, observations, database));
+  const double angle = WidestAngle(observations, point, database);
+  if (observations.size() > 1 && angle < kMinTriangulationAngle) {
     return Problem(anchor, "the picks see it from almost the same direction",
                    "pick it in keyframes taken farther apart");
   }
   return AnchorReport{anchor.name,
-                      static_cast<int>(sights.size()),
-                      ReprojectionError(sights, point, database),
+                      static_cast<int>(observations.size()),
+                      ReprojectionError(observations, point, database),
                       angle,
                       point,
                       FramesLeftOut(anchor, database)};
@@ -386,7 +394,7 @@ Result<StageSolution> SolveStage(const StagePicks& picks,
   StageSolution solution;
   const Eigen::Vector3d back = (origin.point_in_map - forward.point_in_map).normalized();
   Eigen::Matrix3d map_from_stage;
-  map_from_stage << up.cross(back), up, back;  // the images of X, Y and Z
+  map_from_stage << up.cross(back), up, back;  // The columns are the images of X, Y and Z.
   const double scale = map_units_per_metre.value_or(length / picks.length_m);
   solution.measured_length_m = length / scale;
   solution.map_from_stage = {scale, Eigen::Quaterniond(map_from_stage).normalized(),

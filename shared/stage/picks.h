@@ -1,7 +1,7 @@
 #pragma once
 
-// Ties the stage to a place by points picked in training images. The picks
-// outlive the map: after training again the same picks give the same stage.
+// Registers the stage in a place from points picked in training images. Picks outlive the map:
+// after another training the same picks give the same stage.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -15,71 +15,71 @@
 
 namespace lararium::stage {
 
-// A point of the place as it is seen in one training image.
+// One point of the place, picked in one training image.
 struct Pick {
-  int64_t frame_index = -1;  // in the video or folder
-  std::string frame;         // name of the image; empty: the index alone decides
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // raw (distorted)
-  uint32_t session = 0;                             // the recording that the frame is of
+  int64_t frame_index = -1;                         // Index in the video or folder.
+  std::string frame;                                // Name of the image; empty: not compared.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // Raw (distorted) pixel.
+  uint32_t session = 0;                             // Recording of the frame.
 };
 
 // Whether a pick was made in this keyframe.
 bool LiesIn(const Pick& pick, const vision::Keyframe& keyframe);
 
-// One point of the place. With picks in two or more keyframes it is
-// triangulated. With one it is where the pick's ray meets the plane through the
-// map points that are seen around it: good on walls and floors.
+// One point of the place. Picks in two or more keyframes are triangulated. A single pick gives the
+// point where its ray meets the plane through the surrounding map points, which works on walls and
+// floors.
 struct Anchor {
   std::string name;
   std::vector<Pick> picks;
 };
 
 struct StagePicks {
-  Anchor origin;   // the stage's origin
-  Anchor forward;  // the stage's -Z axis points from origin to here
-  // A third point of the floor, off that line. +Y is the normal of the plane
-  // through all three, on the side where the cameras are.
+  Anchor origin;   // The origin of the stage.
+  Anchor forward;  // The stage's -Z axis points from `origin` to here.
+  // A third point of the floor, off that line. +Y is the normal of the plane through all three
+  // points, on the side of the cameras.
   Anchor floor;
-  // length_m metres lie between these two; without picks they stand for origin
-  // and forward.
+  // The distance between these two is length_m. Without picks they default to `origin` and
+  // `forward`.
   Anchor length_from;
   Anchor length_to;
   double length_m = 1.0;
 };
 
-// How well one anchor is known.
+// Position and accuracy of one anchor.
 struct AnchorReport {
   std::string name;
-  int picks = 0;          // that were used: in keyframes of this map
-  double error_px = 0.0;  // root mean square reprojection error
-  double angle = 0.0;     // widest angle between the picks' rays; 0 of a single pick
+  int picks = 0;          // Picks that were used because they lie in keyframes of this map.
+  double error_px = 0.0;  // Root mean square reprojection error, pixels.
+  double angle = 0.0;     // Widest angle between the picks' rays, radians; 0 for a single pick.
   Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
-  std::vector<std::string> left_out;  // frames of picks that are no keyframes of this map
+  std::vector<std::string> left_out;  // Frames of picks that are not keyframes of this map.
 };
 
-// Where the anchor lies in the map. Errors name it, and what to pick instead.
+// Locates the anchor in the map. Errors name the anchor and what to pick instead.
 Result<AnchorReport> SolveAnchor(const Anchor& anchor, const vision::SceneDatabase& database);
 
-// Standard deviation of the anchor's point, were every pick off by one pixel (first order);
-// map units. Infinite where it could then not be located any more. The anchor has to be one that
-// SolveAnchor() locates.
+// Locates the anchor in the map. Errors name the anchor and what to pick instead.
+// Standard deviation of the anchor's point, in map units, if every pick coordinate has a standard
+// deviation of one pixel (first order). Infinite if such an error makes the point impossible to
+// locate. Requires that SolveAnchor() succeeds.
 double AnchorSpread(const Anchor& anchor, const vision::SceneDatabase& database);
 
 struct StageSolution {
   geometry::Similarity3 map_from_stage;
   std::vector<AnchorReport> anchors;
-  // Standard deviation of the known length relative to itself, were every pick
-  // off by one pixel (first order, through the whole solution).
+  // Relative standard deviation of the known length, if every pick coordinate has a standard
+  // deviation of one pixel (first order, through the whole solution).
   double length_spread = 0.0;
-  // The known length as the stage's metres have it: another one than the picks'
-  // length_m only where the scale was given.
+  // The known length in metres of the stage. Differs from StagePicks::length_m only if the scale
+  // was given.
   double measured_length_m = 0.0;
 };
 
-// map_units_per_metre: the scale, where it is known from elsewhere; the picks'
-// known length is only measured then. Errors name the anchor and what to pick
-// instead: no pick in a keyframe of this map (and in which frames they lie), rays
-// too parallel, points on a line or in one place.
+// map_units_per_metre: the scale, if it is known from elsewhere; the known length is then only
+// measured. Errors name the anchor and what to pick instead: no pick in a keyframe of this map
+// (with the frames of the picks), rays too parallel, points on one line or in one place.
 Result<StageSolution> SolveStage(const StagePicks& picks,
                                  const vision::SceneDatabase& database,
                                  std::optional<double> map_units_per_metre = std::nullopt);

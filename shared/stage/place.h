@@ -1,7 +1,7 @@
 #pragma once
 
-// A real place on which dramas are staged: how its map lies under the stage,
-// what hides people there, and the light that falls on them.
+// A real place where dramas are staged: the transform from stage to map, the occluders, the light
+// and the acoustics.
 
 #include <Eigen/Core>
 #include <optional>
@@ -16,33 +16,33 @@
 
 namespace lararium::stage {
 
-// Something real that hides what is behind it; drawn into depth only. What else it does:
+// A real object that hides what is behind it. It is drawn into the depth buffer only.
 struct Occluder {
   std::string name;
   geometry::TriangleMesh mesh;
-  geometry::Similarity3 stage_from_mesh;  // the mesh may be modelled in any unit
+  geometry::Similarity3 stage_from_mesh;  // The mesh may be modelled in any unit.
   bool blocks_sound = true;
-  bool blocks_walking = true;   // nobody walks through it
-  bool receives_shadow = true;  // people darken it, and the drama's lamps brighten it
+  bool blocks_walking = true;   // Actors cannot walk through it.
+  bool receives_shadow = true;  // Actors cast shadows on it, and the drama's lamps light it.
 };
 
 struct Place {
   std::string name;
-  // The stage: metres, right-handed, Y up, -Z forward. The map: as trained.
+  // Stage frame: metres, right-handed, Y up, -Z forward. The map frame is that of the training.
   geometry::Similarity3 map_from_stage;
   // Moves the camera along its own axes, in metres: x right, y down, z forward.
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();
   std::vector<Occluder> occluders;
-  std::vector<light::PlacedProbe> probes;  // light in stage axes; none: dark
-  // Of the camera that films it, where it was measured: people are made alike.
+  std::vector<light::PlacedProbe> probes;  // Light, in stage axes; empty: dark.
+  // Measured noise and blur of the camera that films the place; drawn people are matched to it.
   std::optional<light::CameraTraits> camera = std::nullopt;
   Acoustics acoustics;
 };
 
-// The pose from which the stage is drawn: rigid and metric, nudge applied.
+// Pose from which the stage is drawn: rigid, metric and with the nudge applied.
 geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& camera_from_map);
 
-// Whether the same things are in people's way at both.
+// Whether both places have the same occluders that block walking.
 bool BlockWalkingAlike(const Place& a, const Place& b);
 
 }  // namespace lararium::stage

@@ -42,7 +42,7 @@ Status ValidatePart(const Prop& prop, size_t index, const std::string& place) {
 
 Status ValidateLight(const Prop& prop, const std::string& place) {
   if (prop.light_shown.size() != prop.light.key_poses.size()) {
-    return Status::Error(place, "does not say which parts are there at the key poses of its light",
+    return Status::Error(place, "does not say which parts are shown in the key poses of its light",
                          "bake the project again");
   }
   std::vector<human::LightTransfer::Surface> surfaces;
@@ -68,14 +68,14 @@ Status PropMesh::Validate(size_t material_count, const std::string& place) const
       !std::all_of(uvs.begin(), uvs.end(), [](const glm::vec2& uv) {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
       })) {
-    return Status::Error(place, "a position, normal or texture coordinate is not a possible one");
+    return Status::Error(place, "a position, normal or texture coordinate is not valid");
   }
   if (!std::all_of(albedo.begin(), albedo.end(),
                    [](const glm::vec3& a) { return LiesBetween(a, 0.0f, 1.0f); })) {
     return Status::Error(place, "an albedo is outside 0..1");
   }
   if (!LiesBetween(emission, 0.0f, kMaxEmission)) {
-    return Status::Error(place, "its emission is no possible radiance");
+    return Status::Error(place, "its emission is out of range");
   }
   if (material != human::Material::kNone &&
       (material < 0 || static_cast<size_t>(material) >= material_count)) {

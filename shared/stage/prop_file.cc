@@ -8,9 +8,9 @@
 namespace lararium::stage {
 namespace {
 
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kPropVersion = 1;
 constexpr char kRemedy[] = "import the object again";
-constexpr FlatbufferKind kKind = {".larprop", kVersion, kRemedy};
+constexpr FlatbufferKind kPropKind = {".larprop", kPropVersion, kRemedy};
 
 void ReadLevel(const prop_fb::LevelOfDetail& from, BlockReader& reader, human::LevelOfDetail& to) {
   to.error = from.error();
@@ -86,7 +86,7 @@ void ReadLight(const prop_fb::LightTransfer* from, BlockReader& reader, Prop& pr
   reader.ReadTables(from->meshes(), prop.light.meshes, ReadMeshLight);
 }
 
-// Of a buffer whose structure has been verified.
+// Reads a buffer whose structure has been verified.
 Result<Prop> ReadProp(const prop_fb::Prop& from, size_t file_size, const std::string& place) {
   BlockReader reader(file_size);
   Prop prop;
@@ -149,7 +149,7 @@ auto WriteMeshLight(flatbuffers::FlatBufferBuilder& builder,
   return prop_fb::CreateMeshLight(builder, receivers, weights, coefficients, scale, backs);
 }
 
-// Nothing where nothing was baked.
+// Returns a null offset if no light was baked.
 flatbuffers::Offset<prop_fb::LightTransfer> WriteLight(flatbuffers::FlatBufferBuilder& builder,
                                                        const Prop& prop) {
   if (prop.light.empty()) {
@@ -176,7 +176,7 @@ Result<Prop> ParseProp(std::span<const std::byte> bytes, const std::string& plac
   }
   LARARIUM_ASSIGN_OR_RETURN(
       const prop_fb::Prop* from,
-      OpenFlatbuffer<prop_fb::Prop>(bytes, prop_fb::PropIdentifier(), kKind, place));
+      OpenFlatbuffer<prop_fb::Prop>(bytes, prop_fb::PropIdentifier(), kPropKind, place));
   return ReadProp(*from, bytes.size(), place);
 }
 
@@ -190,7 +190,7 @@ std::vector<std::byte> SerializeProp(const Prop& prop) {
   const auto use = builder.CreateString(prop.use);
   const auto credits = builder.CreateString(prop.credits);
   const auto light = WriteLight(builder, prop);
-  prop_fb::FinishPropBuffer(builder, prop_fb::CreateProp(builder, kVersion, name, textures,
+  prop_fb::FinishPropBuffer(builder, prop_fb::CreateProp(builder, kPropVersion, name, textures,
                                                          materials, parts, use, credits, light));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};

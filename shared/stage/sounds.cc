@@ -7,7 +7,7 @@
 namespace lararium::stage {
 namespace {
 
-// It has faded out.
+// Whether the sound has faded out.
 bool IsSilent(const StageSound& sound) {
   return sound.stopped != StageSound::kPlays &&
          static_cast<double>(sound.ticks - sound.stopped) * Sounds::kTickSeconds >=

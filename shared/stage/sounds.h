@@ -1,7 +1,7 @@
 #pragma once
 
-// The sounds that a drama plays by itself: bells, voices from nowhere, music. Those of
-// people and objects follow from what they do.
+// Sounds that the drama plays explicitly, such as bells, voices or music. Sounds of people and
+// objects are not listed here: they follow from the state of the stage.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -18,24 +18,23 @@
 
 namespace lararium::stage {
 
-// One that is heard.
+// A sound that is playing.
 struct StageSound {
   enum class At : uint8_t { kListener, kPoint, kActor, kObject };
 
-  uint32_t number = 0;  // which of all that were played; 0 is none
-  int sound = -1;       // index of the known sounds
-  int64_t ticks = 0;    // since it began
+  uint32_t number = 0;  // Consecutive number of the playback; 0: none.
+  int sound = -1;       // Index of a sound that Sounds::Add added.
+  int64_t ticks = 0;    // Ticks since the sound began.
   bool loops = false;
   float gain_db = 0.0f;
   At at = At::kListener;
-  glm::vec3 point = glm::vec3(0.0f);  // stage
+  glm::vec3 point = glm::vec3(0.0f);  // Stage frame, for At::kPoint.
   ActorId actor;
   ObjectId object;
-  // How it comes and goes.
-  float fade = 0.0f;      // seconds
-  float fade_out = 0.0f;  // likewise, once it is told to stop
+  float fade = 0.0f;      // Fade-in, seconds.
+  float fade_out = 0.0f;  // Fade-out after a stop, seconds.
   Ease ease = Ease::kLinear;
-  int64_t stopped = kPlays;  // ticks when it was told to stop
+  int64_t stopped = kPlays;  // Value of `ticks` when the sound was stopped.
 
   static constexpr int64_t kPlays = -1;
 
@@ -47,26 +46,26 @@ class Sounds {
   static constexpr size_t kMaxPlaying = 64;
   static constexpr double kTickSeconds = 1.0 / Navigation::kTicksPerSecond;
 
-  // Names are unique. seconds: after which it is over, unless it loops.
+  // Names must be unique. `seconds` is the length of the sound; a looping sound ignores it.
   Status Add(std::string name, double seconds);
   std::optional<int> Find(std::string_view name) const;
   size_t size() const { return known_.size(); }
   double seconds(int sound) const { return known_[static_cast<size_t>(sound)].seconds; }
 
-  // Begins now; its number. 0: too many are heard at once.
+  // Starts a sound and returns its number; 0: kMaxPlaying sounds are already playing.
   uint32_t Play(const StageSound& sound);
-  // Wherever it is heard: fades out in so many seconds, then is over.
+  // Fades out all playbacks of a sound within `seconds` and ends them.
   void StopAll(int sound, double seconds = 0.0);
-  // The share of its gain that is heard now, by its fades.
+  // Factor of the gain at present because of fade-in and fade-out, 0..1.
   static float Share(const StageSound& sound);
 
-  std::span<const StageSound> playing() const { return playing_; }  // oldest first
+  std::span<const StageSound> playing() const { return playing_; }  // Oldest first.
 
-  // One tick passes.
+  // Advances by one tick.
   void Advance();
   void Reset();
 
-  // What is to be kept to come back to.
+  // The complete state, to return to later.
   struct Checkpoint {
     std::vector<StageSound> playing;
     uint32_t last_number = 0;

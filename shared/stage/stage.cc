@@ -16,7 +16,7 @@ namespace {
 constexpr auto kTick = static_cast<float>(Stage::kTickSeconds);
 constexpr float kMovingPace = 0.1f;  // m/s
 
-// Differs between people, and is the same whenever somebody of that name is added.
+// The seed differs between names and is the same whenever an actor or object of that name is added.
 uint64_t SeedOf(std::string_view name) {
   uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
   for (const char c : name) {
@@ -25,14 +25,14 @@ uint64_t SeedOf(std::string_view name) {
   return hash | 1u;
 }
 
-// Everything of an actor that a drama changes, as Add leaves it.
+// Resets everything about an actor that a drama changes.
 void ResetActor(Actor& actor) {
   const std::string name = std::move(actor.name);
   const auto model = std::move(actor.model);
   actor = Actor();
   actor.name = name;
   actor.model = model;
-  actor.state.performance.seed = SeedOf(name);
+  actor.state.animation_state.seed = SeedOf(name);
   actor.attention.random = Random(SeedOf(name), 7);
   const int walk = FindClip(actor.human(), "walk");
   if (walk >= 0 && actor.human().clips[static_cast<size_t>(walk)].stride > 0.0f &&
@@ -60,7 +60,7 @@ float PaceOf(const World& world, const Actor& actor) {
   }
 }
 
-// Hours from one time of day to another, the shorter way round the clock.
+// Signed hours from one time of day to another, the shorter way round the clock.
 double HoursBetween(double from, double to) { return std::remainder(to - from, 24.0); }
 
 double OnTheClock(double hour) {
@@ -73,7 +73,7 @@ double OnTheClock(double hour) {
 Stage::Stage() : world_(std::make_unique<World>()), tasks_(*world_) {}
 Stage::~Stage() = default;
 
-// ---- who and what is there ----
+// ---- contents of the stage ----
 
 bool Stage::IsNameTaken(std::string_view name) const {
   return Find(name).has_value() || FindObject(name).has_value();
@@ -81,10 +81,10 @@ bool Stage::IsNameTaken(std::string_view name) const {
 
 Result<ActorId> Stage::Add(std::string name, std::shared_ptr<const human::Human> human) {
   CHECK(human != nullptr);
-  return Add(std::move(name), human::MakePerformanceModel(std::move(human)));
+  return Add(std::move(name), human::MakeAnimationRig(std::move(human)));
 }
 
-Result<ActorId> Stage::Add(std::string name, std::shared_ptr<const human::PerformanceModel> model) {
+Result<ActorId> Stage::Add(std::string name, std::shared_ptr<const human::AnimationRig> model) {
   CHECK(model != nullptr);
   if (IsNameTaken(name)) {
     return Status::Error("stage", "two actors or objects are called '" + name + "'",
@@ -249,7 +249,7 @@ Status Stage::BuildNavigation() {
   return Status();
 }
 
-// On a new floor.
+// Starts the current walks again on a new floor.
 void Stage::RestartWalks() {
   for (const ActorId id : world_->actor_ids) {
     Actor& actor = world_->actor(id);
@@ -274,7 +274,7 @@ void Stage::UpdateGates() {
   }
 }
 
-// ---- what a drama tells ----
+// ---- commands of the drama ----
 
 void Stage::Place(ActorId id, const glm::vec3& position, float heading) {
   Actor* actor = Find(id);
@@ -287,7 +287,7 @@ void Stage::Place(ActorId id, const glm::vec3& position, float heading) {
   }
   actor->state.position = position;
   actor->state.heading = heading;
-  actor->state.performance.sitting = {};
+  actor->state.animation_state.sitting = {};
 }
 
 void Stage::Show(ActorId id, bool visible) {
@@ -302,8 +302,8 @@ void Stage::Show(ActorId id, bool visible) {
     }
   }
   actor->state.visible = visible;
-  actor->state.performance.locomotion.placed = false;
-  actor->state.performance.sitting = {};
+  actor->state.animation_state.locomotion.placed = false;
+  actor->state.animation_state.sitting = {};
 }
 
 void Stage::Place(ObjectId id, const Pose& stage_from_object) {
@@ -342,7 +342,7 @@ Status Stage::PlaceOn(ObjectId id, const Support& support) {
                         .spots[static_cast<size_t>(support.spot)]
                         .place;
   if (place >= 0 && object->use().carry) {
-    // As somebody would have put it there.
+    // Turn the object as if an actor had put it there.
     const float heading = base->use().places[static_cast<size_t>(place)].heading;
     turned.turn = TurnBetween(HeadingOf(spot.rotation), heading + CarriedTurn(object->use()));
   }
@@ -370,8 +370,9 @@ void Stage::Say(ActorId id, int speech) {
     utterance = {speech, 0, true};
     return;
   }
-  actor->state.performance.face.visemes = {};
-  // Whoever waited for the end may be a tick early; what was broken off is not read on.
+  actor->state.animation_state.face.visemes = {};
+  // A script that waited for the end may be a tick early: that still counts as the end. The
+  // captions of a line that was broken off disappear at once.
   constexpr double kEarly = 1.5 * kTickSeconds;
   if (utterance.speaking && UtteredSeconds(utterance) < SpeechSeconds(utterance.line) - kEarly) {
     utterance = {};
@@ -398,7 +399,7 @@ void Stage::Gesture(ActorId id, int clip, human::BodyPart part) {
   if (actor == nullptr) {
     return;
   }
-  human::Animation& animation = actor->state.performance.animation;
+  human::Animation& animation = actor->state.animation_state.animation;
   if (actor->clip_ends < 0.0 && !actor->in_gait) {
     actor->clip_after = animation.clip;
   }
@@ -420,12 +421,12 @@ std::optional<glm::vec2> Stage::FindAway(ActorId id, glm::vec2 from, float metre
 
 // ---- time ----
 
-// A figure with a clip of walking walks by it, in step with its pace; one without
-// walks by itself, so that no other clip may move its legs.
+// An actor with a walking clip plays it at the rate of its pace. For one without, locomotion moves
+// the legs, so no other clip may move them.
 void Stage::AnimateWalk(Actor& actor) const {
-  human::Animation& animation = actor.state.performance.animation;
+  human::Animation& animation = actor.state.animation_state.animation;
   if (actor.clip_ends >= 0.0) {
-    return;  // a gesture
+    return;  // A gesture plays.
   }
   const float pace = PaceOf(*world_, actor);
   const bool moves = pace > kMovingPace;
@@ -518,7 +519,7 @@ void Stage::Describe(int speech, double patience) {
   description_.ticks_left = std::llround(patience / kTickSeconds);
 }
 
-// After everybody's utterances.
+// Must run after all utterances have advanced.
 void Stage::AdvanceDescription() {
   Utterance& heard = description_.heard;
   if (heard.line >= 0) {
@@ -563,11 +564,11 @@ void Stage::Advance() {
   for (const ActorId id : world_->actor_ids) {
     Actor& actor = world_->actor(id);
     AnimateWalk(actor);
-    human::UpdateAnimation(actor.state.performance.animation, kTickSeconds);
+    human::UpdateAnimation(actor.state.animation_state.animation, kTickSeconds);
     if (actor.clip_ends >= 0.0) {
       actor.clip_ends -= kTickSeconds;
       if (actor.clip_ends < 0.0) {
-        human::StartClip(actor.state.performance.animation,
+        human::StartClip(actor.state.animation_state.animation,
                          actor.in_gait ? actor.walk_clip : actor.clip_after, 1.0, kClipFade);
       }
     }
@@ -583,16 +584,16 @@ void Stage::Perform() {
     if (!actor.state.visible) {
       continue;
     }
-    human::Performance& performance = actor.state.performance;
+    human::AnimationState& animation_state = actor.state.animation_state;
     if (const Utterance& utterance = actor.state.utterance; utterance.speaking) {
-      performance.face.visemes = human::SampleVisemes(
+      animation_state.face.visemes = human::SampleVisemes(
           world_->speeches[static_cast<size_t>(utterance.line)].track, UtteredSeconds(utterance));
     }
-    // Clips run in Advance(): what the drama began in this tick is at its beginning.
-    const human::Animation animation = performance.animation;
-    human::UpdatePerformance(*actor.model, actor.state.position, actor.state.heading, kTick, {},
-                             performance);
-    performance.animation = animation;
+    // Clips advance in Advance(): a clip that the drama started in this tick stays at its start.
+    const human::Animation animation = animation_state.animation;
+    human::UpdateAnimationState(*actor.model, actor.state.position, actor.state.heading, kTick, {},
+                                animation_state);
+    animation_state.animation = animation;
   }
 }
 
@@ -627,7 +628,7 @@ void Stage::Capture(StageSnapshot& snapshot) const {
   snapshot.objects.clear();
   for (const ObjectId id : world_->object_ids) {
     snapshot.objects.push_back({id, Find(id)->state});
-    // What somebody carries comes and goes with them.
+    // A carried object is shown and hidden with its holder.
     if (const Actor* holder = Find(snapshot.objects.back().state.holder)) {
       snapshot.objects.back().state.visible &= holder->state.visible;
     }
@@ -689,7 +690,7 @@ void Stage::Restore(const Checkpoint& checkpoint) {
 
 namespace {
 
-// Of entries in the order of slots; id is the member that names whose they are.
+// Interpolates entries that are sorted by slot; `id` is the member that identifies them.
 template <typename Entry, typename Id>
 void InterpolateEntries(const std::vector<Entry>& previous,
                         const std::vector<Entry>& current,
@@ -723,7 +724,7 @@ void Interpolate(const StageSnapshot& previous,
   result.hour = current.hour;
   if (previous.hour && current.hour) {
     const double moved = HoursBetween(*previous.hour, *current.hour);
-    // What moves further in one tick was put there.
+    // A larger change in one tick is a jump.
     constexpr double kJump = 0.1;  // hours
     if (std::abs(moved) < kJump) {
       result.hour = OnTheClock(*current.hour - (1.0 - static_cast<double>(alpha)) * moved);

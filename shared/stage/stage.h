@@ -1,10 +1,9 @@
 #pragma once
 
-// The running stage: its actors and objects and what they do at one moment. A drama
-// changes it in fixed ticks; whoever draws takes snapshots and interpolates between
-// two of them. Nothing here draws.
+// The running stage: its actors and objects and their state at one moment. A drama changes it in
+// fixed ticks. Renderers take snapshots and interpolate between two of them. Nothing here draws.
 //
-// A tick: Advance(), then the drama's commands, then Perform().
+// Order of one tick: Advance(), the drama's commands, Perform().
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -24,26 +23,26 @@
 
 namespace lararium::stage {
 
-// A line that is to be read and is not said: a title.
+// A line that is shown as text without being spoken, such as a title.
 struct StageCaption {
-  int line = -1;           // of the stage's speeches
-  int64_t ticks = 0;       // since it was shown
-  int64_t ticks_left = 0;  // that it is still shown
+  int line = -1;           // Index into World::speeches.
+  int64_t ticks = 0;       // Ticks since it appeared.
+  int64_t ticks_left = 0;  // Ticks until it disappears.
 
   friend bool operator==(const StageCaption&, const StageCaption&) = default;
 };
 
-// What is described to visitors who do not see it: one thing at a time, in pauses of people's
-// speech. Nothing of the drama depends on it.
+// The audio description for visitors who cannot see: one line at a time, in pauses of the speech.
+// Nothing in the drama depends on it.
 struct StageDescription {
-  Utterance heard;         // now, or still to be read
-  int waiting = -1;        // the next, of the stage's speeches; -1: none
-  int64_t ticks_left = 0;  // that it still waits
+  Utterance heard;         // The current line, or one whose captions are still shown.
+  int waiting = -1;        // The next line, an index into World::speeches; -1: none.
+  int64_t ticks_left = 0;  // Ticks until the waiting line is dropped.
 
   friend bool operator==(const StageDescription&, const StageDescription&) = default;
 };
 
-// The states of everybody and everything at one moment, in the order of their slots.
+// The states of all actors and objects at one moment, in the order of their slots.
 struct StageSnapshot {
   struct ActorEntry {
     ActorId actor;
@@ -58,7 +57,7 @@ struct StageSnapshot {
   std::vector<ActorEntry> actors;
   std::vector<ObjectEntry> objects;
   std::optional<double> hour;      // Daylight::hour
-  std::vector<StageSound> sounds;  // that the drama plays
+  std::vector<StageSound> sounds;  // Sounds::playing()
   std::vector<StageCaption> captions;
   StageDescription description;
 
@@ -67,9 +66,9 @@ struct StageSnapshot {
 
 // The time of day on the stage, which chooses between a place's probes.
 struct Daylight {
-  std::optional<double> hour;  // 0 to 24; none: the drama has not said
-  double hours_left = 0.0;     // that it is still to move by, negative: back
-  double seconds_left = 0.0;   // in this time, evenly
+  std::optional<double> hour;  // 0 to 24; none: the drama has not set one.
+  double hours_left = 0.0;     // Hours still to go in a transition; negative: backwards.
+  double seconds_left = 0.0;   // Remaining time of the transition, which is linear.
 
   friend bool operator==(const Daylight&, const Daylight&) = default;
 };
@@ -77,8 +76,8 @@ struct Daylight {
 class Stage {
  public:
   static constexpr double kTickSeconds = Sounds::kTickSeconds;
-  static constexpr float kClipFade = 0.3f;  // seconds from one clip to the next
-  // How long an utterance outlives its end, so that its captions can be read.
+  static constexpr float kClipFade = 0.3f;  // Crossfade between clips, seconds.
+  // How long an utterance stays after its end, so that its captions can be read.
   static constexpr double kReadOnSeconds = 4.0;
   static constexpr size_t kMaxCaptions = 4;
   static double UtteredSeconds(const Utterance& utterance) {
@@ -90,22 +89,21 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  // ---- who and what is there; not while a drama runs ----
+  // ---- contents of the stage; must not change while a drama runs ----
 
-  // Names are unique among actors and objects: an error says which is taken. A new
-  // actor is hidden and stands at the origin.
+  // Names must be unique among actors and objects. A new actor is hidden and stands at the origin.
   Result<ActorId> Add(std::string name, std::shared_ptr<const human::Human> human);
-  Result<ActorId> Add(std::string name, std::shared_ptr<const human::PerformanceModel> model);
+  Result<ActorId> Add(std::string name, std::shared_ptr<const human::AnimationRig> model);
   Result<ObjectId> AddObject(std::string name,
                              std::shared_ptr<const ObjectModel> model,
                              const Pose& stage_from_object);
   // False when the id is stale.
   bool Remove(ActorId id);
   bool Remove(ObjectId id);
-  // A line that somebody can say, by its id.
+  // Adds a line that actors can say; `name` is the id of the line.
   Status AddSpeech(std::string name, human::VisemeTrack track);
-  // The floor, and what of all places is in the way: a drama runs alike wherever it is
-  // staged, so that nobody may walk where any of its places has something solid.
+  // Sets the floor and the occluders of all places. A drama must run the same way in every place,
+  // so actors avoid the solids of all of them.
   Status SetFloor(const NavigationOptions& options, std::span<const Place> places);
 
   std::optional<ActorId> Find(std::string_view name) const;
@@ -122,61 +120,62 @@ class Stage {
   std::span<const ActorId> actors() const;
   std::span<const ObjectId> objects() const;
 
-  // ---- what a drama tells ----
+  // ---- commands of the drama ----
 
   Tasks& tasks() { return tasks_; }
   const Tasks& tasks() const { return tasks_; }
   Sounds& sounds() { return sounds_; }
   const Sounds& sounds() const { return sounds_; }
-  // At once. An actor stops whatever it was doing; an object leaves whoever had it.
+  // Takes effect at once. An actor stops its tasks; an object is taken out of its holder's hands.
   void Place(ActorId id, const glm::vec3& position, float heading);
   void Show(ActorId id, bool visible);
   void Place(ObjectId id, const Pose& stage_from_object);
-  Status PlaceOn(ObjectId id, const Support& support);  // fails where the spot is taken
+  Status PlaceOn(ObjectId id, const Support& support);  // Error: the spot is taken.
   void SetState(ObjectId id, int state);
-  // Its lights, as a factor of what its file says, in some seconds; a colour at once.
+  // Changes the lights of an object: the level, a factor of the intensity in its file, within
+  // `seconds`; the colour at once.
   void SetLightLevel(ObjectId id, float level, float seconds, Ease ease = Ease::kLinear);
   void SetLightColour(ObjectId id, const glm::vec3& colour);
-  // Says it from its beginning; a negative speech: falls silent.
+  // Starts a line from its beginning; a negative `speech` silences the actor.
   void Say(ActorId id, int speech);
-  // Shows its captions, without anybody saying it. At most kMaxCaptions at once: the oldest
-  // gives way.
+  // Shows the captions of a line that no one says. With more than kMaxCaptions, the oldest
+  // disappears.
   void Caption(int speech, double seconds);
   std::span<const StageCaption> captions() const { return captions_; }
-  // Describes it as soon as nobody speaks and nothing else is described, from the next tick on;
-  // not at all where that takes longer than so many seconds, or another is to be described.
+  // Queues a line of the audio description. It starts, from the next tick on, as soon as no one
+  // speaks and no other description is heard. It is dropped after `patience` seconds or when
+  // another one is queued.
   void Describe(int speech, double patience);
   const StageDescription& description() const { return description_; }
-  // Plays a clip once on a part of the body, then goes on as before.
+  // Plays a clip once on a part of the body, then resumes the previous clip.
   void Gesture(ActorId id, int clip, human::BodyPart part);
 
-  // Goes to an hour, 0 to 24, over some seconds, the shorter way round the clock; at once
-  // where no hour was set before.
+  // Moves the time of day to `hour` (0 to 24) within `seconds`, the shorter way round the clock; at
+  // once if no hour was set before.
   void SetHour(double hour, double seconds);
   const Daylight& daylight() const { return daylight_; }
-  // The best place for somebody to step to that is so far from a point, or a little
-  // further; none: there is no way to any.
+  // The best point to step to that is `metres` or a little more from a point; none: no such point
+  // can be reached.
   std::optional<glm::vec2> FindAway(ActorId id, glm::vec2 from, float metres);
 
-  // Where the visitor's eyes are, in the stage frame; none: nobody knows. Only gazes
-  // depend on it.
+  // Position of the visitor's eyes, stage frame; none: unknown. Only gazes depend on it.
   void SetVisitor(const std::optional<glm::vec3>& position);
 
   // ---- time ----
 
-  // Walks, tasks, objects, clips and speech go on for one tick.
+  // Advances walks, tasks, objects, clips and speech by one tick.
   void Advance();
-  // Bodies, gazes and faces follow, after whatever the drama told in this tick.
+  // Updates bodies, gazes and faces. Call it after the drama's commands of this tick.
   void Perform();
-  // Everybody and everything as at the beginning.
+  // Returns all actors and objects to their initial state.
   void Reset();
 
-  // Allocates nothing once the snapshot has held as many.
+  // Does not allocate when the snapshot has enough capacity.
   void Capture(StageSnapshot& snapshot) const;
 
-  // All that a stage remembers: a place in time to come back to, from which it goes on
-  // bit for bit as it did. Only for the stage that it was taken of, with the same people
-  // and things. The visitor is not part of it.
+  // The complete state of a stage. After Restore() the stage continues bit for bit as it did after
+  // Save(). Valid only for the same stage with the same actors and objects. The visitor is not part
+  // of it.
   struct Gate {
     ObjectId object;
     bool open = false;
@@ -189,12 +188,12 @@ class Stage {
     std::vector<StageCaption> captions;
     StageDescription description;
     std::shared_ptr<const Tasks::State> tasks;
-    std::shared_ptr<Navigation> navigation;  // floors that were built are not built again
+    std::shared_ptr<Navigation> navigation;  // Shared, so that it need not be rebuilt.
     std::shared_ptr<const Navigation::State> walkers;
     std::vector<Gate> gates;
     bool floor_changed = false;
   };
-  // Before Save(), and at each tick at which a drama might save: see Navigation::Settle.
+  // Call it before Save(), and at each tick at which a drama might save: see Navigation::Settle.
   void Settle();
   Checkpoint Save() const;
   void Restore(const Checkpoint& checkpoint);
@@ -219,13 +218,13 @@ class Stage {
   StageDescription description_;
   NavigationOptions floor_;
   std::vector<std::pair<geometry::TriangleMesh, geometry::Similarity3>> solids_;
-  std::vector<Gate> gates_;    // in the order of the navigation's
-  bool floor_changed_ = true;  // since the navigation was built
+  std::vector<Gate> gates_;    // Same order as the gates of Navigation.
+  bool floor_changed_ = true;  // The navigation must be rebuilt.
 };
 
-// The stage between two snapshots of neighbouring ticks, alpha 0..1. Headings turn the
-// shorter way. What does not go on from previous (new, shown, hidden or put elsewhere)
-// is as in current. Allocates nothing in steady state.
+// The stage between two snapshots of consecutive ticks, alpha 0..1. Headings turn the shorter way.
+// Entries that are new, were shown or hidden, or jumped are taken from `current`. Does not allocate
+// in steady state.
 void Interpolate(const StageSnapshot& previous,
                  const StageSnapshot& current,
                  float alpha,

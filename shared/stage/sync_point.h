@@ -4,8 +4,8 @@
 
 namespace lararium::stage {
 
-// How far something that somebody does has come (Behavior Markup Language 1.0, section
-// 4.2): the stroke is the part of it that matters, such as the moment of taking.
+// Progress of an action of an actor, by the synchronisation points of the Behavior Markup Language
+// 1.0 (section 4.2). The stroke is the essential part, such as the moment of taking.
 enum class SyncPoint : uint8_t {
   kStart,
   kReady,

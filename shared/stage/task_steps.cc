@@ -1,4 +1,4 @@
-// What tasks do, phase by phase.
+// Execution of tasks, phase by phase.
 
 #include <algorithm>
 #include <cmath>
@@ -16,18 +16,18 @@
 namespace lararium::stage {
 namespace {
 
-constexpr float kCarrySeconds = 0.9f;  // from where it was taken to where it is carried
-constexpr float kOverSeconds = 0.8f;   // to above its spot
+constexpr float kCarrySeconds = 0.9f;  // Duration of kCarry.
+constexpr float kOverSeconds = 0.8f;   // Duration of kOver.
 constexpr float kLowerSeconds = 0.5f;
-constexpr float kAbove = 0.10f;  // metres
+constexpr float kAbove = 0.10f;  // Metres above the spot.
 constexpr float kOfferSeconds = 0.9f;
-constexpr float kBothSeconds = 0.35f;  // that both hold it
-constexpr float kBackUpPace = 0.35f;   // m/s, backwards to a seat
-constexpr float kFeetStand = 1.5f;     // seconds at most that feet take to come to rest
-constexpr float kWaitForRoom = 12.0f;  // seconds until a part that would hit somebody is left
+constexpr float kBothSeconds = 0.35f;  // Duration of kBoth.
+constexpr float kBackUpPace = 0.35f;   // m/s, backwards to a seat.
+constexpr float kFeetStand = 1.5f;     // Maximum seconds until the feet come to rest.
+constexpr float kWaitForRoom = 12.0f;  // Seconds after which an action blocked by an actor fails.
 constexpr float kClipFade = 0.3f;
-constexpr float kOfferHeight = 1.12f;  // metres, between people 1.7 m tall
-constexpr float kGreet = 2.5f;         // metres from which one turns to who comes
+constexpr float kOfferHeight = 1.12f;  // Metres, for people 1.7 m tall.
+constexpr float kGreet = 2.5f;         // Metres at which the receiver turns to the giver.
 
 float MinimumJerk(float t) {
   t = std::clamp(t, 0.0f, 1.0f);
@@ -39,13 +39,13 @@ Pose InHolderFrame(const Actor& holder, const Pose& stage_from_object) {
 }
 
 void PlayClip(Actor& actor, int clip) {
-  human::StartClip(actor.state.performance.animation, clip, 1.0, kClipFade);
+  human::StartClip(actor.state.animation_state.animation, clip, 1.0, kClipFade);
 }
 
-// Where both hold it by one grip, who receives it takes it lower, below the other hand,
-// and shifts to the grip once that has left. In the object's frame.
+// If both hands use the same grip, the receiver takes the object below the other hand and moves to
+// the grip when that hand has left. Returns the offset in the object frame.
 Pose BelowTheOther(const HandGrips& giving, const HandGrips& receiving) {
-  constexpr float kBelow = 0.10f;  // metres: the height of a hand around something
+  constexpr float kBelow = 0.10f;  // Width of a hand around an object, metres.
   for (const int grip : receiving) {
     if (grip >= 0 && (grip == giving[0] || grip == giving[1])) {
       return {{0.0f, -kBelow, 0.0f}};
@@ -59,11 +59,11 @@ bool Holds(const PartBounds& box, const glm::vec3& point, float around) {
          glm::all(glm::lessThan(point, box.upper + around));
 }
 
-// Whether a part that goes from its present value to another comes through somebody.
+// Whether the part of a move would pass through the actor.
 bool SweepsThrough(const Object& object, const ObjectAction::Move& move, const Actor& actor) {
-  constexpr int kSamples = 12;                      // of the way
-  constexpr float kBody = 0.2f;                     // metres around the middle of somebody
-  constexpr float kHeights[] = {0.3f, 0.8f, 1.3f};  // shares of the eyes' height below
+  constexpr int kSamples = 12;                      // Joint values that are tested.
+  constexpr float kBody = 0.2f;                     // Radius of a body, metres.
+  constexpr float kHeights[] = {0.3f, 0.8f, 1.3f};  // Metres, for a person 1.7 m tall.
   const auto joint = static_cast<size_t>(move.joint);
   const int part = object.use().joints[joint].part;
   const PartBounds& box = object.model->bounds(part);
@@ -83,7 +83,7 @@ bool SweepsThrough(const Object& object, const ObjectAction::Move& move, const A
   return false;
 }
 
-// Where the object comes between two people, upright, its front to who gives.
+// Pose of an object that is handed over: between the actors, upright, with the giver's heading.
 Pose Between(const Actor& giver, const Actor& receiver) {
   const Pose offer = {{0.0f, kOfferHeight, 0.0f}};
   const glm::vec3 middle =
@@ -92,8 +92,8 @@ Pose Between(const Actor& giver, const Actor& receiver) {
   return {middle, StageFromActorPose(giver.state).rotation};
 }
 
-// The pose of a path at a time; rest before the first key and after the last, over
-// what time there is.
+// The pose of a path at a time. The path starts at `rest` and returns to it in the time that is
+// left after the last key.
 Pose SamplePath(const std::vector<ObjectAction::Key>& path,
                 const Pose& rest,
                 float duration,
@@ -118,17 +118,17 @@ void Tasks::Enter(Task& task, Phase phase) {
   task.phase = phase;
   task.time = 0.0f;
   Actor& actor = world_.actor(task.actor);
-  human::Performance& performance = actor.state.performance;
+  human::AnimationState& animation_state = actor.state.animation_state;
   const float seconds =
-      human::SittingSeconds(actor.model->locomotion.body, performance.locomotion.style.cadence);
+      human::SittingSeconds(actor.model->locomotion.body, animation_state.locomotion.style.cadence);
   if (phase == Phase::kBackUp) {
     task.begin = StageFromActorPose(actor.state);
   } else if (phase == Phase::kSit) {
     const Pose actor_from_seat = StageFromActorPose(actor.state).Inverse() * task.seat;
-    human::SitDown(performance.sitting, actor_from_seat.position, seconds);
+    human::SitDown(animation_state.sitting, actor_from_seat.position, seconds);
   } else if (phase == Phase::kRise) {
-    human::StandUp(performance.sitting, seconds);
-    EndAction(task);  // moves as it did before it sat down
+    human::StandUp(animation_state.sitting, seconds);
+    EndAction(task);  // Resumes the clip from before the action.
   }
 }
 
@@ -146,7 +146,7 @@ void Tasks::Fail(Task& task, std::string message) {
   task.message = std::move(message);
 }
 
-// Leaves everybody and everything as a person would who thinks better of it.
+// Stops a running task and leaves actors and objects in a plausible state.
 void Tasks::Abandon(Task& task) {
   Actor& actor = world_.actor(task.actor);
   EndWalk(world_, actor);
@@ -160,7 +160,7 @@ void Tasks::Abandon(Task& task) {
   if (task.kind == Kind::kUse) {
     EndAction(task);
     if (object->use().actions[static_cast<size_t>(task.action)].seat) {
-      human::Sitting& sitting = actor.state.performance.sitting;
+      human::Sitting& sitting = actor.state.animation_state.sitting;
       human::StandUp(sitting, sitting.seconds);
     }
   }
@@ -193,7 +193,7 @@ void Tasks::Step(Task& task, float seconds) {
     const WalkResult result = AdvanceWalk(world_, actor, seconds);
     if (result == WalkResult::kBlocked) {
       EndWalk(world_, actor);
-      Fail(task, "'" + actor.name + "' cannot get there: somebody or something is in the way");
+      Fail(task, "'" + actor.name + "' cannot get there: an actor or an object is in the way");
     } else if (result == WalkResult::kArrived) {
       Arrive(task);
     }
@@ -219,7 +219,7 @@ void Tasks::Step(Task& task, float seconds) {
   }
 }
 
-// At the place where it is done.
+// The actor has reached the place where the task is done.
 void Tasks::Arrive(Task& task) {
   Actor& actor = world_.actor(task.actor);
   if (task.kind == Kind::kWalk) {
@@ -229,7 +229,7 @@ void Tasks::Arrive(Task& task) {
   Object& object = world_.object(task.object);
   if (task.kind == Kind::kUse || task.kind == Kind::kTake) {
     if (task.kind == Kind::kUse && object.use().actions[static_cast<size_t>(task.action)].seat) {
-      task.clip_before = actor.state.performance.animation.clip;
+      task.clip_before = actor.state.animation_state.animation.clip;
       BeginSeat(task);
       return;
     }
@@ -238,7 +238,7 @@ void Tasks::Arrive(Task& task) {
     return;
   }
   if (!object.use().carry->holder_from_object) {
-    ReachFor(actor, object, task.hands);  // it hung; now the arm leads it
+    ReachFor(actor, object, task.hands);  // The object hung; now the arm moves it.
   }
   object.held.rests = false;
   if (task.kind == Kind::kPut) {
@@ -278,7 +278,7 @@ void Tasks::FollowPath(const Task& task, Object& object) {
   if (action.path.empty()) {
     return;
   }
-  // Paths are written for somebody 1.7 m tall, as carry poses are.
+  // Like carry poses, paths are written for a person 1.7 m tall.
   const Pose rest = CarryPose(actor, object, object.state.hands);
   Pose unscaled = rest;
   const float scale = ScaledTo(actor, {{1.0f, 0.0f, 0.0f}}).position.x;
@@ -287,7 +287,7 @@ void Tasks::FollowPath(const Task& task, Object& object) {
   object.held = {pose, pose, 0.0f, 0.0f, task.time >= action.duration, false};
 }
 
-// Where it will sit, and stand to sit down.
+// Computes where the actor will sit and where it stands to sit down.
 void Tasks::BeginSeat(Task& task) {
   const Object& object = world_.object(task.object);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
@@ -315,26 +315,27 @@ void Tasks::StepSeat(Task& task) {
   Object& object = world_.object(task.object);
   Actor& actor = world_.actor(task.actor);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
-  const human::Performance& performance = actor.state.performance;
+  const human::AnimationState& animation_state = actor.state.animation_state;
   if (task.phase == Phase::kBackUp) {
     const Pose pose = Mix(task.begin, task.stand, MinimumJerk(task.time / task.reach_seconds));
     actor.state.position = pose.position;
     actor.state.heading = HeadingOf(pose.rotation);
     const float stands = task.time - task.reach_seconds;
-    if (stands > kFeetStand || (stands > 0.1f && !performance.locomotion.stepping)) {
+    if (stands > kFeetStand || (stands > 0.1f && !animation_state.locomotion.stepping)) {
       Enter(task, Phase::kSit);
-      PlayClip(actor, human::Animation::kNoClip);  // one that moves all of it would hide this
+      PlayClip(actor,
+               human::Animation::kNoClip);  // A clip of the whole body would hide the sitting pose.
       object.state.action = static_cast<int8_t>(task.action);
     }
     return;
   }
   if (task.phase == Phase::kRise) {
-    if (performance.sitting.amount <= 0.0f) {
+    if (animation_state.sitting.amount <= 0.0f) {
       task.stage = Stage::kDone;
     }
     return;
   }
-  if (performance.sitting.amount < 1.0f) {
+  if (animation_state.sitting.amount < 1.0f) {
     return;
   }
   if (action.to >= 0) {
@@ -345,13 +346,13 @@ void Tasks::StepSeat(Task& task) {
   task.stage = Stage::kLingering;
 }
 
-// Who stands where a part is about to swing; who stands about there steps aside.
+// Returns an actor who stands where a part is about to move, or nullptr. An idle one is sent aside.
 const Actor* Tasks::InTheWay(const Task& task) {
   const Object& object = world_.object(task.object);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   for (const ObjectAction::Move& move : action.moves) {
     if (task.phase == Phase::kAct && task.time >= move.end) {
-      continue;  // done
+      continue;  // The move has finished.
     }
     for (const ActorId id : world_.actor_ids) {
       Actor& other = world_.actor(id);
@@ -369,8 +370,8 @@ const Actor* Tasks::InTheWay(const Task& task) {
   return nullptr;
 }
 
-// Whether parts may go on moving. While somebody is in their way they stop, hands on
-// their grips; after a while whoever moves them gives up, and the task has failed.
+// Whether the parts may keep moving. They stop while an actor is in their way, with the hands on
+// their grips. After kWaitForRoom the task fails.
 bool Tasks::MayMove(Task& task, float seconds) {
   const Actor* other = InTheWay(task);
   if (other == nullptr) {
@@ -403,7 +404,7 @@ void Tasks::BeginAct(Task& task) {
     object.held.rests = false;
   }
   if (!action.clip.empty()) {
-    task.clip_before = actor.state.performance.animation.clip;
+    task.clip_before = actor.state.animation_state.animation.clip;
     if (const int clip = FindClip(actor.human(), action.clip); clip >= 0) {
       PlayClip(actor, clip);
     }
@@ -425,7 +426,7 @@ void Tasks::StepAct(Task& task, float seconds) {
       if (task.time < task.reach_seconds) {
         return;
       }
-      if ((action.from >> object.state.state & 1u) == 0) {  // another user was quicker
+      if ((action.from >> object.state.state & 1u) == 0) {  // Another actor was quicker.
         LetGo(actor, action.held ? kNoHands : task.hands);
         Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name +
                        "' any more: it is '" +
@@ -438,7 +439,7 @@ void Tasks::StepAct(Task& task, float seconds) {
       return;
     case Phase::kAct: {
       if (!MayMove(task, seconds)) {
-        task.time -= seconds;  // goes on from here
+        task.time -= seconds;  // Continues from here later.
         if (task.is_over) {
           return;
         }
@@ -493,7 +494,8 @@ void Tasks::StepReach(Task& task) {
 
 // ---- put ----
 
-// stage_from_object of what is put down: on a spot it stands as the hands bring it.
+// stage_from_object of the object that is put down. On a spot it keeps the heading at which it is
+// carried.
 Pose Tasks::PutGoal(const Task& task) const {
   const Actor& actor = world_.actor(task.actor);
   const float carried = actor.state.heading + CarriedTurn(world_.object(task.object).use());

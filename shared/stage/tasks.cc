@@ -1,5 +1,5 @@
-// Tickets: what is asked for and reported. task_turns.cc has whose turn it is, task_grants.cc
-// what a task needs for its turn, task_steps.cc what it does.
+// Creating, reporting and stopping tasks. task_schedule.cc decides which task may start,
+// task_reservations.cc reserves what it needs, and task_steps.cc executes it.
 
 #include "shared/stage/tasks.h"
 
@@ -13,11 +13,11 @@ namespace lararium::stage {
 namespace {
 
 constexpr size_t kKeptReports = 1024;
-constexpr float kMaxSeconds = 24.0f * 3600.0f;
+constexpr float kMaxTaskSeconds = 24.0f * 3600.0f;
 
 }  // namespace
 
-// ---- asking ----
+// ---- requests ----
 
 Status Tasks::CheckActor(ActorId actor) const {
   const Actor* found = world_.actors.Find(actor);
@@ -35,11 +35,11 @@ Result<TaskId> Tasks::Begin(Task task) {
     return Status::Error("stage", "more than " + std::to_string(kMaxTasks) + " things to do",
                          "wait until some are done");
   }
-  if (tasks_.size() >= kKeptReports) {  // nobody asks for the oldest any more
+  if (tasks_.size() >= kKeptReports) {  // The oldest reports are no longer needed.
     std::erase_if(
         tasks_, [](const Task& t) { return t.stage == Stage::kDone || t.stage == Stage::kFailed; });
   }
-  GetsUpFor(task);  // so that nobody keeps a seat while waiting
+  GetsUpFor(task);  // Now, so that the actor does not keep a seat while the task waits.
   task.id = ++last_;
   tasks_.push_back(std::move(task));
   return last_;
@@ -50,7 +50,7 @@ Result<TaskId> Tasks::Walk(ActorId actor,
                            std::optional<float> heading,
                            float speed) {
   if (!(std::abs(goal.x) < 1e4f && std::abs(goal.y) < 1e4f && speed >= 0.0f && speed <= 10.0f)) {
-    return Status::Error("walk", "the place or the speed is not a possible one");
+    return Status::Error("walk", "the position or the speed is out of range");
   }
   Task task;
   task.kind = Kind::kWalk;
@@ -76,7 +76,7 @@ Result<TaskId> Tasks::Stand(ActorId actor) {
   const Actor& who = world_.actor(actor);
   for (const Task& other : tasks_) {
     if (other.actor == actor && other.stage == Stage::kLingering) {
-      // To where it stood before it sat down.
+      // Walk to where it stood before it sat down.
       const Object& seat = world_.object(other.object);
       const ApproachPlace& place = seat.use().places[static_cast<size_t>(other.place)];
       return Walk(actor, InStage(seat, place.position), std::nullopt, 0.0f);
@@ -95,7 +95,7 @@ Result<TaskId> Tasks::Use(ActorId actor, ObjectId object, std::string_view actio
   task.actor = actor;
   task.object = object;
   task.action = of->use().FindAction(action);
-  task.seconds = std::clamp(seconds, 0.0f, kMaxSeconds);
+  task.seconds = std::clamp(seconds, 0.0f, kMaxTaskSeconds);
   if (task.action < 0) {
     std::string known;
     for (const ObjectAction& one : of->use().actions) {
@@ -182,8 +182,8 @@ TaskReport Tasks::report(TaskId id) const {
   return {TaskReport::State::kRunning, task->message, PointOf(*task), task->waited};
 }
 
-// What matters of each: of a walk the arrival, of taking and giving the moment at which
-// hands change, of putting that of letting go, of an action its course.
+// The stroke of a walk is the arrival, that of take and give is the moment when the object changes
+// hands, that of put is letting go, and that of an action is its course.
 SyncPoint Tasks::PointOf(const Task& task) const {
   if (task.phase == Phase::kApproach) {
     const Walk::Phase walk = world_.actors.Find(task.actor)->walk.phase;
@@ -298,7 +298,7 @@ std::shared_ptr<const Tasks::State> Tasks::Save() const {
 }
 
 void Tasks::Restore(const State& state) {
-  tasks_.assign(state.tasks.begin(), state.tasks.end());  // keeps its room
+  tasks_.assign(state.tasks.begin(), state.tasks.end());  // Keeps the capacity.
   last_ = state.last;
 }
 

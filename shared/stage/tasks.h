@@ -1,10 +1,9 @@
 #pragma once
 
-// What actors are asked to do with their bodies, one thing after another: walk, use,
-// take, put, give. A task waits until all that it needs is free, and then has all of
-// it at once; who waits has nothing, so that nobody can wait for each other in a
-// circle. Tickets are served in their order: a task that shares a person or an object
-// with an earlier one that waits, waits too.
+// Queue of the tasks of actors: walk, use, take, put, give. A task waits until everything it needs
+// is free and then reserves it all at once. A waiting task holds nothing, so there can be no
+// deadlock. Tickets are served in order: a task waits while an earlier waiting task shares a person
+// or an object with it.
 
 #include <array>
 #include <cstdint>
@@ -23,77 +22,77 @@ namespace lararium::stage {
 
 struct World;
 
-using TaskId = uint64_t;  // the ticket's number; never used twice; 0 names nothing
+using TaskId = uint64_t;  // Number of the ticket, never reused; 0: none.
 
 struct TaskReport {
   enum class State : uint8_t {
-    kUnknown,  // never begun, or forgotten
-    kWaiting,  // for its turn
+    kUnknown,  // Never created, or forgotten.
+    kWaiting,
     kRunning,
     kDone,
     kFailed,
   };
   State state = State::kUnknown;
-  // Why it failed; of a done one, what was not quite as asked. For the drama's author.
+  // For the author of the drama: why the task failed, or how the result differs from the request.
   std::string_view message;
-  std::optional<SyncPoint> reached;  // the last of its points so far; none: it waits
-  float waited = 0.0f;               // seconds until it was its turn
+  std::optional<SyncPoint> reached;  // The latest point that was reached; none: the task waits.
+  float waited = 0.0f;               // Seconds in state kWaiting.
 
   bool over() const { return state == State::kDone || state == State::kFailed; }
 };
 
-// Where to put something down.
+// Where to put an object down.
 struct PutTarget {
-  ObjectId object;                    // zero: on the floor, at place
-  int surface = -1;                   // of the object; -1: any
-  glm::vec2 place = glm::vec2(0.0f);  // (x, z), stage
-  std::optional<float> heading;       // of what is put down there; none: as it is carried
+  ObjectId object;                    // Zero: on the floor, at `place`.
+  int surface = -1;                   // Index into ObjectUse::surfaces; -1: any.
+  glm::vec2 place = glm::vec2(0.0f);  // (x, z), stage frame, metres.
+  std::optional<float> heading;       // Heading of the object on the floor; none: as carried.
 };
 
 class Tasks {
  public:
-  static constexpr size_t kMaxTasks = 256;  // that are not over
+  static constexpr size_t kMaxTasks = 256;  // Limit of tasks that are not over.
 
   // Borrows world.
   explicit Tasks(World& world) : world_(world) { tasks_.reserve(2 * kMaxTasks); }
 
-  // Each is an actor's next thing to do. They fail only at what can never be: the
-  // actor is led by a track, the object has no such action; what stands in the way
-  // when its turn comes is in the report.
+  // Each call appends a task to the queue of an actor. It returns an error only if the task can
+  // never succeed: the actor is led by a track, the object has no such action. Obstacles that
+  // appear when its turn comes are reported by report().
   //
-  // speed: m/s; 0: a comfortable one.
+  // speed: m/s; 0: a comfortable speed.
   Result<TaskId> Walk(ActorId actor, glm::vec2 goal, std::optional<float> heading, float speed);
-  // speed: rad/s; 0: as people turn.
+  // speed: rad/s; 0: a natural speed.
   Result<TaskId> Turn(ActorId actor, float heading, float speed);
-  // seconds: that the action lasts at least.
+  // seconds: minimum duration of the action.
   Result<TaskId> Use(ActorId actor, ObjectId object, std::string_view action, float seconds);
   Result<TaskId> Take(ActorId actor, ObjectId object);
   Result<TaskId> Put(ActorId actor, ObjectId object, const PutTarget& target);
   Result<TaskId> Give(ActorId actor, ObjectId object, ActorId to);
-  // Gets up, if it sits.
+  // The actor gets up if it sits.
   Result<TaskId> Stand(ActorId actor);
 
   TaskReport report(TaskId id) const;
-  // Ends it where it is; hands let go of what they do not hold. A stale id is fine.
+  // Ends a task where it is; hands let go of objects that they do not hold. Ignores stale ids.
   void Stop(TaskId id);
-  // Likewise with all of an actor, and it no longer sits.
+  // Stops all tasks of an actor, and it no longer sits. `why` becomes the message of the tasks.
   void StopAll(ActorId actor, std::string_view why);
-  // Its report is not wanted any more.
+  // Drops the report of a task that is over.
   void Forget(TaskId id);
 
-  // Whether the actor does or is about to do something, and with which object.
+  // Whether a task of the actor is running, whether the actor sits, and which object it handles.
   bool IsBusy(ActorId actor) const;
   bool Sits(ActorId actor) const;
   std::optional<ObjectId> ObjectOf(ActorId actor) const;
 
-  // Whether there is anything to do.
+  // Whether any task is waiting or running.
   bool any() const;
   void FailAll(std::string_view why);
   // One tick.
   void Advance(float seconds);
   void Reset();
 
-  // All that it remembers.
+  // The complete state, to return to later.
   struct State;
   std::shared_ptr<const State> Save() const;
   void Restore(const State& state);
@@ -105,14 +104,14 @@ class Tasks {
     kApproach,
     kReach,
     kAct,
-    kBackUp,  // to where one sits down from
+    kBackUp,  // The actor steps back to the point from which it sits down.
     kSit,
     kRise,
-    kCarry,  // the object comes to where it is carried
-    kOver,   // the object comes above its spot
+    kCarry,  // The object moves to its carrying pose.
+    kOver,   // The object moves above its spot.
     kLower,
-    kOffer,  // the object comes between two people
-    kBoth,   // both hold it
+    kOffer,  // The object moves to a point between the two actors.
+    kBoth,   // Both actors hold the object.
     kLetGo,
   };
   struct Task {
@@ -120,61 +119,60 @@ class Tasks {
     Kind kind = Kind::kWalk;
     Stage stage = Stage::kWaiting;
     Phase phase = Phase::kApproach;
-    bool is_over = false;  // for whoever asked; it may linger
-    // What was asked for.
+    bool is_over = false;  // Result of report(); `stage` may still be kLingering.
+    // The request.
     ActorId actor;
-    ActorId partner;                   // who is given something
-    ObjectId object;                   // that is used, taken, put or given
-    int action = -1;                   // of the object
-    PutTarget target;                  // of kPut
-    glm::vec2 goal = glm::vec2(0.0f);  // of kWalk: (x, z), stage, metres
-    std::optional<float> heading;      // there, radians
-    float speed = 0.0f;                // m/s, rad/s where it only turns; 0: a comfortable one
+    ActorId partner;                   // kGive: the receiver.
+    ObjectId object;                   // The object to use, take, put or give.
+    int action = -1;                   // kUse: index into ObjectUse::actions.
+    PutTarget target;                  // kPut.
+    glm::vec2 goal = glm::vec2(0.0f);  // kWalk: (x, z), stage frame, metres.
+    std::optional<float> heading;      // kWalk: final heading, radians.
+    float speed = 0.0f;                // m/s, or rad/s if `only_turns`; 0: the default.
     bool only_turns = false;
-    float seconds = 0.0f;  // that the action lasts at least
+    float seconds = 0.0f;  // kUse: minimum duration of the action.
 
-    // How far it is.
-    float time = 0.0f;                   // in the phase, seconds
-    float waited = 0.0f;                 // for its turn, seconds
-    ObjectId place_of;                   // the object at one of whose places it is done
-    int place = -1;                      // which of them
-    int spot = -1;                       // of the surface: where it is put
-    HandGrips hands = kNoHands;          // of the actor
-    HandGrips partner_hands = kNoHands;  // of who is given something
-    float reach_seconds = 0.0f;  // that hands take to reach, or the way back to a seat takes
-    float held_up = 0.0f;        // seconds that a moving part has waited for room
-    std::array<float, ObjectUse::kMaxJoints> joints = {};  // when the action began
-    Pose begin;                                            // of whatever moves in the phase
-    Pose seat;                                             // stage frame, on its surface
-    Pose stand;                                            // of the actor that sits down
-    int clip_before = -1;                                  // that it played before
-    std::string message;                                   // TaskReport::message
+    // The progress.
+    float time = 0.0f;                   // Seconds in the current phase.
+    float waited = 0.0f;                 // Seconds in stage kWaiting.
+    ObjectId place_of;                   // The object at whose approach place the task is done.
+    int place = -1;                      // Index into ObjectUse::places of `place_of`.
+    int spot = -1;                       // kPut: index into Surface::spots.
+    HandGrips hands = kNoHands;          // Hands of the actor.
+    HandGrips partner_hands = kNoHands;  // Hands of the receiver.
+    float reach_seconds = 0.0f;          // Duration of kReach or kBackUp.
+    float held_up = 0.0f;                // Seconds that a moving part has been blocked by an actor.
+    std::array<float, ObjectUse::kMaxJoints> joints = {};  // Joint values at the start of kAct.
+    Pose begin;            // kBackUp: pose of the actor at the start, stage frame.
+    Pose seat;             // Point of the seat's surface where the actor sits, stage frame.
+    Pose stand;            // Pose in which the actor stands to sit down, stage frame.
+    int clip_before = -1;  // Clip of the actor before the action.
+    std::string message;   // TaskReport::message
   };
 
   Result<TaskId> Begin(Task task);
   Status CheckActor(ActorId actor) const;
   const Task* Find(TaskId id) const;
   Task* SeatOf(ActorId actor);
-  // Whether somebody who sits need not get up for it.
+  // Whether an actor who sits can do the task without getting up.
   bool IsDoneSitting(const Task& task) const;
   SyncPoint PointOf(const Task& task) const;
   bool IsSpotFor(const Task& task, int surface, int spot) const;
   bool CanReachSitting(ActorId actor, const glm::vec3& point) const;
-  // Who sits gets up for what is not done sitting: whether somebody has to wait for that.
+  // Makes the actor get up if it sits and the task needs that. True: the task has to wait for it.
   bool GetsUpFor(const Task& task);
 
-  // ---- whose turn it is, what it needs (task_turns.cc, task_grants.cc) ----
-  void GrantTurns();
+  // ---- scheduling and reservations (task_schedule.cc, task_reservations.cc) ----
+  void ScheduleReservations();
   bool SharesWith(const Task& a, const Task& b) const;
   bool MustWaitFor(const Task& task, const Task& other) const;
   bool IsFirstOf(const Task& task) const;
-  // Reserves what the task chooses among and begins it; false: not yet. What is
-  // impossible fails.
-  bool Grant(Task& task);
-  bool GrantUse(Task& task);
-  bool GrantTake(Task& task);
-  bool GrantPut(Task& task);
-  bool GrantGive(Task& task);
+  // Reserves what the task needs and starts it; false: not possible yet. Impossible tasks fail.
+  bool Reserve(Task& task);
+  bool ReserveUse(Task& task);
+  bool ReserveTake(Task& task);
+  bool ReservePut(Task& task);
+  bool ReserveGive(Task& task);
   bool Approach(Task& task, glm::vec2 goal, std::optional<float> heading);
   bool ApproachNear(Task& task, const glm::vec3& point, std::optional<float> facing);
   bool ApproachPlaceOf(Task& task, ObjectId object, int place);
@@ -183,7 +181,7 @@ class Tasks {
   int UsersOf(ObjectId object, const Task& except) const;
   bool IsPlaceTaken(ObjectId object, int place, const Task& except) const;
 
-  // ---- what it does (task_steps.cc) ----
+  // ---- execution (task_steps.cc) ----
   void Step(Task& task, float seconds);
   void Enter(Task& task, Phase phase);
   void Arrive(Task& task);
@@ -205,7 +203,7 @@ class Tasks {
   void Abandon(Task& task);
 
   World& world_;
-  std::vector<Task> tasks_;  // in the order of their tickets
+  std::vector<Task> tasks_;  // Sorted by id.
   TaskId last_ = 0;
 };
 

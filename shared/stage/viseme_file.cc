@@ -7,13 +7,13 @@
 namespace lararium::stage {
 namespace {
 
-constexpr double kMaxSeconds = 3600.0;
+constexpr double kMaxVisemeSeconds = 3600.0;
 constexpr size_t kMaxKeys = 100'000;
 constexpr size_t kMaxTextBytes = size_t{16} << 20;
 
 Result<human::VisemeTrack::Key> ReadKey(const JsonView& view) {
   human::VisemeTrack::Key key;
-  LARARIUM_ASSIGN_OR_RETURN(const double time, view.Number("t", 0.0, kMaxSeconds));
+  LARARIUM_ASSIGN_OR_RETURN(const double time, view.Number("t", 0.0, kMaxVisemeSeconds));
   LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("viseme", 16));
   const auto viseme = human::VisemeNamed(name);
   if (!viseme) {
@@ -39,7 +39,7 @@ Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string
   const JsonView root(json, place);
   LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   human::VisemeTrack track;
-  LARARIUM_ASSIGN_OR_RETURN(const double duration, root.Number("duration", 0.0, kMaxSeconds));
+  LARARIUM_ASSIGN_OR_RETURN(const double duration, root.Number("duration", 0.0, kMaxVisemeSeconds));
   track.duration = static_cast<float>(duration);
   LARARIUM_ASSIGN_OR_RETURN(const JsonView list, root.Field("visemes"));
   LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(kMaxKeys));
@@ -56,7 +56,7 @@ Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string
 }
 
 std::string FormatVisemes(const human::VisemeTrack& track) {
-  // To a tenth of a millisecond, as it reads best.
+  // Rounds to a tenth of a millisecond, so that the file is easy to read.
   const auto rounded = [](float seconds) { return std::round(seconds * 1e4) / 1e4; };
   Json json = {{"schema", 1}, {"duration", rounded(track.duration)}, {"visemes", Json::array()}};
   for (const human::VisemeTrack::Key& key : track.keys) {

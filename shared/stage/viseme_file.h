@@ -1,6 +1,6 @@
 #pragma once
 
-// LINE.visemes.json: what a mouth does while a line is said (docs/file-formats.md).
+// Reads and writes LINE.visemes.json: mouth movements of a spoken line (docs/file-formats.md).
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace lararium::stage {
 
-// place: what errors call the text; they name the field.
+// Error messages begin with `place` and name the field.
 Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& place);
 std::string FormatVisemes(const human::VisemeTrack& track);
 

@@ -6,25 +6,24 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
+
+#include "shared/core/units.h"
 
 namespace lararium::stage {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kSameSpot = 0.02f;      // metres: no walk is worth it
-constexpr float kSideStep = 0.4f;       // metres that are stepped without turning first
-constexpr float kSetOff = 1.0f;         // radians off the way at which one sets off
+constexpr float kSameSpot = 0.02f;      // Metres; shorter walks are skipped.
+constexpr float kSideStep = 0.4f;       // Metres; shorter walks do not turn first.
+constexpr float kSetOff = 1.0f;         // Radians off the path at which the walk starts.
 constexpr float kBraking = 1.3f;        // m/s^2
 constexpr float kStarting = 1.6f;       // m/s^2
-constexpr float kRoomAtGoal = 0.42f;    // metres from anybody else
-constexpr float kSqueezeAfter = 3.0f;   // seconds without getting nearer
-constexpr float kPushAfter = 8.0f;      // likewise
-constexpr float kGiveUpAfter = 15.0f;   // likewise
-constexpr float kTwistCost = 3.0f;      // metres of way for each radian that hands twist less
-constexpr float kNearer = 0.05f;        // metres that count as getting nearer
+constexpr float kRoomAtGoal = 0.42f;    // Metres to any other actor.
+constexpr float kSqueezeAfter = 3.0f;   // Seconds without getting nearer.
+constexpr float kPushAfter = 8.0f;      // Seconds without getting nearer.
+constexpr float kGiveUpAfter = 15.0f;   // Seconds without getting nearer.
+constexpr float kTwistCost = 3.0f;      // Metres of path that one radian of twist is worth.
+constexpr float kNearer = 0.05f;        // Metres that count as getting nearer.
 constexpr float kTurnPerRadian = 5.0f;  // 1/s
-constexpr float kTurnFastest = kPi;     // radians per second
+constexpr float kTurnFastest = kPiF;    // radians per second
 
 bool HasSpot(const Walk& walk) {
   return walk.phase != Walk::Phase::kNone && walk.phase != Walk::Phase::kTurn;
@@ -34,7 +33,7 @@ void TurnAlong(Actor& actor, glm::vec2 direction, float seconds) {
   TurnTowards(actor, HeadingOf(direction), seconds);
 }
 
-// A straight step towards a point, gently from and to standing; true once there.
+// Steps straight towards a point, accelerating and braking gently. True: the point is reached.
 bool StepTowards(Actor& actor, glm::vec2 point, float speed, bool stops, float seconds) {
   Walk& walk = actor.walk;
   const glm::vec2 way = point - actor.place();
@@ -65,7 +64,7 @@ void Dock(World& world, Actor& actor) {
   world.navigation->Hold(actor.walker);
 }
 
-// Near the goal, with nothing in between.
+// Whether the goal is near and nothing lies in between.
 bool MayDock(const World& world, ActorId id, const Actor& actor, glm::vec2 velocity) {
   const Walk& walk = actor.walk;
   const float pace = glm::length(velocity);
@@ -96,7 +95,7 @@ WalkResult AdvanceGo(World& world, ActorId id, Actor& actor, float seconds) {
     return WalkResult::kGoing;
   }
   const float left = glm::distance(place, walk.on_mesh);
-  // A way may lead away from the goal for a while: then one moves.
+  // A path may lead away from the goal for a while: a moving actor is not stuck.
   if (left < walk.nearest - kNearer || glm::length(velocity) > 0.35f * walk.speed) {
     walk.nearest = std::min(left, walk.nearest);
     walk.stuck = std::max(0.0f, walk.stuck - 2.0f * seconds);
@@ -125,11 +124,11 @@ WalkResult AdvanceDock(Actor& actor, float seconds) {
   return WalkResult::kGoing;
 }
 
-// Where one stands who steps as close to something as one does to reach over it, not
-// only as one walks past it; none: too far from where people walk.
+// The place moved close enough to the mesh: to reach over something, people stand nearer to it than
+// when they walk past. None: too far from the mesh.
 std::optional<glm::vec2> CloseTo(const Navigation& navigation, glm::vec2 place) {
-  constexpr float kCloser = 0.12f;  // metres off the mesh
-  constexpr float kPulled = 0.2f;   // likewise, of places that are moved towards it
+  constexpr float kCloser = 0.12f;  // Allowed distance from the mesh, metres.
+  constexpr float kPulled = 0.2f;   // Metres by which a place may be moved towards the mesh.
   const auto on_mesh = navigation.Nearest(place, kCloser + kPulled);
   if (!on_mesh) {
     return std::nullopt;
@@ -190,7 +189,7 @@ Status BeginWalk(
   }
   const auto way = world.navigation->FindWay(from, goal);
   if (!way) {
-    return Status::Error(actor.name, "stands where nobody can walk",
+    return Status::Error(actor.name, "stands where no one can walk",
                          "place it on the stage's floor");
   }
   walk.on_mesh = way->point;
@@ -297,9 +296,9 @@ std::optional<glm::vec2> FindStand(const World& world, ActorId actor, const Stan
   constexpr int kRings = 5;
   struct Candidate {
     glm::vec2 place;
-    float cost;    // without the way there
-    float bound;   // with the shortest way that there could be
-    size_t order;  // of what is equal, so that every platform finds the same
+    float cost;    // Cost without the path.
+    float bound;   // Lower bound of the cost with the path: adds the straight distance.
+    size_t order;  // Breaks ties, so that every platform finds the same place.
   };
   std::array<Candidate, static_cast<size_t>(kDirections * kRings)> candidates;
   size_t count = 0;
@@ -308,7 +307,7 @@ std::optional<glm::vec2> FindStand(const World& world, ActorId actor, const Stan
     const float radius = glm::mix(wish.nearest, wish.furthest,
                                   static_cast<float>(ring) / static_cast<float>(kRings - 1));
     for (int i = 0; i < kDirections; ++i) {
-      const float angle = 2.0f * kPi * static_cast<float>(i) / kDirections;
+      const float angle = 2.0f * kPiF * static_cast<float>(i) / kDirections;
       const auto place = CloseTo(*world.navigation, wish.point + radius * Direction(angle));
       if (!place || (!wish.among_others && !IsFree(world, actor, *place, kRoomAtGoal))) {
         continue;
@@ -318,7 +317,7 @@ std::optional<glm::vec2> FindStand(const World& world, ActorId actor, const Stan
       if (distance < wish.nearest - kNearer || distance > wish.furthest + kNearer) {
         continue;
       }
-      // Nearer to the point is better than a shorter way.
+      // A place nearer to the point is better than a shorter path.
       const float twist = wish.facing ? std::abs(TurnBetween(*wish.facing, HeadingOf(way))) : 0.0f;
       const float cost = 2.0f * distance + kTwistCost * twist;
       candidates[count] = {*place, cost, cost + glm::distance(from, *place), count};

@@ -1,7 +1,6 @@
 #pragma once
 
-// Everybody and everything on a stage, for the parts of the stage that move it.
-// Private to the room.
+// The actors and objects on a stage, for the code that moves them. Internal to shared/stage.
 
 #include <memory>
 #include <optional>
@@ -23,23 +22,23 @@ struct World {
   };
 
   SlotMap<Actor> actors;
-  std::vector<ActorId> actor_ids;  // in the order of their slots
+  std::vector<ActorId> actor_ids;  // Sorted by slot.
   SlotMap<Object> objects;
   std::vector<ObjectId> object_ids;
   std::vector<Speech> speeches;
-  std::shared_ptr<Navigation> navigation;  // none until somebody walks
-  std::optional<glm::vec3> visitor;        // stage
+  std::shared_ptr<Navigation> navigation;  // Null until the first task.
+  std::optional<glm::vec3> visitor;        // Eyes of the visitor, stage frame; none: unknown.
 
   Actor& actor(ActorId id) { return *actors.Find(id); }
   Object& object(ObjectId id) { return *objects.Find(id); }
 };
 
-// A name in what the drama's author is told.
+// Quotes a name for a message to the author of the drama.
 inline std::string Quoted(const std::string& name) { return "'" + name + "'"; }
 
-// Frame of a grip as it is now, in somebody's frame.
+// The current pose of a grip in the actor's frame.
 human::GripFrame ActorFromGrip(const Actor& actor, const Object& object, int grip);
-// What somebody's hand holds; zero: nothing.
+// The object in a hand of an actor (human::kRight or kLeft); zero: none.
 ObjectId InHand(const World& world, ActorId actor, int side);
 
 }  // namespace lararium::stage

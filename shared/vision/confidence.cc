@@ -9,9 +9,9 @@ namespace {
 
 using geometry::CameraModel;
 
-// The continued fraction of the incomplete beta function by Lentz's method
-// (Abramowitz & Stegun, "Handbook of Mathematical Functions", 26.5.8). Converges
-// fast for x < (a + 1) / (a + b + 2).
+// The continued fraction of the incomplete beta function (Abramowitz & Stegun, "Handbook of
+// Mathematical Functions", 26.5.8), evaluated by Lentz's method. Converges fast for
+// x < (a + 1) / (a + b + 2).
 double BetaFraction(double a, double b, double x) {
   constexpr double kTiny = 1e-300;
   constexpr int kMostTerms = 500;
@@ -35,8 +35,8 @@ double BetaFraction(double a, double b, double x) {
   return fraction;
 }
 
-// The mean over the image of J' J in square pixels, J the derivative of a place's
-// projection by (w, v).
+// The mean of J' J over the image and the depths, in square pixels, where J is the derivative of a
+// point's projection by (w, v).
 Matrix6d MeanSquareOfMotion(const CameraModel& camera, const std::array<double, 3>& depths) {
   constexpr int kColumns = 5;
   constexpr int kRows = 4;
@@ -86,8 +86,8 @@ double RegistrationVariance::Sum() const {
 
 RegistrationVariance ComputeRegistrationVariance(const CameraModel& camera,
                                                  const PoseEvidence& evidence) {
-  // The error's square is d' M d with d of this covariance: in the axes in which
-  // covariance and M are both diagonal, a sum of squares.
+  // The squared error is d' M d, where d has the pose's covariance. In axes in which the covariance
+  // becomes the identity and M is diagonal, it is a sum of squares.
   const Eigen::SelfAdjointEigenSolver<Matrix6d> covariance(evidence.covariance);
   const Matrix6d root =
       covariance.eigenvectors() *
@@ -101,11 +101,10 @@ RegistrationVariance ComputeRegistrationVariance(const CameraModel& camera,
   return variance;
 }
 
-// The sum of squares is taken for a multiple g of a chi-square distribution of h
-// degrees of freedom with the same mean and variance (Satterthwaite, "An
-// approximate distribution of estimates of variance components", Biometrics
-// 1946). As the covariance is itself an estimate, with the fewer degrees of
-// freedom the fewer inliers, the quotient follows Fisher's F distribution.
+// The sum of squares is approximated by a multiple of a chi-square distribution with h degrees of
+// freedom and the same mean and variance (Satterthwaite, "An approximate distribution of estimates
+// of variance components", Biometrics 1946). The covariance is itself an estimate, with fewer
+// degrees of freedom the fewer inliers there are, so the quotient follows Fisher's F distribution.
 double PoseConfidence(const CameraModel& camera, const PoseEvidence& evidence, double limit_px) {
   if (evidence.inliers < 4 || !evidence.covariance.allFinite()) {
     return 0.0;

@@ -14,12 +14,12 @@ namespace {
 
 // ------------------------------------------------------------ building
 
-constexpr size_t kVarianceSample = 128;  // descriptors that choose a split
-constexpr int kSplitCandidates = 5;      // dimensions of largest variance to draw from
+constexpr size_t kVarianceSample = 128;  // Number of descriptors sampled to choose a split.
+constexpr int kSplitCandidates = 5;      // Number of dimensions of largest variance to draw from.
 
 struct Moments {
-  std::array<uint32_t, kDescriptorSize> mean{};      // times the number of samples
-  std::array<uint64_t, kDescriptorSize> variance{};  // times its square
+  std::array<uint32_t, kDescriptorSize> mean{};      // Mean times count.
+  std::array<uint64_t, kDescriptorSize> variance{};  // Variance times count^2.
   uint64_t count = 0;
 };
 
@@ -40,7 +40,7 @@ Moments MomentsOf(std::span<const uint32_t> order, std::span<const Descriptor> d
   return m;
 }
 
-// Grows one tree depth first; children are stored as neighbours.
+// Grows one tree depth first. The two children of a node are adjacent.
 class TreeBuilder {
  public:
   TreeBuilder(std::span<const Descriptor> descriptors,
@@ -69,7 +69,7 @@ class TreeBuilder {
   const std::vector<uint32_t>& order() const { return order_; }
 
  private:
-  // Turns a leaf into an inner node with two leaves; false when it stays.
+  // Turns a leaf into an inner node with two leaves. Returns false if it stays a leaf.
   bool Split(uint32_t index) {
     const ForestNode leaf = nodes_[index];
     if (leaf.count <= static_cast<uint32_t>(leaf_size_)) {
@@ -79,9 +79,9 @@ class TreeBuilder {
     const Moments moments = MomentsOf(range, descriptors_);
     const int dimension = ChooseDimension(moments);
     if (moments.variance[dimension] == 0) {
-      return false;  // copies of one descriptor, as far as the sample tells
+      return false;  // All sampled descriptors are equal.
     }
-    // Rounded up, the mean leaves samples on both sides.
+    // The mean is rounded up, so that both sides get samples.
     const auto threshold =
         static_cast<uint16_t>((moments.mean[dimension] + moments.count - 1) / moments.count);
     const auto middle = std::partition(range.begin(), range.end(), [&](uint32_t d) {
@@ -104,7 +104,7 @@ class TreeBuilder {
                                    ? moments.variance[a] > moments.variance[b]
                                    : a < b;
                       });
-    // Those that do not vary cannot split.
+    // Dimensions without variance cannot be split.
     uint32_t candidates = 1;
     while (candidates < kSplitCandidates && moments.variance[dimensions[candidates]] > 0) {
       ++candidates;
@@ -157,7 +157,7 @@ Status DescriptorForest::Validate(size_t descriptor_count) const {
   if (roots.empty() != (descriptor_count == 0)) {
     return problem("has no trees for the descriptors");
   }
-  // Each node has one parent that comes before it, so walks end.
+  // Every node has at most one parent, which comes before it, so there are no cycles.
   std::vector<bool> has_parent(nodes.size(), false);
   for (const uint32_t root : roots) {
     if (root >= nodes.size() || has_parent[root]) {
@@ -234,7 +234,7 @@ size_t ForestSearcher::Search(const Descriptor& query, int max_checks, std::span
       std::pop_heap(heap_.begin(), heap_.end(), later);
       const Branch branch = heap_.back();
       heap_.pop_back();
-      // Nothing nearer can lie there, nor in any branch after it.
+      // Neither this branch nor any later one can hold a nearer descriptor.
       if (count_ == found_.size() &&
           branch.squared_distance >= found_[count_ - 1].squared_distance) {
         heap_.clear();

@@ -3,8 +3,8 @@
 // Randomised k-d trees over descriptors, searched best bin first: Beis & Lowe,
 // "Shape indexing using approximate nearest-neighbour search in
 // high-dimensional spaces", CVPR 1997; Silpa-Anan & Hartley, "Optimised
-// KD-trees for fast image descriptor matching", CVPR 2008. A flat array, so that
-// it is stored in the scene database and used where it lies.
+// KD-trees for fast image descriptor matching", CVPR 2008. The trees are flat arrays, so that the
+// scene database can store them as they are.
 
 #include <cstdint>
 #include <span>
@@ -16,14 +16,14 @@
 
 namespace lararium::vision {
 
-// Inner node: descriptors with [dimension] < threshold lie to the left. Leaf
-// (dimension == kLeaf): order[first, first + count).
+// In an inner node, descriptors with [dimension] < threshold are in the left subtree. A leaf
+// (dimension == kLeaf) holds the descriptors order[first, first + count).
 struct ForestNode {
   static constexpr uint16_t kLeaf = 0xffff;
   uint16_t dimension = kLeaf;
   uint16_t threshold = 0;
-  uint32_t first = 0;  // inner: index of the left child, the right one follows it
-  uint32_t count = 0;  // leaf: number of descriptors
+  uint32_t first = 0;  // Inner node: index of the left child; the right child is the next node.
+  uint32_t count = 0;  // Leaf: number of descriptors.
 };
 
 struct DescriptorForest {
@@ -31,34 +31,35 @@ struct DescriptorForest {
   std::vector<ForestNode> nodes;
   std::vector<uint32_t> order;  // descriptor indices, grouped by leaf
 
-  // Every index in range, no cycles, for a forest over descriptor_count descriptors.
+  // Checks that every index is in range for descriptor_count descriptors and that there are no
+  // cycles.
   Status Validate(size_t descriptor_count) const;
 };
 
 struct ForestOptions {
-  int trees = 4;      // searched together: more of them find more, and take more memory
-  int leaf_size = 8;  // the most descriptors of a leaf
+  int trees = 4;      // Trees searched together. More trees raise recall and use more memory.
+  int leaf_size = 8;  // Maximum number of descriptors in a leaf.
   uint64_t seed = 1;
 };
 
-// The same descriptors and options give the same forest. Without descriptors it is empty.
+// Deterministic: the same descriptors and options give the same forest. Without descriptors the
+// forest is empty.
 DescriptorForest BuildForest(std::span<const Descriptor> descriptors, const ForestOptions& options);
 
 struct Neighbour {
-  uint32_t descriptor = 0;  // its index
+  uint32_t descriptor = 0;  // Index of the descriptor.
   uint32_t squared_distance = 0;
 };
 
-// Working memory of searches, a few kilobytes whatever the forest's size; keep
-// one for each thread.
+// Searches a forest. Holds a few kilobytes of working memory, independent of the forest's size.
+// Use one searcher per thread.
 class ForestSearcher {
  public:
-  // Borrows both for its life.
+  // The forest and the descriptors must outlive the searcher.
   ForestSearcher(const DescriptorForest& forest, std::span<const Descriptor> descriptors);
 
-  // The found.size() nearest neighbours, nearest first, after looking at up to
-  // max_checks descriptors. Returns how many were found. Allocates nothing in
-  // steady state.
+  // Finds the found.size() nearest neighbours, nearest first, among at most max_checks descriptors.
+  // Returns how many were found. Allocates nothing in steady state.
   size_t Search(const Descriptor& query, int max_checks, std::span<Neighbour> found);
 
  private:
@@ -66,34 +67,34 @@ class ForestSearcher {
     uint32_t node;
     uint32_t squared_distance;
   };
-  // In a large forest nearly every step waits for memory, so several branches
-  // are followed at a time, each a step while the others wait.
+  // In a large forest nearly every step waits for memory. Several branches are therefore descended
+  // in turns: while one waits for its prefetch, the others take a step.
   static constexpr size_t kTogether = 4;
-  // Slots of seen_ for each descriptor that may be looked at.
+  // Hash table slots in seen_ per descriptor that may be checked.
   static constexpr size_t kSlots = 4;
 
   void Restart(int max_checks);
-  // Walks from the branches to leaves, leaving what lies beside on the heap.
+  // Descends from the branches to leaves and pushes the other child of every node on the heap.
   void Descend(std::span<Branch> branches, const Descriptor& query);
   void Gather(const ForestNode& leaf);
   void LookAtGathered(const Descriptor& query);
-  // Whether this search meets the descriptor for the first time.
+  // Returns whether this search meets the descriptor for the first time.
   bool MarkSeen(uint32_t descriptor);
   void Insert(Neighbour neighbour);
 
   const DescriptorForest& forest_;
   std::span<const Descriptor> descriptors_;
   std::vector<Branch> heap_;
-  std::vector<uint32_t> gathered_;  // descriptors to look at
-  // A hash table with open addresses: descriptor, number of the search.
+  std::vector<uint32_t> gathered_;  // Descriptors whose distance is computed next.
+  // Hash table with open addressing. An entry is a descriptor and the search that met it.
   std::vector<std::pair<uint32_t, uint32_t>> seen_;
-  uint32_t search_ = 0;
-  std::span<Neighbour> found_;  // of the search at hand
+  uint32_t search_ = 0;         // Number of the current search.
+  std::span<Neighbour> found_;  // Output of the current search.
   size_t count_ = 0;
   int checks_left_ = 0;
 };
 
-// Euclidean, in units of the descriptors' bytes.
+// Squared Euclidean distance in units of the descriptors' bytes.
 uint32_t SquaredDistance(const Descriptor& a, const Descriptor& b);
 
 }  // namespace lararium::vision

@@ -12,10 +12,10 @@
 namespace lararium::vision {
 namespace {
 
-constexpr int kBorder = 5;  // octave pixels at the rim, where blur is guesswork
+constexpr int kBorder = 5;  // Octave pixels at the image border, where the blur is unreliable.
 constexpr int kRowsPerJob = 32;
 
-// Of 3 x 3 x 3 samples, where sign * value is the largest.
+// Returns whether sign * value is largest at the centre of its 3 x 3 x 3 samples.
 bool IsLargest(const Octave& octave, int level, int row, int column, float sign) {
   const float value = sign * octave.Difference(level, row, column);
   for (int l = level - 1; l <= level + 1; ++l) {
@@ -35,8 +35,8 @@ struct Quadratic {
   Eigen::Matrix3f hessian;
 };
 
-// The difference of Gaussians around a sample (Brown & Lowe, "Invariant
-// features from interest point groups", BMVC 2002).
+// Second-order Taylor expansion of the difference of Gaussians around a sample (Brown & Lowe,
+// "Invariant features from interest point groups", BMVC 2002).
 Quadratic QuadraticAt(const Octave& octave, int level, int row, int column) {
   const auto at = [&](int dx, int dy, int dl) {
     return octave.Difference(level + dl, row + dy, column + dx);
@@ -67,12 +67,12 @@ bool LooksLikeEdge(const Quadratic& q, float edge_threshold) {
   return determinant <= 0.0f || trace * trace * edge_threshold >= ratio * ratio * determinant;
 }
 
-// Walks to the top of the quadratic; nullopt for what is weak, an edge or not
-// an extremum after all.
+// Moves to the peak of the quadratic. nullopt if the extremum is weak, lies on an edge, or turns
+// out to be none.
 std::optional<Extremum> Refine(
     const Octave& octave, int level, int row, int column, const FeatureOptions& options) {
   constexpr int kMaxSteps = 5;
-  // Beyond half a sample, so that the walk does not swing between two.
+  // More than half a sample, so that the search does not alternate between two samples.
   constexpr float kNearest = 0.6f;
   for (int step = 0; step < kMaxSteps; ++step) {
     const Quadratic q = QuadraticAt(octave, level, row, column);
@@ -113,7 +113,7 @@ std::optional<Extremum> Refine(
   return std::nullopt;
 }
 
-// A row of a level of the differences.
+// Computes one row of a difference level.
 void FillRow(const Octave& octave, int level, int row, std::vector<float>& differences) {
   const float* finer = octave.gaussians[level].ptr<float>(row);
   const float* coarser = octave.gaussians[level + 1].ptr<float>(row);
@@ -123,8 +123,9 @@ void FillRow(const Octave& octave, int level, int row, std::vector<float>& diffe
   }
 }
 
-// Marks the samples of a row, the middle one of three, that are beyond least and largest or
-// smallest of their 3 x 3 level. Of the few that are left the other levels decide.
+// Marks the samples of the middle row whose absolute value exceeds least and which are the largest
+// or smallest among their 3 x 3 neighbours in the level. The neighbouring levels are checked later,
+// for the few marked samples only.
 void MarkPeaks(const float* above,
                const float* here,
                const float* below,
@@ -148,7 +149,7 @@ void MarkPeaks(const float* above,
   }
 }
 
-// Of a level of an octave, in the rows from begin to end.
+// Appends the extrema of one level of an octave in the rows [begin, end).
 void FindExtremaInRows(const Octave& octave,
                        int level,
                        int begin,
@@ -156,7 +157,7 @@ void FindExtremaInRows(const Octave& octave,
                        const FeatureOptions& options,
                        ExtremaRows& memory,
                        std::vector<Extremum>& found) {
-  // Refinement may raise |D|; what is below half cannot reach the threshold.
+  // Refinement may raise |D|, but not from below half the threshold.
   const float least =
       0.5f * options.contrast_threshold / static_cast<float>(options.scales_per_octave);
   auto& [above, here, below] = memory.differences;
@@ -214,7 +215,7 @@ void ExtremaFinder::Find(std::span<const Octave> octaves,
   for (size_t i = 0; i < count; ++i) {
     extrema.insert(extrema.end(), jobs_[i].found.begin(), jobs_[i].found.end());
   }
-  // Walks from neighbouring samples can end on the same one, with equal results.
+  // Refinements from neighbouring samples can end at the same sample, with equal results.
   std::sort(extrema.begin(), extrema.end(),
             [](const Extremum& a, const Extremum& b) { return a.Cell() < b.Cell(); });
   const auto same = [](const Extremum& a, const Extremum& b) { return a.Cell() == b.Cell(); };

@@ -13,7 +13,7 @@
 
 namespace lararium::vision {
 
-// Refined to a fraction of a sample in place and scale.
+// An extremum, refined to sub-sample accuracy in position and scale.
 struct Extremum {
   int octave = 0;
   int level = 0;
@@ -24,27 +24,27 @@ struct Extremum {
   float sigma = 0.0f;     // octave pixels
   float response = 0.0f;  // |D|, grey 0..1
 
-  // The sample that is nearest; no two extrema share it.
+  // The nearest sample. No two extrema share one.
   auto Cell() const { return std::tie(octave, level, row, column); }
 };
 
-// Of a level, while its rows are searched: three rows of differences, and which samples of the
-// middle one may be extrema.
+// Working memory while the rows of a level are searched: three adjacent rows of differences, and
+// for each sample of the middle row whether it may be an extremum.
 struct ExtremaRows {
   std::array<std::vector<float>, 3> differences;
   std::vector<int32_t> marks;
 };
 
-// Keeps its memory from image to image.
+// Reuses its memory from image to image.
 class ExtremaFinder {
  public:
-  // All extrema that pass the options' thresholds, in order of their cells.
+  // Finds all extrema that pass the options' thresholds, ordered by Extremum::Cell.
   void Find(std::span<const Octave> octaves,
             const FeatureOptions& options,
             std::vector<Extremum>& extrema);
 
  private:
-  // Some rows of a level.
+  // A block of rows of one level.
   struct Job {
     int octave = 0;
     int level = 0;

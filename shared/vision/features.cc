@@ -19,7 +19,7 @@ constexpr size_t kKeypointsPerJob = 32;
 
 size_t JobCount(size_t keypoints) { return (keypoints + kKeypointsPerJob - 1) / kKeypointsPerJob; }
 
-// Keeps the count strongest in their order. responses: working memory.
+// Keeps the `count` items of strongest response in their order. `responses` is working memory.
 template <typename T, typename Response>
 void KeepStrongest(std::vector<T>& items,
                    int count,
@@ -68,7 +68,7 @@ Status FeatureOptions::Validate() const {
   return Status();
 }
 
-// What extraction works with: the pyramids, and lists that keep their capacity.
+// Working memory of the extraction: the scale space, and lists that keep their capacity.
 struct FeatureExtractor::Memory {
   struct Job {
     OrientationMemory orientation;
@@ -138,7 +138,7 @@ Status FeatureExtractor::Extract(const cv::Mat& grey,
   Memory& m = *memory_;
   m.scale_space.Build(grey, options.first_octave, options.scales_per_octave);
   m.extrema_finder.Find(m.scale_space.octaves(), options, m.extrema);
-  // Every extremum has one orientation or more, so these are enough.
+  // Every extremum has at least one orientation, so max_features extrema are enough.
   KeepStrongest(m.extrema, options.max_features, m.responses,
                 [](const Extremum& e) { return e.response; });
   m.Orient();

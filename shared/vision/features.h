@@ -13,16 +13,16 @@
 
 namespace lararium::vision {
 
-// A keypoint at a raw pixel (integer coordinates are pixel centres).
+// A keypoint in raw pixels; integer coordinates are pixel centres.
 struct Keypoint {
   float x = 0.0f;
   float y = 0.0f;
-  float scale = 0.0f;     // sigma of its Gaussian, in pixels of the image
+  float scale = 0.0f;     // Sigma of the keypoint's Gaussian, in image pixels.
   float angle = 0.0f;     // radians, from +x towards +y
   float response = 0.0f;  // |DoG| at the extremum, in grey levels of 0..1
 };
 
-// 4x4 cells of 8 orientations, normalised to length 512, clamped to a byte.
+// 4x4 cells of 8 orientations, normalised to length 512, each value clamped to a byte.
 inline constexpr int kDescriptorSize = 128;
 using Descriptor = std::array<uint8_t, kDescriptorSize>;
 
@@ -33,28 +33,28 @@ struct Features {
   size_t size() const { return keypoints.size(); }
 };
 
-// How finely to look. The level-of-detail controller chooses these from frame
-// to frame; training uses the finest.
+// How finely to detect features. FeatureScaleController adapts the options from frame to frame;
+// training uses fixed ones.
 struct FeatureOptions {
-  // -1 doubles the image first (most features), 0 starts at its own size, 1 at half.
+  // -1 doubles the image first (most features), 0 starts at its own size, 1 at half its size.
   int first_octave = -1;
   int scales_per_octave = 3;
-  float contrast_threshold =
-      0.04f;                     // Lowe's |D| after refinement, grey 0..1, times scales_per_octave
-  float edge_threshold = 10.0f;  // largest ratio of principal curvatures
-  int max_features = 0;          // keep those of strongest response; 0: all
+  // Minimum of Lowe's |D| after refinement times scales_per_octave, grey levels in 0..1.
+  float contrast_threshold = 0.04f;
+  float edge_threshold = 10.0f;  // Largest allowed ratio of the principal curvatures.
+  int max_features = 0;          // Number of strongest features to keep; 0 keeps all.
 
   Status Validate() const;
 };
 
-// Keeps its memory from image to image: allocates nothing in steady state.
+// Reuses its memory from image to image; allocates nothing in steady state.
 class FeatureExtractor {
  public:
   FeatureExtractor();
   ~FeatureExtractor();
 
-  // Deterministic: the same image and options give the same features in the same
-  // order, whatever the number of threads. grey: CV_8UC1.
+  // Deterministic: the same image and options give the same features in the same order, independent
+  // of the number of threads. grey is CV_8UC1.
   Status Extract(const cv::Mat& grey, const FeatureOptions& options, Features& features);
 
  private:
@@ -62,7 +62,7 @@ class FeatureExtractor {
   std::unique_ptr<Memory> memory_;
 };
 
-// The same for a single image.
+// Extracts the features of a single image.
 Result<Features> ExtractFeatures(const cv::Mat& grey, const FeatureOptions& options);
 
 }  // namespace lararium::vision

@@ -112,9 +112,9 @@ Eigen::Vector3d FollowMap::PlaneAt(uint32_t keyframe, uint32_t point) const {
   const double inverse = 1.0 / p.z();
 
   struct Neighbour {
-    Eigen::Vector2d offset;  // image, in focal lengths
-    double rise;             // of the inverse depth, relative
-    double near;             // weight by distance
+    Eigen::Vector2d offset;  // Image distance from the point, in focal lengths.
+    double rise;             // Relative change of the inverse depth.
+    double near;             // Weight by image distance.
   };
   constexpr size_t kMost = 64;
   std::array<Neighbour, kMost> neighbours;
@@ -139,8 +139,8 @@ Eigen::Vector3d FollowMap::PlaneAt(uint32_t keyframe, uint32_t point) const {
                              std::exp(-0.5 * offset.squaredNorm() / reach2)};
     }
   }
-  // Robust to the depths of other surfaces: the scale narrows from that of a steep
-  // slope to that of the noise. A weak pull towards facing the camera.
+  // Robust to the depths of other surfaces: the scale narrows from that of a steep slope to that of
+  // the noise. A weak prior pulls the plane towards facing the camera.
   constexpr std::array<double, 4> kScales = {0.15, 0.06, 0.03, 0.02};
   const double pull = 2.0 * std::pow(0.25 * width / focal, 2);
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
@@ -156,8 +156,8 @@ Eigen::Vector3d FollowMap::PlaneAt(uint32_t keyframe, uint32_t point) const {
     }
     slope = matrix.ldlt().solve(vector);
   }
-  // A surface seen from its edge would not have been seen.
-  constexpr double kSteepest = 6.0;  // tangent of its slant
+  // A steeper surface would not be visible in the keyframe.
+  constexpr double kSteepest = 6.0;  // Tangent of the slant.
   if (slope.norm() > kSteepest) {
     slope *= kSteepest / slope.norm();
   }

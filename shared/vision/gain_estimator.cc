@@ -9,13 +9,13 @@ namespace lararium::vision {
 namespace {
 
 constexpr size_t kLeastPoints = 12;
-constexpr float kLeastColour = 0.002f;  // linear; darker references say nothing
-constexpr float kLeastScale = 0.02f;    // of a logarithm: surfaces are not quite alike
+constexpr float kLeastColour = 0.002f;  // Darkest usable reference colour, linear.
+constexpr float kLeastScale = 0.02f;    // Minimum spread of the logarithms of the ratios.
 constexpr int kIterations = 8;
 
 }  // namespace
 
-// Iteratively reweighted mean with Tukey's loss, from the weighted median.
+// Iteratively reweighted mean with Tukey's loss, starting from the weighted median.
 std::optional<float> GainEstimator::RobustMean(std::span<Ratio> ratios,
                                                std::vector<float>& deviations) {
   if (ratios.size() < kLeastPoints) {

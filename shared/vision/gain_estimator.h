@@ -1,6 +1,6 @@
 #pragma once
 
-// How bright an image is beside the map's photometric reference.
+// Estimates the brightness of an image relative to the map's photometric reference.
 
 #include <array>
 #include <opencv2/core/mat.hpp>
@@ -8,17 +8,17 @@
 #include <span>
 #include <vector>
 
-#include "shared/vision/follower.h"
+#include "shared/vision/patch_tracker.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::vision {
 
-// Allocates nothing after its first images.
+// Allocates nothing in steady state.
 class GainEstimator {
  public:
-  // Linear R, G, B of the image over the reference: exp of a robust mean of the
-  // logarithms of the points' ratios, channel by channel. Each image by itself:
-  // nothing adds up. bgr: CV_8UC3, sRGB. nullopt where too few points show it.
+  // The gain of the image over the reference, linear R, G, B: for each channel, exp of a robust
+  // mean of the logarithms of the points' ratios. Every image is estimated by itself, so errors do
+  // not accumulate. bgr is CV_8UC3, sRGB. nullopt if too few points are usable.
   std::optional<std::array<float, 3>> Estimate(const cv::Mat& bgr,
                                                const SceneDatabase& database,
                                                std::span<const SeenPoint> seen);
@@ -30,7 +30,7 @@ class GainEstimator {
   };
   static std::optional<float> RobustMean(std::span<Ratio> ratios, std::vector<float>& deviations);
 
-  std::array<std::vector<Ratio>, 3> ratios_;  // of each channel
+  std::array<std::vector<Ratio>, 3> ratios_;  // [channel]
   std::vector<float> deviations_;
 };
 

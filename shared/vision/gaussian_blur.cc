@@ -10,7 +10,7 @@
 namespace lararium::vision {
 namespace {
 
-// Eight floats in one register, or in the two that the processor has instead.
+// Eight floats in one vector register, or in two on processors with shorter ones.
 using Lanes = float __attribute__((vector_size(32)));
 constexpr int kLanes = 8;
 
@@ -21,7 +21,7 @@ inline Lanes Load(const float* from) {
 }
 inline void Store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof(lanes)); }
 
-// The centre and one side of a kernel of sum 1.
+// Computes the centre and one side of a kernel whose sum is 1.
 void FillHalfKernel(float sigma, std::vector<float>& kernel) {
   const int radius = std::max(1, static_cast<int>(std::ceil(3.0f * sigma)));
   kernel.resize(radius + 1);
@@ -36,7 +36,7 @@ void FillHalfKernel(float sigma, std::vector<float>& kernel) {
   }
 }
 
-// Row or column i of count, mirrored about the first and the last.
+// Index i, mirrored about the first and the last of count rows or columns.
 int Mirrored(int i, int count) {
   if (count == 1) {
     return 0;
@@ -47,8 +47,8 @@ int Mirrored(int i, int count) {
   return i;
 }
 
-// sum over k of kernel[k] * (before[k][x] + after[k][x]), before[0] standing for
-// the centre alone. Pointers to rows or to places in one row.
+// Computes kernel[0] * before[0][x] plus the sum over k > 0 of
+// kernel[k] * (before[k][x] + after[k][x]). The pointers address rows, or positions in one row.
 void Convolve(const std::vector<float>& kernel,
               const float* const* before,
               const float* const* after,
@@ -75,8 +75,8 @@ void Convolve(const std::vector<float>& kernel,
   }
 }
 
-// Blurs row y: down the columns into a row with margins, then along it. row:
-// image.cols and the kernel's radius on both sides; taps: two for each weight.
+// Blurs row y: first down the columns into `row`, then along `row`. `row` has image.cols values
+// plus the kernel's radius on both sides; `taps` has two pointers per weight.
 void BlurRow(const cv::Mat& image,
              int y,
              const std::vector<float>& kernel,

@@ -5,11 +5,11 @@
 
 namespace lararium::vision {
 
-// Convolves with Gaussians; keeps its memory from image to image.
+// Convolves images with Gaussians. Reuses its memory from image to image.
 class GaussianBlur {
  public:
-  // image: CV_32FC1; sigma in pixels, the kernel ends at 3 sigma, and the image is
-  // mirrored about its outer pixels. blurred may not share pixels with it. Rows run in parallel.
+  // image is CV_32FC1, sigma is in pixels. The kernel ends at 3 sigma, and the image is mirrored
+  // about its outer pixels. blurred must not share pixels with image. Rows run in parallel.
   void Apply(const cv::Mat& image, float sigma, cv::Mat& blurred);
 
  private:
@@ -17,7 +17,7 @@ class GaussianBlur {
     std::vector<float> row;
     std::vector<const float*> taps;
   };
-  std::vector<float> kernel_;  // the centre and one side, of sum 1
+  std::vector<float> kernel_;  // Centre and one side of the kernel; the whole kernel sums to 1.
   std::vector<Job> jobs_;
 };
 

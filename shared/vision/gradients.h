@@ -12,7 +12,7 @@ namespace lararium::vision {
 
 inline constexpr float kTwoPi = 2.0f * std::numbers::pi_v<float>;
 
-// The angle of (x, y) in [0, 2 pi), to 1e-5 (Abramowitz & Stegun, "Handbook of
+// The angle of (x, y) in [0, 2 pi), accurate to 1e-5 (Abramowitz & Stegun, "Handbook of
 // Mathematical Functions", 4.4.49), in a form that compilers vectorise.
 inline float Angle(float y, float x) {
   const float ax = std::abs(x);
@@ -27,11 +27,10 @@ inline float Angle(float y, float x) {
   return angle;
 }
 
-// What rows of samples have beyond their end, so that loops may take several
-// samples at a time.
+// Number of extra samples at the end of a row, so that vectorised loops may read past its end.
 inline constexpr int kRowPadding = 8;
 
-// Magnitudes and angles of the grey values' gradients in part of a row.
+// Magnitudes and angles of the image gradient in part of a row.
 struct GradientRow {
   std::vector<float> magnitude;
   std::vector<float> angle;
@@ -56,7 +55,8 @@ struct GradientRow {
   }
 };
 
-// exp(-d^2 / (2 sigma^2)) of the distances from centre to begin, begin + 1, ...
+// Fills weights with exp(-d^2 / (2 sigma^2)), d being the distance of begin, begin + 1, ... from
+// centre.
 inline void FillGaussian(
     float centre, float sigma, int begin, int end, std::vector<float>& weights) {
   weights.resize(std::max(end - begin, 0) + kRowPadding);
@@ -66,7 +66,7 @@ inline void FillGaussian(
   }
 }
 
-// Pixels of a square around (x, y) whose gradients exist.
+// The pixels of a square around (x, y) at which gradients can be computed.
 struct Window {
   int x_begin, x_end, y_begin, y_end;
 

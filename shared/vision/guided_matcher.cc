@@ -13,11 +13,11 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr uint32_t kClusterSize = 64;         // points, at most
-constexpr float kSideMargin = 1.001f;         // for rounding
-constexpr float kLeastFacing = 0.1f;          // cosine between normal and line of sight
-constexpr float kLargestScaleRatio = 1.6f;    // seen over expected
-constexpr uint32_t kLargestDistance = 60000;  // squared, of descriptors of length 512
+constexpr uint32_t kClusterSize = 64;         // Maximum number of points.
+constexpr float kSideMargin = 1.001f;         // Factor on the radius, against rounding errors.
+constexpr float kLeastFacing = 0.1f;          // Minimum cosine between normal and viewing ray.
+constexpr float kLargestScaleRatio = 1.6f;    // Between observed and expected scale, either way.
+constexpr uint32_t kLargestDistance = 60000;  // Squared distance of descriptors of length 512.
 
 bool Faces(const Eigen::Vector3f& point,
            const Eigen::Vector3f& normal,
@@ -26,7 +26,8 @@ bool Faces(const Eigen::Vector3f& point,
   return normal.dot(towards) > kLeastFacing * towards.norm();
 }
 
-// Geometric mean over its sights, of keypoint scale times depth over focal length.
+// [points]: Geometric mean over the observations of a point of keypoint scale times depth over
+// focal length, in map units; 0 without observations.
 std::vector<float> PointScales(const SceneDatabase& db) {
   std::vector<double> log_sums(db.points.size(), 0.0);
   std::vector<int> counts(db.points.size(), 0);
@@ -53,7 +54,7 @@ GuidedMatcher::GuidedMatcher(const SceneDatabase& database) : database_(database
   BuildClusters();
 }
 
-// Halves the points at the median of their longest extent until few are left.
+// Splits the points at the median along their longest extent, until each part is small enough.
 void GuidedMatcher::BuildClusters() {
   const auto& points = database_.points;
   const std::vector<float> scales = PointScales(database_);
@@ -103,7 +104,7 @@ void GuidedMatcher::AddCluster(std::span<const uint32_t> points, std::span<const
   clusters_.push_back(cluster);
 }
 
-// Distortion bends the sides: the planes go through their outermost pixels.
+// Lens distortion bends the sides of the image; the planes go through their outermost pixels.
 void GuidedMatcher::FillSides(const CameraModel& camera) {
   constexpr int kSteps = 8;
   Eigen::AlignedBox2d box;
@@ -234,7 +235,8 @@ void GuidedMatcher::Match(const CameraModel& camera,
         continue;
       }
       FeatureMatch& best = best_of_feature_[match.feature];
-      // Of two that are equally near the first point, whatever their clusters.
+      // Of two equally similar points, the one with the lower index wins, independent of the order
+      // of the clusters.
       if (match.squared_distance < best.squared_distance ||
           (match.squared_distance == best.squared_distance && match.point < best.point)) {
         best = match;

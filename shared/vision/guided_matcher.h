@@ -1,7 +1,7 @@
 #pragma once
 
-// Once a pose is known, map points are looked for where they should be: more
-// matches than the search without a prior, hence a better pose.
+// Guided matching: with a known pose, map points are searched near their projections. This gives
+// more matches than the search without a prior, and therefore a better pose.
 
 #include <Eigen/Core>
 #include <array>
@@ -20,17 +20,17 @@ namespace lararium::vision {
 struct FeatureMatch {
   uint32_t feature = 0;
   uint32_t point = 0;
-  uint32_t squared_distance = 0;  // of the descriptors
+  uint32_t squared_distance = 0;  // Squared distance between the descriptors.
 };
 
 class GuidedMatcher {
  public:
-  // Borrows the database for its life.
+  // The database must outlive the matcher.
   explicit GuidedMatcher(const SceneDatabase& database);
 
-  // Points that face the camera and project within radius_px of a feature of
-  // similar scale and descriptor; each feature and each point at most once, in
-  // order of the features.
+  // Matches points that face the camera and project within radius_px of a feature of similar scale
+  // and descriptor. Each feature and each point occurs at most once; matches are in the order of
+  // the features.
   void Match(const geometry::CameraModel& camera,
              const geometry::Rigid3& camera_from_map,
              const Features& features,
@@ -38,20 +38,20 @@ class GuidedMatcher {
              std::vector<FeatureMatch>& matches);
 
  private:
-  // A copy of what decides whether a point may be seen.
+  // A copy of the properties that decide whether a point may be visible.
   struct Candidate {
     Eigen::Vector3f position;
     Eigen::Vector3f normal;
-    float scale = 0.0f;  // sigma of its features in map units; 0: unknown
+    float scale = 0.0f;  // Sigma of the point's keypoints, in map units; 0 if unknown.
     uint32_t point = 0;
   };
-  // Points that lie together, culled together: the time goes with what the
-  // camera sees, not with the size of the map.
+  // Neighbouring points that are culled together, so that the run time depends on the visible part
+  // of the map and not on its size.
   struct Cluster {
     Eigen::Vector3f centre = Eigen::Vector3f::Zero();
     float radius = 0.0f;
-    float largest_scale = 0.0f;  // of its points; infinite where one is not known
-    uint32_t begin = 0;          // into candidates_
+    float largest_scale = 0.0f;  // Largest Candidate::scale; infinite if one is unknown.
+    uint32_t begin = 0;          // Range of candidates_.
     uint32_t end = 0;
   };
   static constexpr int kCell = 8;  // pixels
@@ -61,11 +61,11 @@ class GuidedMatcher {
   static constexpr uint32_t kNone = 0xffffffff;
 
   void FillGrid(const geometry::CameraModel& camera, const Features& features);
-  // Normals of the four planes through the image's sides, inwards.
+  // Computes the inward normals of the four planes through the camera centre and the image's sides.
   void FillSides(const geometry::CameraModel& camera);
   bool MayShow(const Cluster& cluster, const Eigen::Vector3f& centre_in_camera) const;
   uint32_t Distance(size_t point, const Descriptor& descriptor) const;
-  // The best feature near the point's place, kNone without.
+  // The most similar feature near the point's projection; its `feature` is kNone if there is none.
   FeatureMatch BestNear(size_t point,
                         const Eigen::Vector2f& pixel,
                         float expected_scale,
@@ -73,13 +73,13 @@ class GuidedMatcher {
                         const Features& features) const;
 
   const SceneDatabase& database_;
-  std::vector<Candidate> candidates_;  // by cluster
+  std::vector<Candidate> candidates_;  // Ordered by cluster.
   std::vector<Cluster> clusters_;
   std::array<Eigen::Vector3f, 4> sides_;
   float focal_ = 1.0f;
-  float least_scale_ = 0.0f;  // of the image's features, pixels
+  float least_scale_ = 0.0f;  // Smallest keypoint scale in the image, pixels.
 
-  // Features by cells of the image: lists linked through next_.
+  // Features by image cell: first_[cell] starts a list that is linked through next_[feature].
   int columns_ = 0;
   int rows_ = 0;
   std::vector<uint32_t> first_;

@@ -7,9 +7,9 @@
 namespace lararium::vision {
 namespace {
 
-// Each pixel of half is the mean of 4x4 of image with the weights 1 3 3 1 along
-// both axes: symmetric about the corner that its four nearest share. Outer pixels
-// repeat. sums: working memory [image.cols + 2].
+// Each pixel of half is the mean of 4x4 pixels of image with the weights 1 3 3 1 along both axes,
+// symmetric about the common corner of the four inner pixels. Outer pixels are repeated at the
+// border. sums is working memory [image.cols + 2].
 void Halve(const cv::Mat& image, cv::Mat& half, std::vector<uint16_t>& sums) {
   const int width = image.cols;
   for (int row = 0; row < half.rows; ++row) {

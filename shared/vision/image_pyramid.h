@@ -1,6 +1,6 @@
 #pragma once
 
-// An image at its own and at halved sizes, for searching from coarse to fine.
+// An image pyramid for coarse-to-fine search.
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -23,11 +23,11 @@ T PixelFromLevel(const T& pixel, int level) {
   return (scale * (pixel.array() + half) - half).matrix();
 }
 
-// Keeps its memory from image to image.
+// Reuses its memory from image to image.
 class ImagePyramid {
  public:
-  // grey: CV_8UC1; level 0 shares its pixels. levels: at least 1; stops before a
-  // side would fall below kLeastSide.
+  // grey is CV_8UC1; level 0 shares its pixels. levels is at least 1. The pyramid ends before a
+  // side would become shorter than kLeastSide.
   void Build(const cv::Mat& grey, int levels);
 
   int levels() const { return levels_; }

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kLeastSide = 64;
 constexpr int kBlock = 16;
-constexpr int kLevels = 16;
+constexpr int kGreyLevels = 16;
 
-// Values 0..1; empty where it is not fit.
+// One channel with values 0..1; empty if the image is not usable.
 cv::Mat Channel(const cv::Mat& image, int channel) {
   cv::Mat values;
   if (image.cols < kLeastSide || image.rows < kLeastSide || image.depth() != CV_8U) {
@@ -34,8 +34,8 @@ struct Block {
   double variance = 0.0;
 };
 
-// The variance of the noise in each block, by a mask whose response to noise of variance 1
-// has the variance 36.
+// Appends the mean and the noise variance of each block. The response of the mask to noise of
+// variance 1 has variance 36.
 void AddBlocks(const cv::Mat& values, std::vector<Block>& blocks) {
   const cv::Mat mask = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
   cv::Mat response;
@@ -53,8 +53,8 @@ void AddBlocks(const cv::Mat& values, std::vector<Block>& blocks) {
   }
 }
 
-// Of a level's blocks the calmest third: where the image itself has nothing. Choosing them
-// makes their mean slightly too low.
+// Mean of the calmest third of a level's blocks, which hardly contain any texture. This selection
+// makes the variance slightly too low.
 std::optional<Block> CalmestOf(std::vector<Block>& blocks) {
   constexpr size_t kLeastBlocks = 12;
   if (blocks.size() < kLeastBlocks) {
@@ -72,11 +72,11 @@ std::optional<Block> CalmestOf(std::vector<Block>& blocks) {
   return Block{mean.mean / count, mean.variance / count};
 }
 
-// variance = a + b * mean, neither negative.
+// Fits variance = floor^2 + slope * mean, with neither term negative.
 ImageNoise FitLine(const std::vector<Block>& levels) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (const Block& level : levels) {
-    // Variances of noisy levels are as uncertain as they are large.
+    // The uncertainty of a variance is proportional to the variance.
     const double weight = 1.0 / std::max(level.variance * level.variance, 1e-14);
     n += weight;
     x += weight * level.mean;
@@ -105,7 +105,7 @@ struct Gradient {
     cv::Sobel(image, y, CV_32F, 0, 1, 3, 0.125);
     cv::magnitude(x, y, size);
   }
-  // Steepest across the edge.
+  // Returns whether the gradient is largest in the direction across the edge.
   bool IsRidge(int row, int column) const {
     const bool upright = std::abs(x.at<float>(row, column)) > std::abs(y.at<float>(row, column));
     const int dx = upright ? 1 : 0;
@@ -114,8 +114,9 @@ struct Gradient {
     return here >= size.at<float>(row - dy, column - dx) &&
            here > size.at<float>(row + dy, column + dx);
   }
-  // A step and no thin line: for some pixels to both sides the gradient does not turn round.
-  // Lines lose more of it when blurred, and would look sharper than they are.
+  // Returns whether the edge is a step and not a thin line: the gradient does not change its sign
+  // within kApart pixels on both sides. Blurring reduces the gradient of a line more than that of a
+  // step, so lines would seem sharper than they are.
   bool IsStep(int row, int column) const {
     const bool upright = std::abs(x.at<float>(row, column)) > std::abs(y.at<float>(row, column));
     const cv::Mat& across = upright ? x : y;
@@ -135,13 +136,13 @@ struct Gradient {
   static constexpr int kApart = 4;  // pixels
 };
 
-// Re-blurs by a known Gaussian r; at the middle of a step of deviation s the gradient falls
-// by sqrt(s^2 + r^2) / s.
+// Re-blurs the image by a Gaussian of deviation r. In the middle of a step of deviation s the
+// gradient falls by the factor sqrt(s^2 + r^2) / s, from which s follows.
 void AddEdges(const cv::Mat& values, std::vector<double>& deviations) {
-  constexpr double kCalm = 0.7;  // before both, so that noise makes no edges
+  constexpr double kCalm = 0.7;  // Blur before both measurements, so that noise makes no edges.
   constexpr double kReblur = 1.2;
-  constexpr float kClear = 0.03f;  // of the range for each pixel
-  // Sobel's own width, as a Gaussian of the same variance, and the first blur.
+  constexpr float kClear = 0.03f;  // Minimum gradient, as a share of the range per pixel.
+  // Variance of the first blur and of the Sobel filter, taken as a Gaussian.
   constexpr double kOwn = kCalm * kCalm + 0.5;
   cv::Mat calm, blurred;
   cv::GaussianBlur(values, calm, cv::Size(), kCalm);
@@ -170,10 +171,10 @@ std::optional<ImageNoise> EstimateNoise(std::span<const cv::Mat> images) {
       }
     }
   }
-  std::array<std::vector<Block>, kLevels> by_level;
+  std::array<std::vector<Block>, kGreyLevels> by_level;
   for (const Block& block : blocks) {
-    by_level[std::min<size_t>(static_cast<size_t>(block.mean * kLevels), kLevels - 1)].push_back(
-        block);
+    by_level[std::min<size_t>(static_cast<size_t>(block.mean * kGreyLevels), kGreyLevels - 1)]
+        .push_back(block);
   }
   std::vector<Block> levels;
   for (std::vector<Block>& level : by_level) {

@@ -15,22 +15,21 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr size_t kNeighbours = 8;      // of a query: usually more than one point's descriptors
-constexpr size_t kSearchJobs = 8;      // each with its own searcher
-constexpr size_t kLeastMatches = 6;    // below, three that agree mean nothing
-constexpr size_t kFirstQueries = 400;  // of the features, before the others are searched
-constexpr int kPlentyOfInliers = 50;   // of guided matching: the others would change nothing
+constexpr size_t kNeighbours = 8;      // Per query; usually more than one point's descriptors.
+constexpr size_t kSearchJobs = 8;      // Parallel jobs, each with its own searcher.
+constexpr size_t kLeastMatches = 6;    // Below this number, agreement proves nothing.
+constexpr size_t kFirstQueries = 400;  // Number of features that are searched first.
+constexpr int kPlentyOfInliers = 50;   // Enough inliers to skip the search for the other features.
 constexpr double kGuidedRadiusPx = 3.0;
-constexpr double kSample = 3.0;            // matches that make a pose
-constexpr double kPosesOfSample = 4.0;     // of P3P, at most
-constexpr double kMostFalseAlarms = 1e-6;  // poses by chance, expected for each image
-constexpr float kSpotPx = 8.0f;            // matches nearer to each other are no two witnesses
-constexpr double kLargestErrorPx = 5.0;    // expected, of a pose worth showing
+constexpr double kSample = 3.0;            // Number of matches that determine a pose.
+constexpr double kPosesOfSample = 4.0;     // Maximum number of P3P solutions.
+constexpr double kMostFalseAlarms = 1e-6;  // Expected number of accidental poses per image.
+constexpr float kSpotPx = 8.0f;            // Matches in one cell of this size count once.
+constexpr double kLargestErrorPx = 5.0;    // Largest expected error of an accepted pose.
 
-// Relative uncertainty of where a feature shows a point. Measured on sequences
-// with true poses: it grows with the feature's scale and with the distance of
-// the descriptors, and the point itself is the better known the more often
-// training saw it.
+// Relative uncertainty of a matched position. Measured on sequences with ground truth: it grows
+// with the scale of the feature and with the distance of the descriptors. The point itself is known
+// better the more often training observed it.
 double SigmaOf(const Keypoint& keypoint, uint32_t squared_distance, uint32_t observations) {
   constexpr double kScale = 3.0;  // pixels
   constexpr double kDistance = 18000.0;
@@ -40,22 +39,21 @@ double SigmaOf(const Keypoint& keypoint, uint32_t squared_distance, uint32_t obs
   return std::sqrt((1.0 + s * s) * d * d + kObservations / std::max(observations, 1u));
 }
 
-// By how much the covariance of a pose from so many independent matches is too
-// small. What the matches have in common (a hand that moves unevenly while the
-// shutter is open, a place that bends in the map) does not show in their
-// residuals and does not average out: matches of intra-class correlation rho say
-// as little as 1 / rho independent ones (Kish, "Survey Sampling", 1965, the design
-// effect). rho grows steeply with the noise, as the sharpest images have hardly
-// anything in common but the noise of their pixels. Exponent and factor: fitted
-// to the normalised pose errors of five sequences; each left out in turn, they
-// foretell its mean to a factor of about 2.
+// The factor by which the covariance of a pose from `inliers` matches is too small if the matches
+// are taken as independent. Errors that matches share (an uneven hand movement during the exposure,
+// a bend in the map) do not show in the residuals and do not average out. Matches with intra-class
+// correlation rho carry no more information than 1 / rho independent ones (the design effect; Kish,
+// "Survey Sampling", 1965). rho grows steeply with the noise, because the errors in the sharpest
+// images are hardly more than independent pixel noise. Exponent and factor were fitted to the
+// normalised pose errors of five sequences. In leave-one-out validation they predict the mean error
+// of the remaining sequence to a factor of about 2.
 double DesignEffect(double noise_px, int inliers) {
-  constexpr double kFactor = 18.0;  // pixels to the power of -4
+  constexpr double kFactor = 18.0;  // pixels^-4
   const double rho = std::min(kFactor * std::pow(noise_px, 4), 1.0);
   return 1.0 + rho * inliers;
 }
 
-// Squares of the image, without end to the right and below.
+// Divides the image into square tiles; the grid extends to the outermost features.
 class TileGrid {
  public:
   explicit TileGrid(const Features& features) {
@@ -102,8 +100,8 @@ Location Localizer::Locate(const Features& features, const CameraModel& camera) 
   for (size_t i = 0; i < features.size(); ++i) {
     planes_[i] = camera.PlaneFromPixel({features.keypoints[i].x, features.keypoints[i].y});
   }
-  // A few hundred of the features, strong and spread over the image, nearly always
-  // tell where the camera is; then the others need no search without a prior.
+  // A few hundred strong features, spread over the image, nearly always determine the pose. The
+  // other features then need no search without a prior.
   OrderQueries(features);
   found_.assign(features.size(), std::nullopt);
   const size_t first = std::min(kFirstQueries, queries_.size());
@@ -149,7 +147,8 @@ bool Localizer::LocateFromMatches(const Features& features,
   return true;
 }
 
-// Rank by rank through the tiles: the strongest of every tile, then the second, ...
+// Orders the features by their rank within their tile: first the strongest feature of every tile,
+// then the second of every tile, and so on.
 void Localizer::OrderQueries(const Features& features) {
   queries_.resize(features.size());
   std::iota(queries_.begin(), queries_.end(), 0u);
@@ -169,15 +168,15 @@ void Localizer::OrderQueries(const Features& features) {
                    [&](uint32_t a, uint32_t b) { return place_in_tile_[a] < place_in_tile_[b]; });
 }
 
-// Whether chance would hardly ever make so many matches agree: the expected
-// number of poses that as many random matches support (Moisan & Stival, "A
-// probabilistic criterion to detect rigid point matches between two images",
-// IJCV 2004; Moulon, Monasse & Marlet, "Adaptive structure from motion with a
-// contrario model estimation", ACCV 2012). A random match shows its point at the
-// place of some feature of this image, so where features crowd chance has it
-// easier; and what stands on one spot counts once.
+// Returns whether it is improbable that this many matches agree by chance. Compares the expected
+// number of poses that as many random matches would support with a threshold (Moisan & Stival, "A
+// probabilistic criterion to detect rigid point matches between two images", IJCV 2004; Moulon,
+// Monasse & Marlet, "Adaptive structure from motion with a contrario model estimation", ACCV 2012).
+// A random match puts its point at a random feature of the image, so accidental agreement is more
+// probable where features are dense. Matches at the same spot count once.
 bool Localizer::IsNoAccident(const Features& features, const CameraModel& camera) {
-  const double radius = 2.0 * options_.inlier_threshold_px;  // that of the vaguest inliers
+  // The largest residual that an uncertain inlier may have; see SelectInliers.
+  const double radius = 2.0 * options_.inlier_threshold_px;
   const TileGrid grid(features);
   counts_.assign(grid.size(), 0);
   for (const Keypoint& keypoint : features.keypoints) {
@@ -190,7 +189,7 @@ bool Localizer::IsNoAccident(const Features& features, const CameraModel& camera
     const auto column = static_cast<uint32_t>(std::max(keypoint.x, 0.0f) / kSpotPx);
     const auto row = static_cast<uint32_t>(std::max(keypoint.y, 0.0f) / kSpotPx);
     spots_.push_back(row << 16 | column);
-    // Density of features around, at least that of an even spread.
+    // Local density of features, but at least that of a uniform distribution.
     const double share = counts_[grid.TileOf(keypoint)] / static_cast<double>(features.size());
     const double density = std::max(share / grid.TileArea(),
                                     1.0 / (static_cast<double>(camera.width) * camera.height));
@@ -201,7 +200,7 @@ bool Localizer::IsNoAccident(const Features& features, const CameraModel& camera
   std::sort(spots_.begin(), spots_.end());
   spots_.erase(std::unique(spots_.begin(), spots_.end()), spots_.end());
   const auto k = static_cast<double>(spots_.size());
-  // As many matches fewer as inliers stand on spots of others.
+  // Inliers that share a spot with another inlier are not counted as matches either.
   const double n = static_cast<double>(matches_.size()) - (inliers - k);
   if (k <= kSample) {
     return false;
@@ -269,7 +268,8 @@ std::optional<Localizer::Match> Localizer::SearchMatch(const Features& features,
     return std::nullopt;
   }
   const uint32_t point = database_.descriptor_point[neighbours[0].descriptor];
-  // Where all neighbours show the same point, another is at least as far as the last.
+  // If all neighbours belong to the same point, the distance of the last one is a lower bound for
+  // that of any other point.
   uint32_t other = neighbours[count - 1].squared_distance;
   for (size_t i = 1; i < count; ++i) {
     if (database_.descriptor_point[neighbours[i].descriptor] != point) {
@@ -321,8 +321,8 @@ void Localizer::KeepBestOfEachPoint() {
 std::optional<Rigid3> Localizer::FindPose(const CameraModel& camera) {
   using Pose = Eigen::Matrix<double, 3, 4>;
   const auto count = static_cast<uint32_t>(matches_.size());
-  // The first samples come from the most distinctive matches, later ones from
-  // more and more (after Chum & Matas, "Matching with PROSAC", CVPR 2005).
+  // The first samples are drawn from the most distinctive matches, later ones from a growing pool
+  // (after Chum & Matas, "Matching with PROSAC", CVPR 2005).
   constexpr uint32_t kFirstPool = 12;
   uint32_t samples = 0;
   const auto generate = [&](Random& random, std::vector<Pose>& poses) {
@@ -362,7 +362,7 @@ std::optional<Rigid3> Localizer::FindPose(const CameraModel& camera) {
   return Rigid3::FromMatrix(pose.leftCols<3>(), pose.col(3));
 }
 
-// Quartiles of the inliers' distances.
+// Quartiles of the inliers' depths.
 std::array<double, 3> Localizer::Depths() {
   depths_.clear();
   for (const uint32_t i : refined_.inliers) {

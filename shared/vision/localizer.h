@@ -1,7 +1,7 @@
 #pragma once
 
-// The pose of one image from its features, without a prior: search in the
-// forest, preemptive RANSAC with P3P, refinement, guided matching, refinement.
+// Estimates the pose of one image from its features, without a prior. Steps: search in the
+// descriptor forest, preemptive RANSAC with P3P, refinement, guided matching, refinement.
 
 #include <Eigen/Core>
 #include <array>
@@ -24,56 +24,56 @@
 namespace lararium::vision {
 
 struct LocalizerOptions {
-  int search_checks = 64;  // descriptors looked at for each query
-  float ratio = 0.8f;      // Lowe's ratio between different points
+  int search_checks = 64;  // Descriptors compared per query.
+  float ratio = 0.8f;      // Lowe's ratio test between the two nearest different points.
   float inlier_threshold_px = 2.0f;
-  int hypotheses = 512;  // of preemptive RANSAC
+  int hypotheses = 512;  // Number of hypotheses of preemptive RANSAC.
   int min_inliers = 15;
   uint64_t seed = 1;
 };
 
 struct Location {
   std::optional<geometry::Rigid3> camera_from_map;
-  TrackReason reason = TrackReason::kNone;  // why there is no pose
-  int matches = 0;                          // found without a prior
-  int inliers = 0;                          // of guided matching
-  // Of (w, v) in the pose (exp(w) R, exp(w) t + v); map units.
+  TrackReason reason = TrackReason::kNone;  // Why there is no pose.
+  int matches = 0;                          // Number of matches found without a prior.
+  int inliers = 0;                          // Number of inliers after guided matching.
+  // Covariance of (w, v) in the pose (exp(w) R, exp(w) t + v); radians and map units.
   Matrix6d covariance = Matrix6d::Zero();
-  // One sigma of where the pose puts things, root mean square over the image.
+  // Expected registration error of the pose, one sigma, root mean square over the image.
   double expected_error_px = 0.0;
-  // The probability that this error is below a pixel; 0 without a pose.
+  // Probability that the registration error is below 1 pixel; 0 without a pose.
   float confidence = 0.0f;
 };
 
-// A point of the map where a feature showed it, in agreement with the pose.
+// A map point matched to a feature that agrees with the pose.
 struct LocatedPoint {
   uint32_t point = 0;
-  float sigma_px = 0.0f;                            // along one axis
-  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
+  float sigma_px = 0.0f;                            // Standard deviation of `pixel` along one axis.
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw pixel
 };
 
 class Localizer {
  public:
-  // Borrows the database for its life.
+  // The database must outlive the localizer.
   Localizer(const SceneDatabase& database, const LocalizerOptions& options);
 
-  // The same features give the same pose, whatever came before.
+  // Deterministic: the same features give the same pose, independent of earlier calls.
   Location Locate(const Features& features, const geometry::CameraModel& camera);
 
-  // What the last location stands on, the most exact first; nothing without a pose.
+  // The points that support the last location, the most accurate first; empty without a pose.
   std::span<const LocatedPoint> points() const { return points_; }
 
  private:
   static constexpr uint32_t kNoMatch = 0xffffffff;
 
   struct Match : FeatureMatch {
-    float ratio = 1.0f;  // to the distance of the nearest other point, squared
+    float ratio = 1.0f;  // Squared distance over that of the nearest other point.
   };
 
   void OrderQueries(const Features& features);
-  // Searches for the features queries_[begin, end) and adds what it finds.
+  // Searches for the features queries_[begin, end) and rebuilds matches_ from all that were found.
   void SearchMatches(const Features& features, size_t begin, size_t end);
-  // From the matches that were found so far; whether there is a pose.
+  // Estimates the pose from matches_. Returns whether there is a pose.
   bool LocateFromMatches(const Features& features,
                          const geometry::CameraModel& camera,
                          Location& location);
@@ -94,14 +94,14 @@ class Localizer {
   GuidedMatcher guided_;
 
   // Working memory.
-  std::vector<Eigen::Vector2d> planes_;  // of the features, undistorted
+  std::vector<Eigen::Vector2d> planes_;  // [features]: Undistorted position on the plane z = 1.
   std::vector<ForestSearcher> searchers_;
-  std::vector<uint32_t> queries_;            // features, those searched first before the others
-  std::vector<uint32_t> place_in_tile_;      // [features]: rank by strength in its tile
-  std::vector<uint32_t> counts_;             // of features or inliers in tiles
+  std::vector<uint32_t> queries_;            // Features in the order in which they are searched.
+  std::vector<uint32_t> place_in_tile_;      // [features]: Rank by response within its tile.
+  std::vector<uint32_t> counts_;             // [tiles]: Number of features.
   std::vector<std::optional<Match>> found_;  // [features]
-  std::vector<Match> matches_;               // most distinctive first
-  std::vector<uint32_t> match_of_point_;     // into matches_
+  std::vector<Match> matches_;               // Most distinctive match first.
+  std::vector<uint32_t> match_of_point_;     // [points]: Index into matches_, or kNoMatch.
   std::vector<FeatureMatch> guided_matches_;
   std::vector<PoseMatch> pose_matches_;
   geometry::PreemptiveRansac<Eigen::Matrix<double, 3, 4>> ransac_;
@@ -109,7 +109,7 @@ class Localizer {
   RefinedPose refined_;
   std::vector<LocatedPoint> points_;
   std::vector<double> depths_;
-  std::vector<uint32_t> spots_;  // of the inliers
+  std::vector<uint32_t> spots_;  // [inliers]: Key of the image cell that holds the inlier.
 };
 
 }  // namespace lararium::vision

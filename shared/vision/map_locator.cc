@@ -10,13 +10,13 @@
 namespace lararium::vision {
 namespace {
 
-constexpr size_t kProbes = 256;    // features that vote
-constexpr size_t kProbeJobs = 4;   // for each map
-constexpr int kProbeChecks = 32;   // descriptors looked at for each probe and map
-constexpr size_t kNeighbours = 4;  // of a probe: usually more than one point's descriptors
-constexpr size_t kMostTried = 3;   // maps, where those of more votes give no pose
-constexpr int kVotesDistinct = 2;  // of a probe that one map alone explains
-constexpr int kVotesInOwnMap = 1;  // of a probe that another map explains nearly as well
+constexpr size_t kProbes = 256;         // Number of features that vote.
+constexpr size_t kProbeJobs = 4;        // Number of parallel jobs per map.
+constexpr int kProbeChecks = 32;        // Descriptors compared per probe and map.
+constexpr size_t kProbeNeighbours = 4;  // Per probe; usually more than one point's descriptors.
+constexpr size_t kMostTried = 3;        // Number of maps that are tried until one gives a pose.
+constexpr int kVotesDistinct = 2;       // Votes of a probe that only one map explains.
+constexpr int kVotesInOwnMap = 1;  // Votes of a probe that another map explains nearly as well.
 
 }  // namespace
 
@@ -57,7 +57,7 @@ Located MapLocator::Locate(const Features& features, const geometry::CameraModel
   return likeliest;
 }
 
-// The strongest responses: what training found again most surely.
+// Chooses the features of strongest response, because training is most likely to have them too.
 void MapLocator::ChooseProbes(const Features& features) {
   probes_.resize(features.size());
   std::iota(probes_.begin(), probes_.end(), 0u);
@@ -79,7 +79,7 @@ void MapLocator::SearchProbes(const Features& features) {
     const size_t m = work / kProbeJobs;
     const size_t job = work % kProbeJobs;
     Map& map = maps_[m];
-    std::array<Neighbour, kNeighbours> found;
+    std::array<Neighbour, kProbeNeighbours> found;
     const size_t end = probes_.size() * (job + 1) / kProbeJobs;
     for (size_t p = probes_.size() * job / kProbeJobs; p < end; ++p) {
       const size_t count =
@@ -89,7 +89,8 @@ void MapLocator::SearchProbes(const Features& features) {
       }
       Nearest& nearest = nearest_[p * maps_.size() + m];
       nearest.first = found[0].squared_distance;
-      // Where all neighbours show one point, another is at least as far as the last.
+      // If all neighbours belong to the same point, the distance of the last one is a lower bound
+      // for that of any other point.
       nearest.other = found[count - 1].squared_distance;
       const auto& point_of = map.database->descriptor_point;
       for (size_t i = 1; i < count; ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// The pose of one image in one of several maps (the rooms of a house): one cheap
-// search tells which map the image shows, the full localisation follows there.
+// Locates one image in one of several maps, for example the rooms of a house. A cheap search tells
+// which map the image shows; the full localisation runs in that map.
 
 #include <cstdint>
 #include <memory>
@@ -17,20 +17,20 @@
 namespace lararium::vision {
 
 struct Located {
-  uint32_t map = 0;   // index of the map that the location is about
-  Location location;  // without a pose: of the likeliest map
+  uint32_t map = 0;   // Index of the map that `location` refers to.
+  Location location;  // If there is no pose, the result in the likeliest map.
 };
 
 class MapLocator {
  public:
-  // At least one map; shares them.
+  // Takes at least one map and shares ownership.
   MapLocator(std::span<const std::shared_ptr<const SceneDatabase>> maps,
              const LocalizerOptions& options);
 
-  // The same features give the same answer, whatever came before and however
-  // many threads run. With a single map this is Localizer::Locate.
+  // Deterministic: the same features give the same result, independent of earlier calls and of the
+  // number of threads. With a single map this is Localizer::Locate.
   Located Locate(const Features& features, const geometry::CameraModel& camera);
-  // Localizer::points of the last answer with a pose, in its map.
+  // Localizer::points of the last location. map must be the map of that location.
   std::span<const LocatedPoint> points(uint32_t map) const {
     return maps_[map].localizer->points();
   }
@@ -39,9 +39,10 @@ class MapLocator {
   struct Map {
     std::shared_ptr<const SceneDatabase> database;
     std::unique_ptr<Localizer> localizer;
-    std::vector<ForestSearcher> searchers;  // one for each job
+    std::vector<ForestSearcher> searchers;  // One per job.
   };
-  // The nearest point of a map to a probe, and the distance of the next other one.
+  // Squared descriptor distances from a probe to the nearest point of a map and to the nearest
+  // other point.
   struct Nearest {
     uint32_t first = UINT32_MAX;
     uint32_t other = UINT32_MAX;
@@ -55,10 +56,10 @@ class MapLocator {
   double ratio2_;
 
   // Working memory.
-  std::vector<uint32_t> probes_;   // features
+  std::vector<uint32_t> probes_;   // Indices of features.
   std::vector<Nearest> nearest_;   // [probes][maps]
-  std::vector<int> votes_;         // of the maps
-  std::vector<uint32_t> ranking_;  // maps, most votes first
+  std::vector<int> votes_;         // [maps]
+  std::vector<uint32_t> ranking_;  // Indices of maps, most votes first.
 };
 
 }  // namespace lararium::vision

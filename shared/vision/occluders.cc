@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// Where a ray with the inverse direction enters a box, in its direction's lengths;
-// infinite where it passes by before `last`.
+// The distance at which a ray enters a box, in lengths of its direction, of which `inverse` holds
+// the reciprocals; infinite if the ray does not meet the box before `last`.
 float EntryOf(const Vector3f& eye,
               const Vector3f& inverse,
               float last,
@@ -28,14 +28,14 @@ float EntryOf(const Vector3f& eye,
   return enter <= leave ? enter : std::numeric_limits<float>::infinity();
 }
 
-// Of the segment from a along an edge; the nearest point to one.
+// The nearest point on the segment from a to a + edge.
 Vector3f NearestOnEdge(const Vector3f& point, const Vector3f& a, const Vector3f& edge) {
   const float where = edge.dot(point - a) / edge.squaredNorm();
   return a + std::clamp(where, 0.0f, 1.0f) * edge;
 }
 
-// The nearest point of a triangle: the foot of the perpendicular where that lies within, otherwise
-// on one of the edges.
+// The nearest point of a triangle: the foot of the perpendicular if it lies inside, otherwise a
+// point on one of the edges.
 Vector3f NearestOnTriangle(const Vector3f& point,
                            const Vector3f& corner,
                            const Vector3f& edge1,
@@ -43,7 +43,7 @@ Vector3f NearestOnTriangle(const Vector3f& point,
                            const Vector3f& normal) {
   const Vector3f foot = point - normal.dot(point - corner) * normal;
   const Vector3f from = foot - corner;
-  const float area = edge1.cross(edge2).dot(normal);  // twice that, positive
+  const float area = edge1.cross(edge2).dot(normal);  // Twice the triangle's area; positive.
   const float u = from.cross(edge2).dot(normal) / area;
   const float v = edge1.cross(from).dot(normal) / area;
   if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f) {
@@ -94,7 +94,7 @@ OccluderTree::OccluderTree(const OccluderMesh& mesh) {
   }
 }
 
-// Halves at the median of the middles along the longest side.
+// Splits the triangles at the median of their centroids along the longest axis.
 void OccluderTree::Build(std::span<uint32_t> order,
                          std::span<const Triangle> triangles,
                          std::span<const Vector3f> middles) {
@@ -136,7 +136,7 @@ void OccluderTree::ForEachHit(const Vector3f& eye,
   if (nodes_.empty()) {
     return;
   }
-  // No division by zero, hence no NaN where a box's side lies in the eye.
+  // Avoids division by zero, and therefore NaN if the eye lies in the plane of a box's side.
   constexpr float kTiny = 1e-20f;
   const Vector3f inverse = way.unaryExpr(
       [](float v) { return 1.0f / (std::abs(v) > kTiny ? v : std::copysign(kTiny, v)); });
@@ -163,7 +163,7 @@ void OccluderTree::ForEachHit(const Vector3f& eye,
       const float u = from.dot(p) / determinant;
       const float v = way.dot(q) / determinant;
       const float where = t.edge2.dot(q) / determinant;
-      // Comparisons with the NaN of a parallel triangle are false.
+      // A triangle parallel to the ray gives NaN, for which the comparisons are false.
       if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f && where > 0.0f && visit(t, where)) {
         return;
       }
@@ -174,7 +174,8 @@ void OccluderTree::ForEachHit(const Vector3f& eye,
 bool OccluderTree::Hides(const Vector3f& eye, const Vector3f& point, float bias) const {
   const Vector3f way = point - eye;
   const float length = way.norm();
-  const float last = 1.0f - bias / length;  // nearer to the point no plane is that far before it
+  // Beyond this, the point is nearer than bias to the hit and so to the triangle's plane.
+  const float last = 1.0f - bias / length;
   bool hides = false;
   if (last > 0.0f) {
     ForEachHit(eye, way, last, [&](const Triangle& triangle, float where) {
@@ -205,7 +206,8 @@ std::optional<OccluderTree::Nearest> OccluderTree::NearestTo(const Vector3f& poi
                                                              float within) const {
   std::optional<Nearest> nearest;
   float least = within * within;
-  const auto distance_to = [&](uint32_t at) {  // squared
+  // Squared distance from the point to a node's box.
+  const auto distance_to = [&](uint32_t at) {
     const Node& node = nodes_[at];
     return (point - point.cwiseMax(node.least).cwiseMin(node.most)).squaredNorm();
   };
@@ -221,7 +223,7 @@ std::optional<OccluderTree::Nearest> OccluderTree::NearestTo(const Vector3f& poi
       continue;
     }
     if (node.count == 0) {
-      // The nearer half is looked at first.
+      // The nearer half is visited first.
       const bool left_first = distance_to(at + 1) <= distance_to(node.begin);
       stack[waiting++] = left_first ? node.begin : at + 1;
       stack[waiting++] = left_first ? at + 1 : node.begin;
@@ -265,9 +267,11 @@ uint32_t OccluderSet::HiddenBy(const Vector3d& eye, const Vector3d& point, doubl
 }
 
 void OccluderSet::Note(uint32_t occluder, bool seen) {
-  constexpr float kMemory = 64.0f;  // points
+  constexpr float kMemory = 64.0f;  // Number of points after which older ones begin to fade.
   constexpr float kLeastLooked = 8.0f;
-  constexpr float kBelieve = 0.2f;  // share seen, by chance or past an edge
+  // An occluder becomes trusted while the share of found points is below kBelieve (some are found
+  // by chance or past an edge) and loses trust at kDisbelieve.
+  constexpr float kBelieve = 0.2f;
   constexpr float kDisbelieve = 0.4f;
   Belief& belief = beliefs_[occluder];
   const float fade = belief.looked >= kMemory ? 1.0f - 1.0f / kMemory : 1.0f;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Dominant directions of a keypoint's gradients: Lowe, IJCV 2004, section 5.
+// The dominant gradient directions around a keypoint: Lowe, IJCV 2004, section 5.
 
 #include <opencv2/core/mat.hpp>
 #include <vector>
@@ -15,15 +15,15 @@ struct OrientedExtremum {
   float angle = 0.0f;  // radians, [0, 2 pi)
 };
 
-// Working memory; keep one for each thread.
+// Working memory of one thread.
 struct OrientationMemory {
   GradientRow gradients;
   std::vector<float> weights_x;
   std::vector<float> weights_y;
 };
 
-// Appends one copy of the extremum for every peak of at least 0.8 of the highest.
-// image: the extremum's level of the scale space.
+// Appends one copy of the extremum for every histogram peak that reaches 0.8 of the highest one.
+// image is the extremum's level of the scale space.
 void AddOrientations(const cv::Mat& image,
                      const Extremum& extremum,
                      OrientationMemory& memory,

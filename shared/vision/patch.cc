@@ -9,12 +9,11 @@ namespace lararium::vision {
 namespace {
 
 constexpr int kBordered = kPatchSize + 2;
-constexpr float kLeastVariance = 4.0f;  // grey levels^2, of a patch that shows something
-constexpr float kLeastNoise2 = 1.0f;    // grey levels^2: rounding, compression
+constexpr float kLeastVariance = 4.0f;  // Minimum contrast of a patch, grey levels^2.
+constexpr float kLeastNoise2 = 1.0f;    // Noise by rounding and compression, grey levels^2.
 constexpr int kMostBlurSamples = 12;
 
-// Samples of a patch with its border, row by row; more than that, so that loops over them have no
-// rest.
+// Samples of a patch with its border, row by row, padded to a multiple of 8 for vectorised loops.
 constexpr size_t kSamples = kBordered * kBordered;
 constexpr size_t kPadded = (kSamples + 7) / 8 * 8;
 using Samples = std::array<float, kPadded>;
@@ -24,7 +23,7 @@ struct SamplePlaces {
   Samples y{};
 };
 
-// About the patch's centre. What pads lies where the first one does.
+// Sample positions relative to the patch's centre. Padding samples repeat the first position.
 constexpr SamplePlaces InPatch() {
   SamplePlaces places;
   for (size_t i = 0; i < kPadded; ++i) {
@@ -35,7 +34,7 @@ constexpr SamplePlaces InPatch() {
   return places;
 }
 
-// In the source, without motion.
+// Sample positions in the source, without motion.
 SamplePlaces PlacesOf(const PatchWarp& warp) {
   static constexpr SamplePlaces kInPatch = InPatch();
   const Eigen::Vector2f centre = warp.centre;
@@ -48,15 +47,15 @@ SamplePlaces PlacesOf(const PatchWarp& warp) {
   return places;
 }
 
-// A pixel and its right neighbour in the lower bytes.
+// Loads four bytes; the two lower ones are the pixel and its right neighbour.
 int32_t PixelPair(const uint8_t* p) {
   int32_t word;
   std::memcpy(&word, p, sizeof(word));
   return word;
 }
 
-// Adds what the source is at the places, shifted by shift, to out. In loops that the compiler turns
-// into vector instructions: one by one, samples are most of what a followed frame costs.
+// Adds the source's values at the places, moved by shift, to out. The loops are written so that the
+// compiler vectorises them, because sampling takes most of the time of a tracked frame.
 void AddSamples(const cv::Mat& source,
                 const SamplePlaces& places,
                 const Eigen::Vector2f& shift,
@@ -94,8 +93,8 @@ void AddSamples(const cv::Mat& source,
   }
 }
 
-// All samples and their right and lower neighbours lie inside, and with them the four bytes that
-// PixelPair() reads.
+// Returns whether all samples, their right and lower neighbours, and the four bytes that
+// PixelPair() reads lie inside the source.
 bool Inside(const cv::Mat& source, const PatchWarp& warp) {
   const Eigen::Array2f reach =
       0.5f * (kBordered - 1) * warp.source_from_patch.cwiseAbs().rowwise().sum().array() +
@@ -131,7 +130,7 @@ float Dot(const std::array<float, kPatchArea>& a, const std::array<float, kPatch
   return Sum(products);
 }
 
-// Takes out of derivative what lies along 1 and along values (of mean 0).
+// Removes from derivative its components along the constant vector and along values (of mean 0).
 void Eliminate(const std::array<float, kPatchArea>& values,
                float energy,
                std::array<float, kPatchArea>& derivative) {
@@ -142,12 +141,12 @@ void Eliminate(const std::array<float, kPatchArea>& values,
   }
 }
 
-// Sums over the patch that alignment needs, of the image at a place.
+// Sums over the patch at an image position, as alignment needs them.
 struct Products {
-  float sum = 0.0f;
-  float squares = 0.0f;
-  float values = 0.0f;  // times template values
-  float dx = 0.0f;      // times template derivatives
+  float sum = 0.0f;      // Sum of the image values.
+  float squares = 0.0f;  // Sum of their squares.
+  float values = 0.0f;   // Sum of products with the template values.
+  float dx = 0.0f;       // Sum of products with the template derivatives.
   float dy = 0.0f;
 };
 
@@ -169,7 +168,7 @@ Products Multiply(const cv::Mat& image, const PatchTemplate& patch, const Eigen:
   const float w10 = (1.0f - fx) * fy;
   const float w11 = fx * fy;
   const uint8_t* upper = image.ptr<uint8_t>(row) + column;
-  // One accumulator for each column: sums in vector registers.
+  // One accumulator per column keeps the sums in vector registers.
   std::array<float, kPatchSize> sum{};
   std::array<float, kPatchSize> squares{};
   std::array<float, kPatchSize> values{};
@@ -199,7 +198,7 @@ Products Multiply(const cv::Mat& image, const PatchTemplate& patch, const Eigen:
   return products;
 }
 
-// Sum of squares about the mean.
+// Sum of squared deviations from the mean.
 float Energy(const Products& p) { return std::max(p.squares - p.sum * p.sum / kPatchArea, 1e-3f); }
 
 }  // namespace
@@ -210,14 +209,14 @@ bool PatchTemplate::Sample(const cv::Mat& source, const PatchWarp& warp) {
   }
   Samples samples{};
   const SamplePlaces places = PlacesOf(warp);
-  // Against what is seen, the source moves the other way. Samples no farther apart
-  // than a pixel of the source.
+  // Blurs by averaging shifted samples at most about one source pixel apart. The source is shifted
+  // against the motion.
   const PatchMotion& motion = warp.motion;
   const int count =
       std::clamp(static_cast<int>(std::ceil(motion.velocity.norm())), 1, kMostBlurSamples);
   for (int i = 0; i < count; ++i) {
     const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 0.5f;
-    // One sample stands for the mean of t^2, 1/12.
+    // A single sample uses the mean of t^2 over the exposure, 1/12.
     const float t2 = count > 1 ? t * t : 1.0f / 12.0f;
     AddSamples(source, places, -t * motion.velocity - 0.5f * t2 * motion.acceleration, samples);
   }
@@ -245,7 +244,7 @@ bool PatchTemplate::Sample(const cv::Mat& source, const PatchWarp& warp) {
   const float xy = Dot(dx, dy);
   const float yy = Dot(dy, dy);
   gradients << xx, xy, xy, yy;
-  // Along an edge nothing tells the place: the damping keeps it where it was.
+  // The position along an edge is undetermined; the damping keeps it unchanged.
   constexpr float kDamping = 0.01f;
   Eigen::Matrix2f damped = gradients;
   damped.diagonal().array() += kDamping * (xx + yy) + 1.0f;

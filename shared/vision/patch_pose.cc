@@ -12,12 +12,12 @@ namespace {
 
 using geometry::Rigid3;
 
-constexpr int kIterations = 10;
-constexpr double kTukey2 = 4.685 * 4.685;  // 95 % efficiency for normal noise
-constexpr size_t kSampleMost = 512;        // squares looked at for the median
+constexpr int kPoseIterations = 10;
+constexpr double kTukey2 = 4.685 * 4.685;  // 95 % efficiency for normal noise.
+constexpr size_t kSampleMost = 512;        // Maximum number of squares sampled for the median.
 
-// Where the matches' points are in the camera's frame, and the squares of their whitened residuals:
-// infinite behind the camera.
+// Computes the matches' points in the camera frame and the squares of their whitened residuals,
+// which are infinite behind the camera.
 void FindSquares(std::span<const PatchMatch> matches, PatchPose& pose) {
   const Eigen::Matrix3d rotation = pose.camera_from_map.rotation.toRotationMatrix();
   const Eigen::Vector3d& translation = pose.camera_from_map.translation;
@@ -31,8 +31,8 @@ void FindSquares(std::span<const PatchMatch> matches, PatchPose& pose) {
   }
 }
 
-// Standard deviation along one axis: the median square of a two-dimensional normal
-// distribution is 2 ln 2 sigma^2.
+// Standard deviation along one axis from the median of the squares, which is 2 ln 2 sigma^2 for a
+// two-dimensional normal distribution.
 double ScaleOf(std::span<const double> squares) {
   std::array<double, kSampleMost> sample{};
   const size_t stride = (squares.size() + kSampleMost - 1) / kSampleMost;
@@ -88,9 +88,9 @@ bool EstimatePatchPose(std::span<const PatchMatch> matches,
     if (!step.allFinite()) {
       return false;
     }
-    // Less than a thousandth of a standard deviation.
+    // The step is less than a thousandth of a standard deviation.
     const bool converged = right.dot(step) < 1e-6 * pose.scale * pose.scale;
-    if (converged || iteration >= kIterations) {
+    if (converged || iteration >= kPoseIterations) {
       break;
     }
     pose.camera_from_map = Moved(pose.camera_from_map, step);

@@ -9,9 +9,10 @@
 namespace lararium::vision {
 namespace {
 
-constexpr uint8_t kClipped = 230;  // brightest pixel of a sample, sRGB
+constexpr uint8_t kClipped = 230;  // A sample with a pixel this bright (sRGB) counts as clipped.
 
-// Linear values between which the weight rises, and falls again.
+// The weight rises from 0 at kBlack to 1 at kShadow and falls from 1 at kHighlight to 0 at kWhite.
+// Linear values.
 constexpr float kBlack = 0.004f;
 constexpr float kShadow = 0.02f;
 constexpr float kHighlight = 0.4f;
@@ -47,7 +48,7 @@ float LinearFromSrgb(uint8_t encoded) { return LinearTable()[encoded]; }
 std::optional<LinearColour> SampleLinear(const cv::Mat& bgr, float x, float y) {
   DCHECK(bgr.type() == CV_8UC3);
   constexpr int kRadius = kSampleSize / 2;
-  constexpr float kFarthest = 1e6f;  // no image is so large; casts stay defined
+  constexpr float kFarthest = 1e6f;  // Larger than any image; keeps the casts defined.
   if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest)) {
     return std::nullopt;
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-// How bright an image shows a place: the one way in which training writes the
-// photometric reference (SceneDatabase::colours) and the player reads it.
+// Samples the brightness of an image. Training uses it to write the photometric reference
+// (SceneDatabase::colours), and the player uses the same code to compare images with it.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace lararium::vision {
 float LinearFromSrgb(uint8_t encoded);
 
 struct LinearColour {
-  Eigen::Vector3f rgb;  // linear R, G, B of 0..1
-  // Of each channel, 0..1: how far its value may be trusted to be proportional to
-  // the light. 0 where it is clipped or drowns in noise; less than 1 in the
-  // highlights, which cameras compress, and in deep shadow.
+  Eigen::Vector3f rgb;  // Linear R, G, B in 0..1.
+  // Weight of each channel, 0..1: how reliably its value is proportional to the light. 0 where the
+  // channel is clipped or drowned in noise; below 1 in highlights, which cameras compress, and in
+  // deep shadow.
   Eigen::Vector3f weight;
 };
 
-// What bgr (CV_8UC3, sRGB) shows at a raw pixel: the mean of the decoded values
-// of the kSampleSize x kSampleSize pixels around the nearest one. nullopt where
-// these are not all inside the image.
+// The colour of bgr (CV_8UC3, sRGB) at a raw pixel: the mean of the decoded values of the
+// kSampleSize x kSampleSize pixels around the nearest pixel. nullopt if these are not all inside
+// the image.
 //
-// The gain of an image at a point of the map is, channel by channel,
-// rgb / SceneDatabase::colours, wherever weight > 0 and the colour is not
-// negative; its uncertainty is that of a logarithm, alike over the whole range.
+// The gain of an image at a map point is rgb / SceneDatabase::colours, for each channel whose
+// weight is positive and whose colour is not negative. The uncertainty of the gain's logarithm is
+// about the same over the whole range.
 inline constexpr int kSampleSize = 5;
 std::optional<LinearColour> SampleLinear(const cv::Mat& bgr, float x, float y);
 

@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Rigid3;
 
-// Squared pixels over sigma; infinite behind the camera.
+// Squared residual in pixels over sigma_px; infinite behind the camera.
 double NormalisedSquare(const Rigid3& pose, const PoseMatch& match, double focal) {
   Eigen::Vector2d residual;
   if (!PlaneResidual(pose, match, residual, nullptr)) {
@@ -20,8 +20,8 @@ double NormalisedSquare(const Rigid3& pose, const PoseMatch& match, double focal
   return residual.squaredNorm() * (focal * focal) / (match.sigma_px * match.sigma_px);
 }
 
-// Cauchy's loss with scale c: c^2 / 2 log(1 + s / c^2), and its derivative by s,
-// doubled.
+// Cauchy's loss with scale c of a square s: c^2 / 2 log(1 + s / c^2), and twice its derivative by
+// s.
 double Loss(double square, double c2) { return 0.5 * c2 * std::log1p(square / c2); }
 double Weight(double square, double c2) { return 1.0 / (1.0 + square / c2); }
 
@@ -64,7 +64,7 @@ NormalEquations Linearise(const Rigid3& pose,
   return normal;
 }
 
-// Levenberg and Marquardt.
+// Minimises the loss by the Levenberg-Marquardt method.
 Rigid3 Minimise(Rigid3 pose,
                 std::span<const PoseMatch> matches,
                 std::span<const uint32_t> chosen,
@@ -102,7 +102,8 @@ Rigid3 Minimise(Rigid3 pose,
   return pose;
 }
 
-// Vague matches may be off by twice the threshold, not by any number of sigmas.
+// Selects the matches whose residual is below threshold_px * min(sigma_px, kMostSigma), so that
+// uncertain matches get no more than kMostSigma times the threshold.
 void SelectInliers(const Rigid3& pose,
                    std::span<const PoseMatch> matches,
                    double focal,
@@ -119,8 +120,8 @@ void SelectInliers(const Rigid3& pose,
   }
 }
 
-// Standard deviation along one axis from the median distance: that of a
-// two-dimensional normal distribution is 1.1774 sigma. squares: working memory.
+// Standard deviation along one axis from the median distance, which is 1.1774 sigma for a
+// two-dimensional normal distribution. squares is working memory.
 double NoiseOf(const Rigid3& pose,
                std::span<const PoseMatch> matches,
                std::span<const uint32_t> chosen,
@@ -154,12 +155,12 @@ void PoseRefiner::Refine(std::span<const PoseMatch> matches,
                          const RefinementOptions& options,
                          const Rigid3& start,
                          RefinedPose& refined) {
-  // The first pose carries the noise of three matches: look further than the
-  // threshold, then narrow.
+  // The first pose carries the noise of only three matches, so the threshold starts wide and then
+  // narrows.
   constexpr int kRounds = 3;
   constexpr double kWidening[kRounds] = {4.0, 1.5, 1.0};
-  constexpr double kLeastNoise = 1e-9;    // pixels; exact input has none
-  constexpr double kCauchyScale = 2.385;  // 95 % efficiency for normal noise
+  constexpr double kLeastNoise = 1e-9;    // Pixels; avoids zero for exact input.
+  constexpr double kCauchyScale = 2.385;  // 95 % efficiency for normal noise.
   Rigid3 pose = start;
   std::vector<uint32_t>& inliers = refined.inliers;
   double scale = options.inlier_threshold_px;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The pose that explains matches between image and map best.
+// Refines the pose that best explains the matches between an image and the map.
 
 #include <Eigen/Core>
 #include <array>
@@ -12,26 +12,26 @@
 
 namespace lararium::vision {
 
-// A map point seen at an undistorted place.
+// A map point and its undistorted position in the image.
 struct PoseMatch {
-  Eigen::Vector3d point;  // map
-  Eigen::Vector2d plane;  // on the camera's plane z = 1
-  double sigma_px = 1.0;  // relative uncertainty of its place, 1 for the finest features
+  Eigen::Vector3d point;  // Map frame.
+  Eigen::Vector2d plane;  // Observed position on the camera's plane z = 1.
+  double sigma_px = 1.0;  // Relative uncertainty of `plane`; 1 for the finest features.
 };
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Matrix26d = Eigen::Matrix<double, 2, 6>;
 
-// Where the point falls on the plane z = 1, less where it was seen. Fills the
-// derivative for pose -> (exp(w) R, exp(w) t + v), (w, v) = 0, when asked. Points
-// behind the camera give false.
+// Projection of the point on the plane z = 1 minus its observed position. If jacobian is not null,
+// fills in the derivative by (w, v) at (w, v) = 0 for the pose (exp(w) R, exp(w) t + v). Returns
+// false for points behind the camera.
 bool PlaneResidual(const geometry::Rigid3& camera_from_map,
                    const PoseMatch& match,
                    Eigen::Vector2d& residual,
                    Matrix26d* jacobian);
 
-// The same of a point in the camera's frame.
+// The same for a point in the camera frame.
 inline bool PlaneResidual(const Eigen::Vector3d& in_camera,
                           const Eigen::Vector2d& plane,
                           Eigen::Vector2d& residual,
@@ -44,7 +44,7 @@ inline bool PlaneResidual(const Eigen::Vector3d& in_camera,
   const double y = in_camera.y() * inverse;
   residual = Eigen::Vector2d(x, y) - plane;
   if (jacobian != nullptr) {
-    // d(x, y)/dp times [-[p]x | I].
+    // The derivative d(x, y)/dp times [-[p]x | I].
     *jacobian << -x * y, 1.0 + x * x, -y, inverse, 0.0, -x * inverse,  //
         -(1.0 + y * y), x * y, x, 0.0, inverse, -y * inverse;
   }
@@ -54,24 +54,25 @@ inline bool PlaneResidual(const Eigen::Vector3d& in_camera,
 geometry::Rigid3 Moved(const geometry::Rigid3& camera_from_map, const Vector6d& step);
 
 struct RefinementOptions {
-  double focal = 1.0;                // turns the plane into pixels
-  double inlier_threshold_px = 2.0;  // times a match's sigma
+  double focal = 1.0;  // Focal length in pixels; converts distances on the plane z = 1 to pixels.
+  double inlier_threshold_px = 2.0;  // Threshold of a match whose sigma_px is 1.
 };
 
 struct RefinedPose {
   geometry::Rigid3 camera_from_map;
-  std::vector<uint32_t> inliers;           // of the matches, ascending
-  double noise_px = 0.0;                   // robust standard deviation, along one axis, at sigma 1
-  Matrix6d covariance = Matrix6d::Zero();  // of (w, v)
+  std::vector<uint32_t> inliers;  // Indices of the inlier matches, ascending.
+  // Robust standard deviation along one axis of a match whose sigma_px is 1.
+  double noise_px = 0.0;
+  Matrix6d covariance = Matrix6d::Zero();  // Covariance of (w, v).
 };
 
-// Iteratively reweighted Gauss-Newton with damping: minimises the Cauchy loss of
-// pixel residuals over their sigmas; the loss narrows to the noise found and the
-// inliers are chosen anew. Keeps its memory from image to image.
+// Minimises the Cauchy loss of the pixel residuals over their sigmas by iteratively reweighted
+// Gauss-Newton with damping. In each round the loss narrows to the measured noise and the inliers
+// are selected again. Reuses its memory from image to image.
 class PoseRefiner {
  public:
-  // start may be refined.camera_from_map. Fewer than 3 inliers: covariance and
-  // noise are zero.
+  // start may refer to refined.camera_from_map. With fewer than 3 inliers, covariance and noise are
+  // zero.
   void Refine(std::span<const PoseMatch> matches,
               const RefinementOptions& options,
               const geometry::Rigid3& start,

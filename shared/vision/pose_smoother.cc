@@ -10,18 +10,18 @@ namespace {
 
 using geometry::Rigid3;
 
-constexpr double kLongestInterval = 0.5;  // seconds; longer ones start afresh
-constexpr size_t kLandmarks = 64;         // for each map
+constexpr double kLongestInterval = 0.5;  // Seconds between frames; a longer gap restarts.
+constexpr size_t kLandmarks = 64;         // Approximate number of landmarks per map.
 
-// How much of a correction is left after a share x of its time: 1 to 0 without a
-// kink at either end.
+// The share of a correction that is left after the share x of its time. Falls smoothly from 1 to 0
+// with zero slope at both ends.
 double Remaining(double x) {
   const double y = std::clamp(x, 0.0, 1.0);
   return 1.0 - y * y * (3.0 - 2.0 * y);
 }
 
-// The share of the way that a low-pass goes in an interval (exact for an input
-// that holds still, so that the frame rate does not matter).
+// The share of the remaining distance that a low-pass covers in an interval. This is exact for a
+// constant input, so that the result does not depend on the frame rate.
 double Gain(double cutoff_hz, double interval) {
   return 1.0 - std::exp(-2.0 * M_PI * cutoff_hz * interval);
 }
@@ -106,7 +106,7 @@ void PoseSmoother::Filter(const TrackedFrame& tracked, double interval, Rigid3& 
   }
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> covariance(tracked.covariance);
   if (covariance.info() != Eigen::Success || !(covariance.vectorD().minCoeff() > 0.0)) {
-    filtered_ = pose;  // what noise looks like is not known
+    filtered_ = pose;  // The noise is unknown.
     return;
   }
   // Root mean square over the degrees of freedom.

@@ -12,9 +12,9 @@ using geometry::CameraModel;
 using geometry::Rigid3;
 
 constexpr int kMaxSide = 16384;   // pixels
-constexpr int64_t kMaxMaps = 64;  // places of a bundle
-constexpr double kMaxGain = 1e6;
-constexpr double kRotationError = 1e-2;  // of the entries of a rotation matrix
+constexpr int64_t kMaxMaps = 64;  // Maximum number of places in a bundle.
+constexpr double kMaxFileGain = 1e6;
+constexpr double kRotationError = 1e-2;  // Tolerance for the entries of R R^T - I.
 
 // ------------------------------------------------------------ writing
 
@@ -112,7 +112,7 @@ Result<TrackingDetails> ReadDetails(const JsonView& view) {
   details.map = static_cast<uint32_t>(map);
   details.confidence = static_cast<float>(confidence);
   for (size_t c = 0; c < details.gain.size(); ++c) {
-    if (!(gain[c] > 0.0 && gain[c] < kMaxGain)) {
+    if (!(gain[c] > 0.0 && gain[c] < kMaxFileGain)) {
       return view.Problem("the gain is not positive");
     }
     details.gain[c] = static_cast<float>(gain[c]);

@@ -1,7 +1,7 @@
 #pragma once
 
-// poses.json: the poses of images, as training and the player write them with
-// --poses-out. The world is the map.
+// The file poses.json with the poses of images, written by training and by the player's option
+// --poses-out. The world frame is the map frame.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace lararium::vision {
 
-// What a tracker says about a frame besides its pose: see TrackedFrame.
+// The tracker's details about a frame; see TrackedFrame.
 struct TrackingDetails {
   TrackState state = TrackState::kSearching;
   TrackReason reason = TrackReason::kNone;
@@ -29,17 +29,17 @@ struct TrackingDetails {
 };
 
 struct PoseRecord {
-  std::string file;  // FrameSource::FrameName of the image
+  std::string file;  // Name of the image, see FrameSource::FrameName.
   geometry::CameraModel camera;
   std::optional<geometry::Rigid3> camera_from_world;
-  bool tracked = false;  // a pose that was not tracked is a guess, and not used
-  std::optional<TrackingDetails> details = std::nullopt;  // training writes none
+  bool tracked = false;  // If false, the pose is a guess and must not be used.
+  std::optional<TrackingDetails> details = std::nullopt;  // Absent in files written by training.
 };
 
 PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked);
 
 Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses);
-// Of the details all but state and reason are read back.
+// Reads the details except state and reason.
 Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path);
 
 }  // namespace lararium::vision

@@ -10,11 +10,11 @@ namespace lararium::vision {
 namespace {
 
 using geometry::CameraModel;
-using Vector5f = Eigen::Matrix<float, 5, 1>;  // rotation, gain, offset
+using Vector5f = Eigen::Matrix<float, 5, 1>;  // Rotation vector, gain, offset.
 using Matrix5f = Eigen::Matrix<float, 5, 5>;
 
 constexpr int kIterations = 12;
-constexpr float kHuber = 12.0f;  // grey levels: larger residuals weigh less
+constexpr float kHuber = 12.0f;  // Grey levels; larger residuals get less weight.
 constexpr float kLeastOverlap = 0.3f;
 
 struct System {
@@ -24,7 +24,7 @@ struct System {
   int count = 0;
 };
 
-// Residual: image now at the turned place, less gain * before + offset.
+// Linearises the residual: image `now` at the rotated position, minus (gain * before + offset).
 System Linearise(const cv::Mat& before,
                  const cv::Mat& now,
                  const CameraModel& camera,
@@ -57,7 +57,7 @@ System Linearise(const cv::Mat& before,
       const float bottom = n[now.step] + du * (n[now.step + 1] - n[now.step]);
       const float value = top + dv * (bottom - top);
       const float residual = value - gain * b[column] - offset;
-      // Inverse composition: the derivative is that of the image before.
+      // Inverse composition: the derivative is taken in the image `before`.
       const float gx = 0.5f * gain * fx * (b[column + 1] - b[column - 1]);
       const float gy = 0.5f * gain * fy *
                        (b[column + static_cast<std::ptrdiff_t>(before.step)] -
@@ -103,8 +103,8 @@ std::optional<RotationEstimate> EstimateRotation(const cv::Mat& before,
       return std::nullopt;
     }
     const Eigen::Vector3d turn = change.head<3>().cast<double>();
-    // Seen from the image before, what is left of the turn was its own: it is
-    // applied on that side.
+    // Inverse composition: the increment is a rotation of the image before, so it is applied on
+    // that side.
     estimate.now_from_before =
         (estimate.now_from_before * geometry::RotationFromVector(turn)).normalized();
     gain += change(3);

@@ -1,7 +1,7 @@
 #pragma once
 
-// How a camera turned between two images, from the images as a whole, made very
-// small: quick, and good to a few pixels even for a shake.
+// Estimates how the camera turned between two very small images, by direct alignment of all
+// pixels. Fast, and accurate to a few pixels even when the camera shakes.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -14,12 +14,12 @@ namespace lararium::vision {
 
 struct RotationEstimate {
   Eigen::Quaterniond now_from_before = Eigen::Quaterniond::Identity();
-  double noise = 0.0;  // root mean square of what is left, grey levels
+  double noise = 0.0;  // Root mean square of the residuals, grey levels.
 };
 
-// Least squares over all pixels with gain and offset of the brightness, weights
-// that spare what moves by itself, and no lens distortion. before, now: CV_8UC1 of
-// camera's size, a few thousand pixels at most. nullopt where they show too little.
+// Robust least squares over all pixels, with gain and offset of the brightness. Lens distortion is
+// ignored. before and now are CV_8UC1 of the camera's size, a few thousand pixels at most. nullopt
+// if the images overlap too little or do not determine the rotation.
 std::optional<RotationEstimate> EstimateRotation(const cv::Mat& before,
                                                  const cv::Mat& now,
                                                  const geometry::CameraModel& camera,

@@ -7,8 +7,8 @@
 namespace lararium::vision {
 namespace {
 
-constexpr float kCameraSigma = 0.5f;  // blur of the image as it comes, pixels
-constexpr int kSmallestOctave = 16;   // pixels along the shorter side
+constexpr float kCameraSigma = 0.5f;  // Assumed blur of the input image, pixels.
+constexpr int kSmallestOctave = 16;   // Minimum length of the shorter side, pixels.
 
 float AddedSigma(float from, float to) { return std::sqrt(std::max(to * to - from * from, 1e-4f)); }
 
@@ -30,7 +30,7 @@ void EverySecondPixel(const cv::Mat& image, cv::Mat& half) {
 
 }  // namespace
 
-// Resizing by areas or lines keeps c' = s (c + 0.5) - 0.5, hence the origins.
+// cv::resize maps coordinate c to s (c + 0.5) - 0.5, which determines the origins.
 const ScaleSpace::Sampled& ScaleSpace::Sample(const cv::Mat& grey, int first_octave) {
   sampled_.resize(std::max(sampled_.size(), static_cast<size_t>(std::max(first_octave, 0)) + 2));
   Sampled& plain = sampled_[1];
@@ -55,7 +55,7 @@ const ScaleSpace::Sampled& ScaleSpace::Sample(const cv::Mat& grey, int first_oct
     const cv::Rect even(0, 0, finer.image.cols & ~1, finer.image.rows & ~1);
     cv::resize(finer.image(even), coarser.image, cv::Size(even.width / 2, even.height / 2), 0.0,
                0.0, cv::INTER_AREA);
-    // The mean of two neighbours has variance 1/4 of a pixel squared.
+    // Averaging two neighbours adds a variance of 1/4 pixel^2.
     coarser.sigma = 0.5f * std::sqrt(finer.sigma * finer.sigma + 0.25f);
     coarser.origin = finer.origin + 0.5f * finer.pixel_size;
     coarser.pixel_size = 2.0f * finer.pixel_size;

@@ -22,14 +22,15 @@ constexpr size_t kMaxKeyframes = 20'000;
 constexpr size_t kMaxNameBytes = 4096;
 constexpr int kJpegQuality = 95;
 
-// A place's bounds, in map units, far beyond any that training makes.
+// Limit of a coordinate in map units, far beyond any that training produces.
 constexpr double kMaxCoordinate = 1e9;
 
-// Far beyond what any camera's exposure spans.
+// Limits far beyond the exposure range of any camera.
 constexpr float kMaxColour = 1e4f;
 constexpr float kMaxGain = 1e4f;
 
-bool Plausible(double value) { return std::abs(value) < kMaxCoordinate; }  // false for NaN
+// Returns false for NaN, too.
+bool Plausible(double value) { return std::abs(value) < kMaxCoordinate; }
 
 template <typename Vector>
 bool AllPlausible(const Vector& v) {
@@ -60,11 +61,11 @@ Status ValidatePoints(const SceneDatabase& db) {
     }
   }
   if (!db.colours.empty() && db.colours.size() != count) {
-    return Broken("the colours are not one for each point");
+    return Broken("the number of colours differs from the number of points");
   }
   for (const Eigen::Vector3f& colour : db.colours) {
     if (!(colour.array().abs() <= kMaxColour).all()) {
-      return Broken("a point's colour is impossible");
+      return Broken("a point's colour is out of range");
     }
   }
   return Status();
@@ -87,11 +88,11 @@ Status ValidateDescriptors(const SceneDatabase& db) {
     }
   }
   if (!db.descriptor_sessions.empty() && db.descriptor_sessions.size() != db.descriptors.size()) {
-    return Broken("the descriptors' sessions are not one for each descriptor");
+    return Broken("the number of descriptor sessions differs from the number of descriptors");
   }
   if (std::find(db.descriptor_sessions.begin(), db.descriptor_sessions.end(), 0u) !=
       db.descriptor_sessions.end()) {
-    return Broken("a descriptor is of no session");
+    return Broken("a descriptor belongs to no session");
   }
   return db.forest.Validate(db.descriptors.size());
 }
@@ -113,7 +114,7 @@ Status ValidateKeyframes(const SceneDatabase& db) {
     }
     for (const float gain : keyframe.gain) {
       if (!(gain >= 1.0f / kMaxGain && gain <= kMaxGain)) {
-        return Broken("a keyframe's gain is impossible");
+        return Broken("a keyframe's gain is out of range");
       }
     }
     if (!keyframe.grey.empty() &&
@@ -132,7 +133,7 @@ Status ValidateObservations(const SceneDatabase& db) {
       return Broken("an observation's point or keyframe does not exist");
     }
     if (!Plausible(o.x) || !Plausible(o.y) || !(o.scale > 0.0f && Plausible(o.scale))) {
-      return Broken("an observation's position or scale is impossible");
+      return Broken("an observation's position or scale is out of range");
     }
     if (previous != nullptr && (previous->keyframe > o.keyframe ||
                                 (previous->keyframe == o.keyframe && previous->point > o.point))) {
@@ -147,7 +148,7 @@ Status ValidateObservations(const SceneDatabase& db) {
 
 Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const std::string& place) {
   const Status bad = Status::Error(place, "a keyframe's image is damaged", "train the place again");
-  // A block of 8 x 8 pixels takes at least two bits; less is a decompression bomb.
+  // A block of 8 x 8 pixels takes at least two bits; a smaller file is a decompression bomb.
   constexpr int64_t kPixelsPerByte = 256;
   const auto encoded = std::as_bytes(jpeg);
   const std::optional<image::ImageHeader> header = image::ReadImageHeader(encoded);
@@ -162,7 +163,7 @@ Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const s
   return grey.ok() && grey->size() == size ? std::move(grey) : bad;
 }
 
-// Empty without an image.
+// Returns an empty vector for a keyframe without an image.
 std::vector<std::byte> EncodeGrey(const cv::Mat& grey) {
   if (grey.empty()) {
     return {};
@@ -210,7 +211,7 @@ void ReadForest(const fb::Scene& scene, DescriptorForest& forest) {
   }
 }
 
-// Descriptors, and to which point each belongs.
+// Reads the descriptors and fills in the point to which each belongs.
 Status ReadDescriptors(const fb::Scene& scene, const std::string& place, SceneDatabase& db) {
   const auto& bytes = *scene.descriptors();
   if (bytes.size() % kDescriptorSize != 0) {
@@ -334,7 +335,7 @@ std::vector<fb::ForestNode> NodesTo(const std::vector<ForestNode>& from) {
 Status SceneDatabase::Validate() const {
   LARARIUM_RETURN_IF_ERROR(camera.Validate());
   if (!(mean_reprojection_error_px >= 0.0 && Plausible(mean_reprojection_error_px))) {
-    return Broken("the mean reprojection error is impossible");
+    return Broken("the mean reprojection error is out of range");
   }
   LARARIUM_RETURN_IF_ERROR(ValidatePoints(*this));
   LARARIUM_RETURN_IF_ERROR(ValidateDescriptors(*this));
@@ -346,7 +347,7 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
                                          const std::string& place) {
   const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
   constexpr std::string_view kRemedy = "train the place again, or copy the file again";
-  constexpr size_t kSmallest = 8;  // root offset and identifier
+  constexpr size_t kSmallest = 8;  // Root offset and identifier.
   if (bytes.size() < kSmallest || bytes.size() > FLATBUFFERS_MAX_BUFFER_SIZE ||
       !fb::SceneBufferHasIdentifier(data)) {
     return Status::Error(place, "is not a scene database", kRemedy);

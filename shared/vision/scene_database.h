@@ -1,6 +1,6 @@
 #pragma once
 
-// What training knows about a place: the .larscene file.
+// The trained map of a place, stored as a .larscene file.
 
 #include <Eigen/Core>
 #include <array>
@@ -19,69 +19,69 @@
 
 namespace lararium::vision {
 
-// A training image that was located.
+// A training image with its pose.
 struct Keyframe {
-  int64_t frame_index = -1;  // in its video or folder
-  std::string name;          // as FrameSource::FrameName
+  int64_t frame_index = -1;  // Index in the video or image folder.
+  std::string name;          // See FrameSource::FrameName.
   uint32_t session = 0;
   geometry::Rigid3 camera_from_map;
-  cv::Mat grey;  // CV_8UC1 of the full size, stored as JPEG; empty where the budget left it out
-  // Linear R, G, B of its image over the map's photometric reference
-  // (SceneDatabase::colours); positive.
+  // CV_8UC1 of the camera's size, stored as JPEG. Empty if the map budget left the image out.
+  cv::Mat grey;
+  // Brightness of the image over the map's photometric reference (SceneDatabase::colours), linear
+  // R, G, B; positive.
   std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};
 };
 
-// One sight of a point, at a raw pixel of a keyframe.
+// One observation of a point, at a raw pixel of a keyframe.
 struct Observation {
   uint32_t point = 0;
   uint32_t keyframe = 0;
   float x = 0.0f;
   float y = 0.0f;
-  float scale = 0.0f;  // of its keypoint, pixels
+  float scale = 0.0f;  // Scale of the keypoint, pixels.
 };
 
 struct SceneDatabase {
-  geometry::CameraModel camera;  // of the training images
+  geometry::CameraModel camera;  // Camera of the training images.
   double mean_reprojection_error_px = 0.0;
 
   // Points, in map units; parallel arrays.
   std::vector<Eigen::Vector3f> points;
-  std::vector<Eigen::Vector3f> normals;      // unit, mean direction towards its viewers
-  std::vector<uint32_t> observation_counts;  // in all training images
-  std::vector<uint32_t> session_masks;       // bit s: seen in session s
-  // The photometric reference: what SampleLinear (photometry.h) gives at a point in
-  // an image of gain 1, as linear R, G, B; beyond 1 where such an image would clip.
-  // A channel is negative where no image shows it well. Empty in maps that were
-  // trained without colour.
+  std::vector<Eigen::Vector3f> normals;      // Unit; mean direction towards the observing cameras.
+  std::vector<uint32_t> observation_counts;  // Number of observations in all training images.
+  std::vector<uint32_t> session_masks;       // Bit s is set if session s observed the point.
+  // The photometric reference: the value of SampleLinear (photometry.h) at the point in an image of
+  // gain 1, linear R, G, B. Values above 1 would clip in such an image. A channel is negative if no
+  // image shows it well. Empty in maps that were trained without colour.
   std::vector<Eigen::Vector3f> colours;
-  std::vector<uint32_t> descriptor_begin;  // [points + 1]: ranges in descriptors
-  std::vector<Descriptor> descriptors;     // several views of each point
-  std::vector<uint32_t> descriptor_point;  // [descriptors]: its point
-  // [descriptors]: bit s: its point looks so in session s. Empty: in all sessions that saw it, as
-  // far as is known.
+  std::vector<uint32_t> descriptor_begin;  // [points + 1]: Ranges of `descriptors`.
+  std::vector<Descriptor> descriptors;     // Several views of each point.
+  std::vector<uint32_t> descriptor_point;  // [descriptors]: Index of the point.
+  // [descriptors]: Bit s is set if the point has this appearance in session s. Empty if this is
+  // unknown; then every session that observed the point counts.
   std::vector<uint32_t> descriptor_sessions;
 
   std::vector<Keyframe> keyframes;
-  std::vector<Observation> observations;  // sorted by keyframe, then point
+  std::vector<Observation> observations;  // Sorted by keyframe, then by point.
 
-  DescriptorForest forest;  // over descriptors
+  DescriptorForest forest;  // Search structure over `descriptors`.
 
-  // The sessions in which a descriptor's point looks so, as bits.
+  // The sessions in which the point has the appearance of the descriptor, as bits.
   uint32_t SessionsOf(uint32_t descriptor) const {
     return descriptor_sessions.empty() ? session_masks[descriptor_point[descriptor]]
                                        : descriptor_sessions[descriptor];
   }
 
-  // The invariants above, every index and number; says what is broken.
+  // Checks the invariants above, every index and every number. The error says what is broken.
   Status Validate() const;
 };
 
-// Never a partial load: every size, index, number and the FlatBuffers structure
-// are checked first. place: what errors call it.
+// Parses a database. Every size, index and number and the FlatBuffers structure are checked, so a
+// damaged file gives an error and never a partial database. place names the data in errors.
 Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
                                          const std::string& place);
 Result<SceneDatabase> LoadSceneDatabase(const std::filesystem::path& file);
-// The same database gives the same bytes.
+// Deterministic: the same database gives the same bytes.
 std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& database);
 Status SaveSceneDatabase(const std::filesystem::path& file, const SceneDatabase& database);
 

@@ -10,11 +10,10 @@
 namespace lararium::vision {
 namespace {
 
-constexpr int kCells = 4;   // along each side
-constexpr int kAngles = 8;  // for each cell
+constexpr int kCells = 4;   // Number of cells along each side.
+constexpr int kAngles = 8;  // Number of orientation bins per cell.
 
-// The angles of a cell, side by side in one register or in the two that the
-// processor has instead.
+// The orientation bins of a cell in one vector register, or in two on processors with shorter ones.
 using Lanes = float __attribute__((vector_size(4 * kAngles)));
 using Indices = int32_t __attribute__((vector_size(4 * kAngles)));
 static_assert(kRowPadding >= kAngles);
@@ -29,19 +28,20 @@ void Store(const Vector& lanes, T* to) {
   std::memcpy(to, &lanes, sizeof(lanes));
 }
 
-// To [0, most]; 0 for NaN.
+// Clamps to [0, most]; NaN becomes 0.
 inline Lanes Clamped(const Lanes& values, float most) {
   const Lanes positive = values > 0.0f ? values : Lanes{};
   return positive < most ? positive : Lanes{} + most;
 }
 
-// One more cell on every side catches the outer shares of the interpolation.
+// An extra cell on every side receives the weights that interpolation puts outside.
 constexpr int kPaddedCells = kCells + 2;
-// Samples take turns, so that one need not wait until another is stored.
+// Consecutive samples go to alternate histograms, so that one need not wait for the store of the
+// other.
 constexpr int kTurns = 2;
 using PaddedHistogram = std::array<Lanes, kTurns * kPaddedCells * kPaddedCells>;
 
-// Part of a row in which both |a + b t| < limit hold.
+// The part of the range of t in which |a + b t| < limit.
 std::pair<float, float> Overlap(float a, float b, float limit, std::pair<float, float> range) {
   if (std::abs(b) < 1e-6f) {
     return std::abs(a) < limit ? range : std::pair(0.0f, -1.0f);
@@ -52,7 +52,7 @@ std::pair<float, float> Overlap(float a, float b, float limit, std::pair<float, 
           std::min(range.second, std::max(first, second))};
 }
 
-// Shares of a sample at (u, v), linear in the distances from cells and angles.
+// Adds samples to the histogram, with linear interpolation between cells and between angles.
 void AddSamples(const SampleRow& samples, int count, PaddedHistogram& histogram) {
   constexpr Lanes kBins = {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
   constexpr Lanes kOne = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
@@ -76,9 +76,9 @@ PaddedHistogram Accumulate(const cv::Mat& image,
                            const OrientedExtremum& oriented,
                            DescriptorMemory& memory) {
   const Extremum& e = oriented.extremum;
-  const float cell_size = 3.0f * e.sigma;             // pixels
-  constexpr float kReach = 0.5f * (kCells + 1);       // in cells, from the centre
-  constexpr float kLastCell = kPaddedCells - 1.001f;  // largest u and v, exclusive
+  const float cell_size = 3.0f * e.sigma;             // Octave pixels.
+  constexpr float kReach = 0.5f * (kCells + 1);       // Half the window's side, in cells.
+  constexpr float kLastCell = kPaddedCells - 1.001f;  // Upper bound of u and v.
   const float cosine = std::cos(oriented.angle) / cell_size;
   const float sine = std::sin(oriented.angle) / cell_size;
   const Window window(image, e.x, e.y, std::numbers::sqrt2_v<float> * kReach * cell_size);
@@ -107,7 +107,7 @@ PaddedHistogram Accumulate(const cv::Mat& image,
     constexpr Lanes kSteps = {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
     for (int i = 0; i < count; i += kAngles) {
       const Lanes dx = static_cast<float>(begin + i) - e.x + kSteps;
-      // Within the range but for rounding, and beyond the row's end.
+      // Clamping matters only for rounding errors and for samples beyond the end of the row.
       const Lanes u = Clamped(cosine * dx + sine * dy + kReach, kLastCell);
       const Lanes v = Clamped(-sine * dx + cosine * dy + kReach, kLastCell);
       const Indices iu = __builtin_convertvector(u, Indices);
@@ -130,7 +130,8 @@ PaddedHistogram Accumulate(const cv::Mat& image,
   return histogram;
 }
 
-// Unit length, clamped at 0.2 against glare, unit length again, times 512.
+// Normalises to unit length, clamps at 0.2 to limit the effect of glare, normalises again, and
+// scales by 512.
 Descriptor Quantised(const PaddedHistogram& histogram) {
   std::array<float, kDescriptorSize> values;
   size_t k = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The histogram of gradients around a keypoint: Lowe, IJCV 2004, section 6.
+// The histogram of gradient orientations around a keypoint: Lowe, IJCV 2004, section 6.
 
 #include <array>
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace lararium::vision {
 
-// Samples of part of a row in a descriptor's own axes.
+// The gradient samples of part of an image row, in the descriptor's axes; parallel arrays.
 struct SampleRow {
   std::vector<float> angle_bin;
-  std::vector<int32_t> cell;  // the first of the four that a sample falls between
-  std::array<std::vector<float>, 4> share;
+  std::vector<int32_t> cell;  // First of the four cells between which the sample is interpolated.
+  std::array<std::vector<float>, 4> share;  // Weight of the sample in each of the four cells.
 
   void Reserve(size_t count) {
     if (cell.size() < count) {
@@ -30,7 +30,7 @@ struct SampleRow {
   }
 };
 
-// Working memory; keep one for each thread.
+// Working memory of one thread.
 struct DescriptorMemory {
   GradientRow gradients;
   SampleRow samples;
@@ -38,7 +38,7 @@ struct DescriptorMemory {
   std::vector<float> weights_y;
 };
 
-// image: the extremum's level of the scale space.
+// Computes the descriptor. image is the extremum's level of the scale space.
 Descriptor Describe(const cv::Mat& image,
                     const OrientedExtremum& oriented,
                     DescriptorMemory& memory);

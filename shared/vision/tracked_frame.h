@@ -24,11 +24,11 @@ enum class TrackState {
 
 // Why a frame has no pose.
 enum class TrackReason {
-  kNone,             // it has one
+  kNone,             // the frame has a pose
   kTooDark,          // hardly any light
   kTooFewFeatures,   // covered lens, blur, a blank wall
-  kTooFewMatches,    // sees another place, or another light
-  kNoConsistentPose  // matches do not agree on one pose
+  kTooFewMatches,    // another place, or another light
+  kNoConsistentPose  // the matches do not agree on one pose
 };
 
 std::string_view Name(TrackState state);
@@ -38,44 +38,46 @@ std::string_view Name(TrackReason reason);
 struct TrackedFrame {
   geometry::Frame frame;
   geometry::CameraModel camera;
-  std::optional<geometry::Rigid3> camera_from_map;  // set exactly when tracking
-  uint32_t map = 0;  // of the tracker's maps: the one that the pose lies in
+  std::optional<geometry::Rigid3> camera_from_map;  // Set if and only if state is kTracking.
+  uint32_t map = 0;  // Index of the map that the pose refers to, among the tracker's maps.
   TrackState state = TrackState::kSearching;
   TrackReason reason = TrackReason::kNone;
-  bool followed = false;  // from the frame before; otherwise found without a prior
-  // The probability that the pose puts what is visible within 1 pixel of its
-  // place, on average over the image. 0 without a pose.
+  // The pose was tracked from the frame before. Otherwise it was found without a prior.
+  bool followed = false;
+  // Probability that the pose's registration error, root mean square over the image, is below
+  // 1 pixel; see PoseConfidence. 0 without a pose.
   float confidence = 0.0f;
-  // Of (w, v) in the pose (exp(w) R, exp(w) t + v); map units.
+  // Covariance of (w, v) in the pose (exp(w) R, exp(w) t + v); radians and map units.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int features = 0;
   int matches = 0;
   int inliers = 0;
-  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};  // image over map reference, linear R, G, B
-  // Share of the time between frames for which the shutter is open, as fast motion has shown
-  // it; none before that.
+  // Brightness of the image over the map's photometric reference, linear R, G, B.
+  std::array<float, 3> gain = {1.0f, 1.0f, 1.0f};
+  // Share of the frame time for which the shutter is open, estimated from the blur of fast motion;
+  // none until enough fast motion was observed.
   std::optional<float> shutter = std::nullopt;
 };
 
-// A map point that was seen where the pose puts it.
+// A map point that was found in the image at the position that the pose predicts.
 struct SeenPoint {
   uint32_t point = 0;
-  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // raw pixel
 };
 
-// Gives frames their poses: the SIFT tracker, or what smooths its poses.
+// Assigns poses to frames. Implemented by the tracker and by the pose smoother around it.
 class PoseSource {
  public:
   virtual ~PoseSource() = default;
   virtual TrackedFrame Track(const geometry::Frame& frame) = 0;
-  // The next frame is found without what is known of those before. From any thread. A source
-  // that follows nothing has no use for it.
+  // Makes the source locate the next frame without a prior. May be called from any thread. Does
+  // nothing in a source that does not track from frame to frame.
   virtual void FindAnew() {}
-  // The points that the last pose stands on, of TrackedFrame::map; nothing without a pose, or
-  // from a source that looks for no points.
+  // Fills in the points of TrackedFrame::map that support the last pose. Empty without a pose, or
+  // from a source that does not use map points.
   virtual void Seen(std::vector<SeenPoint>& seen) const { seen.clear(); }
-  // What hides the points of a map from now on, in place of what did before. Between
-  // frames. A source that looks for no points has no use for it.
+  // Replaces the occluders of a map. Call it between frames only. Does nothing in a source that
+  // does not use map points.
   virtual void SetOccluders([[maybe_unused]] uint32_t map,
                             [[maybe_unused]] std::span<const OccluderMesh> meshes) {}
 };

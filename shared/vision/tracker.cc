@@ -8,11 +8,11 @@
 #include <span>
 
 #include "shared/core/check.h"
-#include "shared/vision/background_finder.h"
-#include "shared/vision/finder.h"
-#include "shared/vision/follower.h"
+#include "shared/vision/background_relocalizer.h"
 #include "shared/vision/gain_estimator.h"
 #include "shared/vision/motion_model.h"
+#include "shared/vision/patch_tracker.h"
+#include "shared/vision/relocalizer.h"
 #include "shared/vision/rotation_estimator.h"
 
 namespace lararium::vision {
@@ -21,13 +21,13 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr double kDarkMean = 8.0;       // grey level of 0..255 below which nothing shows
-constexpr int64_t kLongestGap = 8;      // frames without a pose after which prediction is vain
-constexpr double kLeapPx = 30.0;        // between frames: the view changed
-constexpr double kFewAgree = 0.5;       // share of the patches
-constexpr double kTwoMeaningsPx = 3.0;  // poses farther apart than this contradict each other
+constexpr double kDarkMean = 8.0;   // Darker images (mean grey level 0..255) are not tracked.
+constexpr int64_t kLongestGap = 8;  // Longest gap between frames over which motion is predicted.
+constexpr double kLeapPx = 30.0;    // The view changed if it moves more than this per frame.
+constexpr double kFewAgree = 0.5;   // Share of agreeing patches below which many do not agree.
+constexpr double kTwoMeaningsPx = 3.0;  // Poses farther apart than this contradict each other.
 
-// Mean distance between where two poses put what lies at a depth, pixels.
+// Mean distance, in pixels, between the projections of points at a depth by two poses.
 double DistancePx(const CameraModel& camera, const Rigid3& a, const Rigid3& b, double depth) {
   constexpr int kSteps = 4;
   const Rigid3 b_from_a = b * a.Inverse();
@@ -52,12 +52,13 @@ class Tracker final : public PoseSource {
   Tracker(std::vector<std::shared_ptr<const SceneDatabase>> maps,
           const CameraModel& camera,
           const TrackerOptions& options)
-      : options_(options), camera_(camera), maps_(std::move(maps)), finder_(maps_, options) {
+      : options_(options), camera_(camera), maps_(std::move(maps)), relocalizer_(maps_, options) {
     if (options.follow) {
       for (const auto& map : maps_) {
-        followers_.push_back(std::make_unique<Follower>(std::make_shared<const FollowMap>(map)));
+        followers_.push_back(
+            std::make_unique<PatchTracker>(std::make_shared<const FollowMap>(map)));
       }
-      background_ = std::make_unique<BackgroundFinder>(finder_, options.threads);
+      background_ = std::make_unique<BackgroundRelocalizer>(relocalizer_, options.threads);
     }
   }
 
@@ -70,7 +71,7 @@ class Tracker final : public PoseSource {
     found_in_.reset();
     if (find_anew_.exchange(false)) {
       motion_.Forget();
-      checked_pose_.reset();  // what the background finds is of what is not believed
+      checked_pose_.reset();  // The result of running background work is ignored.
     }
     if (frame.grey.empty()) {
       tracked.reason = TrackReason::kTooFewFeatures;
@@ -99,7 +100,7 @@ class Tracker final : public PoseSource {
       const std::span<const SeenPoint> patches = followers_[map_]->seen();
       seen.assign(patches.begin(), patches.end());
     } else if (found_in_) {
-      for (const LocatedPoint& located : finder_.points(*found_in_)) {
+      for (const LocatedPoint& located : relocalizer_.points(*found_in_)) {
         seen.push_back({located.point, located.pixel});
       }
     }
@@ -121,11 +122,11 @@ class Tracker final : public PoseSource {
 
   void FollowOrFind(TrackedFrame& tracked) {
     const cv::Mat& grey = tracked.frame.grey;
-    // One level more than the follower's coarsest, to see how the camera turned.
+    // One level more than the patch tracker's coarsest, for estimating the camera's rotation.
     const int levels = CoarsestLevel(grey.cols) + 2;
     pyramid_.Build(grey, levels);
     if (checked_image_.levels() == 0) {
-      checked_image_.Build(grey, levels);  // memory for later
+      checked_image_.Build(grey, levels);  // Allocates memory for later.
     }
     bool anchored = false;
     if (!Follow(tracked)) {
@@ -137,7 +138,7 @@ class Tracker final : public PoseSource {
       const Rigid3& pose = *tracked.camera_from_map;
       motion_.Add(static_cast<double>(tracked.frame.index), pose);
       if (anchored) {
-        followers_[map_]->Merge(pyramid_, tracked.camera, pose, finder_.points(map_), pose);
+        followers_[map_]->Merge(pyramid_, tracked.camera, pose, relocalizer_.points(map_), pose);
       }
       CheckInBackground(tracked);
     }
@@ -192,16 +193,16 @@ class Tracker final : public PoseSource {
 
   void Find(TrackedFrame& tracked) {
     if (background_) {
-      background_->Drop();  // what it finds is of what was lost
+      background_->Drop();  // The frame in the background belongs to the lost tracking.
     }
-    const Located located = finder_.Find(tracked.frame.grey, tracked.camera);
+    const Located located = relocalizer_.Find(tracked.frame.grey, tracked.camera);
     const Location& location = located.location;
     tracked.map = located.map;
     tracked.camera_from_map = location.camera_from_map;
     tracked.reason = location.reason;
     tracked.confidence = location.confidence;
     tracked.covariance = location.covariance;
-    tracked.features = finder_.features();
+    tracked.features = relocalizer_.features();
     tracked.matches = location.matches;
     tracked.inliers = location.inliers;
     if (location.camera_from_map) {
@@ -209,8 +210,8 @@ class Tracker final : public PoseSource {
     }
   }
 
-  // A pose found without a prior becomes the start of following, and as exact where
-  // the patches agree.
+  // Starts frame-to-frame tracking from a pose found without a prior. Refines the pose if the
+  // patches agree with it.
   bool Anchor(TrackedFrame& tracked) {
     map_ = tracked.map;
     checked_pose_.reset();
@@ -218,13 +219,13 @@ class Tracker final : public PoseSource {
     return Refine(tracked, nullptr, 1.0);
   }
 
-  // Chooses patches for the pose and aligns them; whether they agree with it.
+  // Chooses patches for the pose and aligns them. Returns whether they agree with it.
   bool Refine(TrackedFrame& tracked, const Rigid3* before, double frames) {
     const Rigid3 rough = *tracked.camera_from_map;
-    Follower& follower = *followers_[map_];
-    follower.Start(tracked.camera, rough);
+    PatchTracker& patch_tracker = *followers_[map_];
+    patch_tracker.Start(tracked.camera, rough);
     const FollowedPose followed =
-        follower.Follow(pyramid_, tracked.camera, std::span(&rough, 1), before, frames);
+        patch_tracker.Follow(pyramid_, tracked.camera, std::span(&rough, 1), before, frames);
     if (followed.honest && DistancePx(tracked.camera, rough, followed.camera_from_map,
                                       followed.evidence.depths[1]) < kTwoMeaningsPx) {
       Report(followed, tracked);
@@ -254,12 +255,14 @@ class Tracker final : public PoseSource {
     by_patches_ = true;
   }
 
-  // Now and then a frame is also found without a prior: an honest state can be wrong
-  // where the place repeats itself. Where that contradicts what was followed, patches
-  // decide which of the two is right; where it agrees, what was found is merged.
+  // From time to time a frame is also located without a prior, because tracking can lock on to the
+  // wrong part of a repetitive scene. If the two poses contradict each other, patches decide which
+  // one is right; if they agree, the points found are merged into the patch tracker.
   void CheckInBackground(TrackedFrame& tracked) {
-    constexpr int64_t kJoinAfter = 6;      // frames
-    constexpr int64_t kCalmInterval = 60;  // the error's life; some 30 ms of another thread each
+    constexpr int64_t kJoinAfter = 6;  // frames
+    // Frames between checks. The interval limits how long an error lasts; a check takes about 30 ms
+    // of another thread.
+    constexpr int64_t kCalmInterval = 60;
     constexpr int64_t kDoubtInterval = 30;
     constexpr double kCalmShare = 0.5;
     const int64_t index = tracked.frame.index;
@@ -276,7 +279,7 @@ class Tracker final : public PoseSource {
     }
     const int64_t interval = share_ < kCalmShare ? kDoubtInterval : kCalmInterval;
     if (!tracked.followed) {
-      checked_index_ = index;  // this very frame was
+      checked_index_ = index;  // This frame was itself located without a prior.
     } else if (index >= checked_index_ + interval || index < checked_index_) {
       checked_index_ = index;
       checked_pose_ = *tracked.camera_from_map;
@@ -287,27 +290,27 @@ class Tracker final : public PoseSource {
     }
   }
 
-  // located: of the frame that was checked.
+  // Compares the pose found in the background with the tracked pose of the same frame.
   void Compare(const Located& located, TrackedFrame& tracked) {
     if (!located.location.camera_from_map || !checked_pose_) {
-      return;  // nothing found, or following began anew since
+      return;  // Nothing was found, or tracking was restarted in the meantime.
     }
     const Rigid3& found = *located.location.camera_from_map;
     if (located.map == map_ && DistancePx(tracked.camera, *checked_pose_, found, depth_) <
                                    kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
-      constexpr double kMostBlurPx = 2.0;  // beyond, its patches are no good
+      constexpr double kMostBlurPx = 2.0;  // Patches of a more blurred image are not usable.
       if (checked_blur_px_ < kMostBlurPx) {
         followers_[map_]->Merge(checked_image_, checked_camera_, *checked_pose_,
-                                finder_.points(map_), *tracked.camera_from_map);
+                                relocalizer_.points(map_), *tracked.camera_from_map);
       }
       return;
     }
-    // Both begin anew: what was followed has long let go of the patches that
-    // contradict it.
+    // Both poses are tested with newly chosen patches, because tracking has long dropped the
+    // patches that contradict its pose.
     const Rigid3 ours = *tracked.camera_from_map;
     Rigid3 since = ours * checked_pose_->Inverse();
     if (located.map != map_) {
-      since.translation.setZero();  // it is in our map's unit, and each map has its own
+      since.translation.setZero();  // Each map has its own unit of length.
     }
     const Rigid3 theirs = since * found;
     const double our_share = FollowAnew(map_, tracked.camera, ours).share();
@@ -335,28 +338,29 @@ class Tracker final : public PoseSource {
   TrackerOptions options_;
   CameraModel camera_;
   std::vector<std::shared_ptr<const SceneDatabase>> maps_;
-  Finder finder_;
-  std::vector<std::unique_ptr<Follower>> followers_;  // of the maps
+  Relocalizer relocalizer_;
+  std::vector<std::unique_ptr<PatchTracker>> followers_;  // [maps]
   ImagePyramid pyramid_;
   cv::Mat small_before_;
   MotionModel motion_;
   GainEstimator gain_;
   std::array<float, 3> last_gain_ = {1.0f, 1.0f, 1.0f};
   uint32_t map_ = 0;
-  double share_ = 0.0;  // of the patches that agree
-  double depth_ = 1.0;  // of what is visible
+  double share_ = 0.0;  // Share of agreeing patches.
+  double depth_ = 1.0;  // Median depth of the visible points, map units.
   double blur_px_ = 0.0;
   bool had_pose_ = false;
   std::atomic<bool> find_anew_ = false;
-  bool by_patches_ = false;           // the last pose is that of followers_[map_]
-  std::optional<uint32_t> found_in_;  // the map that finder_ found the last frame in
+  bool by_patches_ = false;           // The last pose comes from followers_[map_].
+  std::optional<uint32_t> found_in_;  // The map in which relocalizer_ located the last frame.
 
-  int64_t checked_index_ = 0;
-  std::optional<Rigid3> checked_pose_;  // that was followed; none where following began anew since
+  int64_t checked_index_ = 0;  // Index of the frame that was last located without a prior.
+  // Tracked pose of the frame in the background; none if tracking was restarted in the meantime.
+  std::optional<Rigid3> checked_pose_;
   CameraModel checked_camera_;
   ImagePyramid checked_image_;
   double checked_blur_px_ = 0.0;
-  std::unique_ptr<BackgroundFinder> background_;
+  std::unique_ptr<BackgroundRelocalizer> background_;
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
-// The tracker: finds the place in one image without a prior, then follows it from
-// frame to frame.
+// The tracker: locates the camera in one image without a prior, then tracks it from frame to frame.
 
 #include <memory>
 #include <vector>
@@ -12,30 +11,29 @@
 
 namespace lararium::vision {
 
-// When the work that runs beside the frames (fresh matches from the detector)
-// takes effect.
+// When the result of background relocalisation takes effect.
 enum class BackgroundWork {
-  kJoined,  // at a fixed later frame, which waits for it: the output is reproducible
-  kFree,    // as soon as it is done
+  kJoined,  // A fixed later frame waits for the result, so that the output is reproducible.
+  kFree,    // The result is used as soon as it is ready.
 };
 
 struct TrackerOptions {
-  bool follow = true;  // from frame to frame; otherwise every frame is found anew
+  bool follow = true;  // Track from frame to frame. Otherwise every frame is located by itself.
   BackgroundWork background = BackgroundWork::kJoined;
-  int threads = 0;            // 0: as many as cores; 1: all work in the caller's thread
-  int feature_budget = 1000;  // what the level-of-detail controller aims at
-  int search_checks = 64;     // descriptors looked at for each query
-  float ratio = 0.8f;         // Lowe's ratio between different points
+  int threads = 0;            // 0: one thread per core. 1: all work in the caller's thread.
+  int feature_budget = 1000;  // Number of features that FeatureScaleController aims at.
+  int search_checks = 64;     // See LocalizerOptions, as for the following fields.
+  float ratio = 0.8f;
   float inlier_threshold_px = 2.0f;
-  int hypotheses = 512;  // of preemptive RANSAC
+  int hypotheses = 512;
   int min_inliers = 15;
   uint64_t seed = 1;
 
   Status Validate() const;
 };
 
-// maps: at least one; shared, never changed; TrackedFrame::map says which one a
-// pose lies in. camera: of the images that will come. One tracker for each camera.
+// Creates a tracker for one camera. maps holds at least one map; the tracker shares them and never
+// changes them. TrackedFrame::map is an index into maps. camera describes the images to come.
 Result<std::unique_ptr<PoseSource>> CreateTracker(
     std::vector<std::shared_ptr<const SceneDatabase>> maps,
     const geometry::CameraModel& camera,

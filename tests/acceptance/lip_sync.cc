@@ -1,12 +1,12 @@
-// Mouths beside voices: plays every line of a bundle through the show and the mixer, and
-// correlates how far the lips are apart with how loud the exported sound is.
+// Compares mouths with voices: plays every line of a bundle through the show and the mixer, and
+// correlates the opening of the lips with the loudness of the exported sound.
 //
 //   lip_sync SHOW.larshow ACTOR [LANGUAGE]
 //
-// Lips: the vertex of the face that moves furthest down, over all lines; how far it is
-// below its place at rest. Sound: root mean square of 33 ms around each moment, to the
-// power of 0.6 (loudness, Stevens 1955). A lag is that of the lips: positive, they move
-// after the sound. Prints one line of JSON for each line of the drama.
+// Lips: the vertex of the face that moves furthest down, over all lines; its distance below its
+// position at rest. Sound: root mean square of 33 ms around each moment, to the power of 0.6
+// (loudness, Stevens 1955). The lag is that of the lips: positive if they move after the sound.
+// Prints one line of JSON for each line of the drama.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -23,12 +23,12 @@ namespace lararium {
 namespace {
 
 constexpr double kFramesPerSecond = 60.0;
-constexpr double kBegin = 0.5;     // of a line, seconds
-constexpr double kPause = 0.5;     // after it
-constexpr double kWindow = 0.033;  // of loudness
-constexpr int kMostLag = 12;       // frames
+constexpr double kBegin = 0.5;     // Start of a line, seconds.
+constexpr double kPause = 0.5;     // Pause after a line, seconds.
+constexpr double kWindow = 0.033;  // Window of loudness, seconds.
+constexpr int kMostLag = 12;       // Frames.
 
-// Somebody stands a metre before the camera and speaks.
+// An actor stands a metre in front of the camera and speaks.
 std::string DramaOf(const std::string& actor, const std::string& line) {
   return "local who = actor('" + actor +
          "')\nfunction main()\n who:place{x = 0, y = 0, z = 0, heading = 180}\n"
@@ -44,7 +44,8 @@ vision::TrackedFrame CloseUp(const geometry::Similarity3& map_from_stage) {
   tracked.camera.fx = tracked.camera.fy = 600.0;
   tracked.camera.cx = 320.0;
   tracked.camera.cy = 240.0;
-  // At (0, 1.5, 1), looking along -Z; a pose of the map is rigid, but in its scale.
+  // The camera is at (0, 1.5, 1) and looks along -Z. A pose in the map is rigid, but in the map's
+  // scale.
   const Eigen::Quaterniond camera_from_stage(0.0, 1.0, 0.0, 0.0);
   const Eigen::Quaterniond rotation = camera_from_stage * map_from_stage.rotation.conjugate();
   const Eigen::Vector3d centre = map_from_stage * Eigen::Vector3d(0.0, 1.5, 1.0);
@@ -53,8 +54,8 @@ vision::TrackedFrame CloseUp(const geometry::Similarity3& map_from_stage) {
 }
 
 struct Performance {
-  std::vector<std::vector<glm::vec3>> vertices;  // of the moving meshes, frame by frame
-  std::vector<float> sound;                      // mono, 48000 a second
+  std::vector<std::vector<glm::vec3>> vertices;  // Vertices of the moving meshes in each frame.
+  std::vector<float> sound;                      // Mono, 48000 samples a second.
 };
 
 Result<Performance> Perform(show::ShowContent content,
@@ -98,8 +99,8 @@ Result<Performance> Perform(show::ShowContent content,
   return performance;
 }
 
-// How far the lips are apart, metres. Meshes move only while something moves them: frames
-// without vertices are at rest.
+// Opening of the lips, metres. Meshes move only while something animates them: frames without
+// vertices are at rest.
 std::vector<double> Opening(const Performance& performance) {
   size_t count = 0;
   for (const auto& vertices : performance.vertices) {
@@ -142,7 +143,7 @@ std::vector<double> Loudness(const std::vector<float>& sound, size_t frames) {
   return loudness;
 }
 
-// Of a[i + lag] and b[i].
+// Correlation of a[i + lag] and b[i].
 double Correlation(const std::vector<double>& a, const std::vector<double>& b, int lag) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   for (int i = 0; i < static_cast<int>(b.size()); ++i) {

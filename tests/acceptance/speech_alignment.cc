@@ -1,7 +1,7 @@
-// How far the aligner's boundaries of sounds are from the truth: espeak-ng's voices as
-// recordings, whose phoneme events are withheld. The reference is always the language's plain
-// voice; the recordings have other voices, paces and pitches (klatt2 is another kind of
-// synthesiser), half a second of lead and hiss. Prints a table; fails above 40 ms.
+// Errors of the aligner's phoneme boundaries: the recordings are voices of espeak-ng, whose phoneme
+// events are withheld. The reference is always the language's plain voice; the recordings have
+// other voices, speeds and pitches (klatt2 is another kind of synthesiser), half a second of
+// silence before the voice, and noise. Prints a table; fails above 40 ms.
 //
 //   speech_alignment [--words]    --words: English with pocketsphinx's word times too
 
@@ -18,9 +18,9 @@
 namespace lararium::bake {
 namespace {
 
-constexpr double kBar = 0.040;   // seconds, mean
-constexpr double kLead = 0.5;    // seconds before the voice
-constexpr double kGross = 0.08;  // seconds: another sound's place
+constexpr double kBar = 0.040;   // Largest mean error, seconds.
+constexpr double kLead = 0.5;    // Seconds before the voice.
+constexpr double kGross = 0.08;  // Seconds; a larger error is in another phoneme.
 
 struct Language {
   const char* name;
@@ -51,7 +51,7 @@ const std::vector<Language>& Languages() {
 struct Speaker {
   const char* name;
   VoiceSettings voice;
-  double hiss;  // standard deviation, full scale 1
+  double hiss;  // Standard deviation; full scale is 1.
 };
 
 const std::vector<Speaker>& Speakers() {
@@ -88,7 +88,7 @@ struct Errors {
   double sum = 0.0;
   int count = 0;
   int gross = 0;
-  int failed = 0;  // sentences
+  int failed = 0;  // Number of sentences.
 
   double mean() const { return sum / std::max(count, 1); }
   void Add(const Errors& other) {

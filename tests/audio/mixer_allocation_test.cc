@@ -1,5 +1,5 @@
-// Mixing allocates nothing of ours in steady state. Its own program: it replaces the
-// global allocator.
+// Mixing makes no allocations of our own in steady state. This is a separate program, because it
+// replaces the global allocator.
 
 #include <gtest/gtest.h>
 

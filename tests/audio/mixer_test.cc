@@ -47,7 +47,7 @@ std::vector<float> Play(Mixer& mixer, const SoundScene& scene, double begin, dou
   return stereo;
 }
 
-// What a fresh mixer plays.
+// Output of a new mixer.
 std::vector<float> Play(const std::shared_ptr<const SoundLibrary>& library,
                         const SoundScene& scene,
                         double seconds,
@@ -98,7 +98,7 @@ TEST(Mixer, TheEarOnTheSideOfASourceHearsItLouderAndSooner) {
     ASSERT_TRUE(mixer->hrtf()) << "the data of heads are missing: libopenal-data";
     const auto heads = Play(*mixer, scene, 0.0, 0.5);
     EXPECT_GT(-side * Db(Rms(heads, 0, 0.1, 0.5) / Rms(heads, 1, 0.1, 0.5)), 5.0);
-    // 0.3 to 0.9 ms: what a head's breadth takes at the speed of sound.
+    // 0.3 to 0.9 ms: the time of sound across a head.
     const double delay = side * test::InterauralDelay(heads) / static_cast<double>(kRate);
     EXPECT_GT(delay, 0.0003);
     EXPECT_LT(delay, 0.0009);
@@ -108,13 +108,13 @@ TEST(Mixer, TheEarOnTheSideOfASourceHearsItLouderAndSooner) {
 TEST(Mixer, TurningTheHeadTurnsTheSound) {
   const auto library = test::Library({Sound("noise", Encode(test::Noise(1.0), 1))});
   SoundScene scene = SceneOf({MakeVoice(0, {0, 0, -2})});
-  scene.listener.forward = {1, 0, 0};  // the source is now to the left
+  scene.listener.forward = {1, 0, 0};  // The source is now to the left.
   const auto heard = Play(library, scene, 0.5, true);
   EXPECT_GT(Db(Rms(heard, 0, 0.1, 0.5) / Rms(heard, 1, 0.1, 0.5)), 5.0);
 }
 
 TEST(Mixer, HeadLockedStereoIsPlayedAsItIs) {
-  std::vector<float> samples = test::Noise(1.0);  // half a second of two channels
+  std::vector<float> samples = test::Noise(1.0);  // Half a second of two channels.
   const auto library = test::Library({Sound("room", Encode(samples, 2))});
   Voice voice = MakeVoice(0, {});
   voice.head_locked = true;
@@ -155,7 +155,7 @@ TEST(Mixer, SoughtIntoAClipGivesTheSamplesOfPlayingThere) {
       const auto mixer = MakeMixer(library);
       const auto sought = Play(*mixer, scene, at, 0.5);
       const size_t begin = 2 * static_cast<size_t>(at * kRate);
-      for (size_t i = 2 * 960; i < sought.size(); ++i) {  // after the fade
+      for (size_t i = 2 * 960; i < sought.size(); ++i) {  // After the fade.
         ASSERT_NEAR(sought[i], whole[begin + i], 2e-4) << i << " of clip " << clip << loops;
       }
     }
@@ -169,14 +169,14 @@ TEST(Mixer, JumpingBackAndForthWithinAPlayGivesTheSameToo) {
   const auto mixer = MakeMixer(library);
   for (const double at : {0.0, 2.0, 1.0, 2.5}) {
     const auto heard = Play(*mixer, scene, at, 0.4);
-    for (size_t i = 2 * 2400; i < heard.size(); ++i) {  // after both fades
+    for (size_t i = 2 * 2400; i < heard.size(); ++i) {  // After both fades.
       ASSERT_NEAR(heard[i], whole[2 * static_cast<size_t>(at * kRate) + i], 2e-4) << at;
     }
   }
 }
 
 TEST(Mixer, LoopsHaveNoSeam) {
-  // Whole periods.
+  // The clips contain whole periods.
   const auto library = test::Library({Sound("held", Encode(test::Tone(1.0, 100.0), 1)),
                                       Sound("streamed", Encode(test::Tone(6.0, 100.0), 1))});
   for (int clip = 0; clip < 2; ++clip) {
@@ -254,7 +254,7 @@ TEST(Mixer, AmbienceGoesDownWhileSomebodySpeaksNearby) {
   room.bus = Bus::kAmbience;
   room.loops = true;
   room.head_locked = true;
-  // A speaker whose voice is silent, so that the rest can be measured.
+  // A speaker with a silent voice, so that the rest can be measured.
   Voice speaker = MakeVoice(0, {0, 0, -1}, 1.0);
   speaker.bus = Bus::kSpeech;
   const auto heard = Play(library, SceneOf({room, speaker}), 6.0);
@@ -263,7 +263,7 @@ TEST(Mixer, AmbienceGoesDownWhileSomebodySpeaksNearby) {
   EXPECT_NEAR(Db(Rms(heard, 0, 5.7, 6.0) / before), 0.0, 0.3);
   EXPECT_LT(LargestStep(heard), 0.02f);
 
-  // Far away nobody drowns it.
+  // A distant speaker does not lower it.
   speaker.position = {0, 0, -30};
   const auto far = Play(library, SceneOf({room, speaker}), 3.0);
   EXPECT_GT(Db(Rms(far, 0, 2.0, 3.0) / before), -1.5);
@@ -290,7 +290,7 @@ TEST(Mixer, KeepsTheOnsetOfWhatItHearsOfLate) {
   const auto heard = Play(*mixer, SceneOf({voice}), 0.1, 0.1);
   EXPECT_NEAR(*std::max_element(heard.begin(), heard.begin() + 2 * SoundGraph::kDelayFrames + 8),
               0.5f, 0.01f);
-  // What began long ago is joined in the middle.
+  // A voice that began long ago starts in the middle of its clip.
   voice.source = 2;
   voice.began = -0.2;
   const auto later = Play(*mixer, SceneOf({voice}), 0.2, 0.1);
@@ -301,7 +301,7 @@ TEST(Mixer, PutsRightWhatHasDriftedTooFarAndNothingElse) {
   const auto library = test::Library({Sound("noise", Encode(test::Noise(4.0), 1))});
   Voice voice = MakeVoice(0, {});
   voice.head_locked = true;
-  for (const double drift : {-0.12, 0.04, -0.2, 0.1}) {  // seconds by which the drama jumps
+  for (const double drift : {-0.12, 0.04, -0.2, 0.1}) {  // Jumps of the drama, seconds.
     const auto mixer = MakeMixer(library, false, MixerOptions());
     Play(*mixer, SceneOf({voice}), 0.0, 1.0);
     const auto heard = Play(*mixer, SceneOf({voice}), 1.0 - drift, 0.5);

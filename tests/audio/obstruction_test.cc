@@ -5,7 +5,7 @@
 namespace lararium::audio {
 namespace {
 
-// Two metres wide and high, one metre before the ear at the origin.
+// A wall two metres wide and high, one metre in front of the ear at the origin.
 stage::Occluder Wall() {
   stage::Occluder wall;
   wall.mesh.positions = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}};
@@ -24,7 +24,7 @@ TEST(SoundBlockers, WhatIsBehindAWallIsObstructed) {
 TEST(SoundBlockers, AnEdgeHidesASourceByAndBy) {
   const stage::Occluder walls[] = {Wall()};
   const SoundBlockers blockers(walls);
-  const float at_edge = blockers.Obstruction({0, 0, 0}, {3.0f, 0, -3});  // along the wall's end
+  const float at_edge = blockers.Obstruction({0, 0, 0}, {3.0f, 0, -3});  // Past the wall's edge.
   EXPECT_GT(at_edge, 0.0f);
   EXPECT_LT(at_edge, 1.0f);
   EXPECT_GE(blockers.Obstruction({0, 0, 0}, {2.9f, 0, -3}), at_edge);

@@ -18,16 +18,16 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-// What happens to the doubles of a device; outlives them.
+// Records what happens to fake devices, and outlives them.
 struct Happenings {
   std::atomic<int> opened = 0;
   std::atomic<int> written = 0;
-  std::atomic<int> loud = 0;  // blocks that were not silent
+  std::atomic<int> loud = 0;  // Number of blocks that were not silent.
   std::atomic<bool> there = true;
-  std::atomic<int> lost_after = -1;  // blocks; -1: never
+  std::atomic<int> lost_after = -1;  // Number of blocks; -1: never.
 };
 
-// A device that takes a block in a millisecond and may be lost.
+// A device that accepts a block per millisecond and may be lost.
 class FakeDevice : public AudioOut {
  public:
   explicit FakeDevice(Happenings& happenings) : happenings_(happenings) { ++happenings_.opened; }

@@ -17,7 +17,7 @@ SoundScene ClickAt(double began, double time) {
   SoundScene scene;
   scene.time = time;
   scene.frame_time = time;
-  if (time >= began) {  // nobody knows of it before
+  if (time >= began) {  // The voice is unknown before it begins.
     Voice& voice = scene.voices.emplace_back();
     voice.clip = 0;
     voice.began = began;
@@ -70,7 +70,7 @@ TEST(SoundTrack, GoesOnWithOtherSoundsAtTheSampleWhereItIs) {
   });
   ASSERT_TRUE(track.ok()) << track.message();
   SoundScene scene = ClickAt(0.0, 0.5);
-  scene.voices.front().clip = 1;  // which the sounds after do not have
+  scene.voices.front().clip = 1;  // The next library has no clip 1.
   ASSERT_TRUE((*track)->RenderUntil(scene).ok());
   ASSERT_TRUE((*track)->SetLibrary(after).ok());
   ASSERT_TRUE((*track)->RenderUntil(ClickAt(0.75, 1.0)).ok());
@@ -107,7 +107,7 @@ TEST(AudioOut, AnUnfinishedFileLeavesNothing) {
               testing::HasSubstr("mix.wav: cannot be written"));
 }
 
-// On a machine without sound; elsewhere it opens what is there.
+// Opens the machine's device if there is one; otherwise expects an error.
 TEST(AudioOut, ADeviceIsThereOrAnErrorSaysSo) {
   auto out = CreateAudioOut(AudioOutKind::kDevice);
   if (!out.ok()) {

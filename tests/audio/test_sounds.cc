@@ -132,7 +132,7 @@ double Rms(std::span<const float> stereo, int ear, double from, double to) {
 double Db(double ratio) { return 20.0 * std::log10(std::max(ratio, 1e-12)); }
 
 int InterauralDelay(std::span<const float> stereo) {
-  constexpr int kMost = 48;  // a millisecond
+  constexpr int kMost = 48;  // One millisecond.
   const int frames = static_cast<int>(stereo.size() / 2);
   int best = 0;
   double most = -1e300;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sounds whose every sample is known, and what one measures of sounds.
+// Sounds with known samples, and measurements of sounds.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,27 +18,27 @@ inline constexpr int kRate = 48'000;
 
 enum class Coding { kWav, kFlac, kVorbis, kOpus };
 
-// Interleaved samples, -1 to 1, as a file.
+// Encodes interleaved samples, -1 to 1, as a file.
 std::vector<std::byte> Encode(std::span<const float> samples,
                               int channels,
                               int rate = kRate,
                               Coding coding = Coding::kWav);
 
-// frames samples of f(seconds).
+// Samples f(seconds) for a duration of `seconds`.
 std::vector<float> Make(double seconds, const std::function<double(double)>& f, int rate = kRate);
 std::vector<float> Tone(double seconds, double hertz, double level = 0.25);
-// Uniform, seeded.
+// Uniform noise with a fixed seed.
 std::vector<float> Noise(double seconds, double level = 0.25);
-// A single sample of level 0.5 at the beginning of so much silence.
+// A single sample of level 0.5 followed by silence.
 std::vector<float> Click(double seconds);
 
 audio::SoundData Sound(const std::string& name, std::vector<std::byte> bytes);
 std::shared_ptr<const audio::SoundLibrary> Library(std::vector<audio::SoundData> sounds);
 
-// Of one ear (0: left) within [from, to) seconds.
+// Root mean square of one ear (0: left) within [from, to) seconds.
 double Rms(std::span<const float> stereo, int ear, double from, double to);
 double Db(double ratio);
-// Samples by which what the left ear hears comes after what the right one hears.
+// Delay of the left ear against the right one, in samples.
 int InterauralDelay(std::span<const float> stereo);
 
 }  // namespace lararium::test

@@ -13,7 +13,7 @@ using human::LightTransfer;
 float Volume(std::span<const LightTransfer::Blocker> blockers) {
   float sum = 0.0f;
   for (const LightTransfer::Blocker& blocker : blockers) {
-    sum += 4.0f / 3.0f * kPi * blocker.radius * blocker.radius * blocker.radius;
+    sum += 4.0f / 3.0f * kPiF * blocker.radius * blocker.radius * blocker.radius;
   }
   return sum;
 }
@@ -27,13 +27,13 @@ std::vector<LightTransfer::Blocker> Fit(const human::Human& human,
 }
 
 TEST(Blockers, HaveTheVolumeOfTheModelAndLieInIt) {
-  const SurfaceMesh sphere = MakeCap({0, 1, 0}, 0.5f, kPi, false, glm::vec3(0.5f), 12, 24);
+  const SurfaceMesh sphere = MakeCap({0, 1, 0}, 0.5f, kPiF, false, glm::vec3(0.5f), 12, 24);
   const human::Human human = MakeRigidHuman({glm::vec3(0.0f)}, {{sphere, 0}});
   for (const size_t count : {size_t{1}, size_t{20}}) {
     const auto blockers = Fit(human, {&sphere, 1}, count);
     ASSERT_EQ(blockers.size(), count);
-    // The ball less what its flat triangles cut off.
-    EXPECT_NEAR(Volume(blockers), 0.97f * 4.0f / 3.0f * kPi * 0.125f, 0.03f * 0.52f);
+    // The ball, without the volume that its flat triangles cut off.
+    EXPECT_NEAR(Volume(blockers), 0.97f * 4.0f / 3.0f * kPiF * 0.125f, 0.03f * 0.52f);
     for (const LightTransfer::Blocker& blocker : blockers) {
       EXPECT_LT(glm::distance(blocker.centre, glm::vec3(0, 1, 0)), 0.5f);
       EXPECT_EQ(blocker.joint, 0u);

@@ -13,8 +13,8 @@ namespace {
 
 SobolSeeds DrawSeeds(Random& random) { return {random.Next(), random.Next(), random.Next()}; }
 
-// What a (0, 2)-sequence promises: of its first 256 points one lies in each cell of every
-// grid of 256 cells.
+// The property of a (0, 2)-sequence: of its first 256 points, one is in each cell of every grid
+// of 256 cells.
 TEST(Directions, ShuffledPointsFillEveryGridEvenly) {
   Random random(3);
   for (int trial = 0; trial < 20; ++trial) {
@@ -36,8 +36,8 @@ TEST(Directions, ShuffledPointsFillEveryGridEvenly) {
   }
 }
 
-// A path draws several pairs with one index: where one pair lies must say nothing about the
-// other, or what depends on both is integrated along a line of their space.
+// A path draws several pairs with one index. The position of one pair must not depend on the
+// other; otherwise functions of both are integrated only along a line of their space.
 TEST(Directions, PointsOfDifferentSeedsAreIndependent) {
   constexpr uint32_t kPoints = 1024;
   Random random(4);
@@ -54,7 +54,7 @@ TEST(Directions, PointsOfDifferentSeedsAreIndependent) {
     const double off = both / static_cast<double>(kPoints) - 0.25;
     squares += off * off;
   }
-  // Independent halves: 0.25 / sqrt(1024); the same halves: 0.25.
+  // Independent pairs give 0.25 / sqrt(1024), equal pairs 0.25.
   EXPECT_LT(std::sqrt(squares / kTrials), 0.03);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 const glm::quat kTurned = glm::angleAxis(1.1f, glm::normalize(glm::vec3(1.0f, 2.0f, -0.5f)));
 
-// Everything between dark and bright, a small lamp besides, one row quite dark.
+// A probe with all values between dark and bright, a small lamp, and one dark row.
 ProbeImage MakeUnevenProbe() {
   ProbeImage image = MakeProbe(32, [](const glm::vec3& d) {
     const float lamp = d.x > 0.85f && d.y > 0.2f && d.y < 0.4f ? 60.0f : 0.0f;
@@ -25,16 +25,16 @@ ProbeImage MakeUnevenProbe() {
   return image;
 }
 
-// Calls visit(direction, solid angle) over the sphere, several times within each texel.
+// Calls visit(direction, solid angle) over the sphere, several times per texel.
 template <typename Visit>
 void OverTheSphere(int width, const Visit& visit) {
   const int height = width / 2;
   for (int row = 0; row < height; ++row) {
-    const float e = kPi * (0.5f - (static_cast<float>(row) + 0.5f) / height);
-    const float top = kPi * (0.5f - static_cast<float>(row) / height);
-    const float solid_angle = 2.0f * kPi / width * (std::sin(top) - std::sin(top - kPi / height));
+    const float e = kPiF * (0.5f - (static_cast<float>(row) + 0.5f) / height);
+    const float top = kPiF * (0.5f - static_cast<float>(row) / height);
+    const float solid_angle = 2.0f * kPiF / width * (std::sin(top) - std::sin(top - kPiF / height));
     for (int column = 0; column < width; ++column) {
-      const float a = 2.0f * kPi * ((static_cast<float>(column) + 0.5f) / width - 0.5f);
+      const float a = 2.0f * kPiF * ((static_cast<float>(column) + 0.5f) / width - 0.5f);
       visit(glm::vec3(std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)),
             solid_angle);
     }
@@ -84,8 +84,8 @@ TEST(Environment, DensityIntegratesToOne) {
 TEST(Environment, AUniformProbeIsDrawnUniformly) {
   const Environment environment(MakeUniformProbe(3.0f), {});
   OverTheSphere(32, [&](const glm::vec3& direction, float) {
-    // Rows are weighed by the cosine at their middle instead of their solid angle.
-    EXPECT_NEAR(environment.Density(direction), 1.0f / (4.0f * kPi), 0.01f / (4.0f * kPi));
+    // Rows are weighted by the cosine at their middle, not by their exact solid angle.
+    EXPECT_NEAR(environment.Density(direction), 1.0f / (4.0f * kPiF), 0.01f / (4.0f * kPiF));
   });
 }
 
@@ -100,7 +100,7 @@ TEST(Environment, DrawsCarryTheirOwnDensity) {
     const float again = environment.Density(sample.direction);
     differing += std::abs(again - sample.density) > 1e-3f * sample.density;
   }
-  // Those on the border of two texels may fall to either.
+  // Directions on the border of two texels may belong to either.
   EXPECT_LT(differing, kSide * kSide / 500);
 }
 
@@ -110,8 +110,8 @@ TEST(Environment, DrawsFallWhereTheDensityIs) {
   constexpr uint32_t kDraws = 1u << 18;
   const auto texel_of = [&](const glm::vec3& d) {
     const int column =
-        static_cast<int>((std::atan2(d.x, -d.z) / (2.0f * kPi) + 0.5f) * image.width);
-    const int row = static_cast<int>((0.5f - std::asin(d.y) / kPi) * image.height);
+        static_cast<int>((std::atan2(d.x, -d.z) / (2.0f * kPiF) + 0.5f) * image.width);
+    const int row = static_cast<int>((0.5f - std::asin(d.y) / kPiF) * image.height);
     return static_cast<size_t>(std::min(row, image.height - 1) * image.width +
                                std::min(column, image.width - 1));
   };

@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
+
+#include "shared/core/units.h"
 
 namespace lararium::bake {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 using light::GlossyMap;
 
 ProbeImage Even(int width, const glm::vec3& radiance) {
@@ -45,7 +44,7 @@ TEST(GlossyProbe, APointOfLightBecomesTheLobe) {
   const GlossyMap map = PrefilterProbe(image, {});
   for (const int layer : {2, 3, 5}) {
     const double roughness = light::RoughnessOfLayer(layer);
-    double whole = 0.0;  // of the lobe, by the midpoint rule
+    double whole = 0.0;  // Integral of the lobe by the midpoint rule.
     constexpr int kSteps = 20000;
     for (int i = 0; i < kSteps; ++i) {
       whole += 2.0 * kPi / kSteps * light::GlossyWeight((i + 0.5) / kSteps, roughness);
@@ -65,7 +64,7 @@ TEST(GlossyProbe, APointOfLightBecomesTheLobe) {
 TEST(GlossyProbe, TurnsAndBrightensWithThePlacement) {
   ProbeImage image = Even(64, glm::vec3(0.1f));
   for (int row = 12; row < 20; ++row) {
-    for (int column = 44; column < 52; ++column) {  // about +X
+    for (int column = 44; column < 52; ++column) {  // About +X.
       image.pixels[static_cast<size_t>(row * 64 + column)] = glm::vec3(5.0f);
     }
   }

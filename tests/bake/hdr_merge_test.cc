@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The byte that a camera of this response gives.
+// The byte that a camera with this response gives.
 uchar Byte(const light::CameraResponse& response, int channel, double exposure) {
   const light::CameraResponse::Curve& curve = response.linear[channel];
   const auto above = std::lower_bound(curve.begin(), curve.end(), static_cast<float>(exposure));
@@ -30,7 +30,7 @@ uchar Byte(const light::CameraResponse& response, int channel, double exposure) 
   return cv::saturate_cast<uchar>(static_cast<double>(above - curve.begin()) - 1.0 + share);
 }
 
-// Smooth patches from 0.003 to 60, a little different in each channel. R, G, B.
+// Smooth patches from 0.003 to 60, slightly different in each channel. R, G, B.
 cv::Mat Radiance() {
   cv::Mat radiance(120, 160, CV_32FC3);
   for (int y = 0; y < radiance.rows; ++y) {
@@ -66,7 +66,7 @@ std::vector<Bracket> Photograph(const cv::Mat& radiance,
   return brackets;
 }
 
-// Not a power: sRGB with its highlights compressed from 0.6 on, as film and telephones do.
+// Not a power: sRGB with highlights compressed from 0.6 on, as on film and telephones.
 const light::CameraResponse kCamera = light::ShoulderResponse(0.6f);
 
 TEST(CalibrateResponse, RecoversAKnownResponseWithinFivePercent) {
@@ -82,7 +82,7 @@ TEST(CalibrateResponse, RecoversAKnownResponseWithinFivePercent) {
     EXPECT_LT(std::sqrt(squares / 222.0), 0.05) << "channel " << c;
   }
   EXPECT_LT(calibrated->residual, 0.12);
-  // The shoulder is seen in it.
+  // The calibrated response shows the shoulder.
   const light::FittedKnee knee = light::FitKnee(calibrated->response);
   EXPECT_NEAR(knee.knee, 0.6f, 0.1f);
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "shared/human/performance.h"
+#include "shared/human/animator.h"
 #include "tests/human/full_body.h"
 #include "tests/human/two_joint_human.h"
 
@@ -26,7 +26,7 @@ std::vector<LightTransfer::Blocker> OnEveryJoint(const Human& human) {
   return blockers;
 }
 
-// Cosine of half the largest angle by which a joint is turned otherwise.
+// Cosine of half the largest difference of a joint's rotation.
 float Alike(const std::vector<JointTransform>& a, const std::vector<JointTransform>& b) {
   float least = 1.0f;
   for (size_t j = 0; j < a.size(); ++j) {
@@ -39,12 +39,12 @@ TEST(KeyPoses, SomebodyWhoWalksStartsWithStanding) {
   const auto person = std::make_shared<const Human>(human::FullBody(0.4f, 7));
   const Poses poses = ChooseKeyPoses(person, OnEveryJoint(*person), 6);
   ASSERT_EQ(poses.size(), 6u);
-  const auto model = human::MakePerformanceModel(person);
-  human::Performer performer(model);
-  human::Performance performance;
-  human::UpdatePerformance(*model, glm::vec3(0.0f), 0.0f, 1.0f / 60.0f, {}, performance);
-  performer.Pose(performance);
-  const std::vector<JointTransform> standing(performer.pose().begin(), performer.pose().end());
+  const auto model = human::MakeAnimationRig(person);
+  human::Animator animator(model);
+  human::AnimationState performance;
+  human::UpdateAnimationState(*model, glm::vec3(0.0f), 0.0f, 1.0f / 60.0f, {}, performance);
+  animator.Pose(performance);
+  const std::vector<JointTransform> standing(animator.pose().begin(), animator.pose().end());
   EXPECT_GT(Alike(poses[0], standing), 1.0f - 1e-5f);
   for (size_t i = 0; i < poses.size(); ++i) {
     ASSERT_EQ(poses[i].size(), person->skeleton.size());
@@ -59,8 +59,8 @@ TEST(KeyPoses, WhatCannotWalkStartsAtRestAndTakesItsClips) {
   const Poses poses = ChooseKeyPoses(arm, OnEveryJoint(*arm), 3);
   ASSERT_EQ(poses.size(), 3u);
   EXPECT_GT(Alike(poses[0], arm->skeleton.rest), 1.0f - 1e-6f);
-  // The farthest from rest is the forearm's quarter turn; turning as a whole changes
-  // nothing as seen from the pelvis.
+  // The pose farthest from rest is the quarter turn of the forearm. A rotation of the whole
+  // changes nothing relative to the pelvis.
   EXPECT_NEAR(
       2.0f * std::acos(std::abs(glm::dot(poses[1][1].rotation, arm->skeleton.rest[1].rotation))),
       0.5f * 3.14159265f, 1e-3f);

@@ -55,9 +55,9 @@ TEST(LineTable, SaysWhereATableIsWrong) {
     const char* problem;
   } mistakes[] = {
       {"speaker,la\n", "row 1: there is no column 'id'"},
-      {"id,la,la\n", "'la' is there twice"},
-      {"id,Latin language\n", "'Latin language' is no language tag"},
-      {"id,la\na,b\na,c\n", "row 3: the id 'a' is there twice"},
+      {"id,la,la\n", "'la' occurs twice"},
+      {"id,Latin language\n", "'Latin language' is not a valid language tag"},
+      {"id,la\na,b\na,c\n", "row 3: the id 'a' occurs twice"},
       {"id,la\n../a,b\n", "row 2: '../a' cannot be a line's id"},
       {"id,la\na,b,c\n", "row 2: has more cells"},
       {"id,la\na,\"b\n", "row 2: a quote is not closed"},

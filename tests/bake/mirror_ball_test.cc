@@ -3,26 +3,24 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <opencv2/core.hpp>
 #include <optional>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 #include "tests/bake/probe_images.h"
 
 namespace lararium::bake {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// Smooth, without symmetry, from 0.2 to 2.
+// Smooth and not symmetric, from 0.2 to 2.
 glm::vec3 Around(const glm::vec3& d) {
   return {1.1f + 0.9f * std::sin(3.0f * d.x + d.y), 1.1f + 0.9f * std::sin(2.0f * d.y - d.z),
           1.1f + 0.9f * std::sin(4.0f * d.z + 2.0f * d.x)};
 }
 
-// A photograph of the ball by reflecting rays: the ball has radius 1 about the origin, the
-// camera looks along -Z from (0, 0, distance); what is behind the ball is seen beside it.
+// Ray-traces a photograph of the ball: it has radius 1 about the origin, and the camera looks
+// along -Z from (0, 0, distance). Beside the ball, its background is visible.
 cv::Mat Photograph(const BallView& view, int width, int height) {
   cv::Mat image(height, width, CV_32FC3);
   constexpr int kGrid = 2;
@@ -34,7 +32,7 @@ cv::Mat Photograph(const BallView& view, int width, int height) {
             (x + (i % kGrid + 0.5) / kGrid - 0.5 - view.circle.x) / view.circle.radius;
         const double py =
             -(y + (i / kGrid + 0.5) / kGrid - 0.5 - view.circle.y) / view.circle.radius;
-        // The outline is at tan(asin(1 / D)) of the plane at distance 1.
+        // In the plane at distance 1, the outline is at tan(asin(1 / D)).
         const bool far = view.distance == 0.0;
         const double plane = far ? 0.0 : 1.0 / std::sqrt(view.distance * view.distance - 1.0);
         const glm::dvec3 origin = far ? glm::dvec3(px, py, 10.0) : glm::dvec3(0, 0, view.distance);
@@ -86,7 +84,7 @@ TEST_P(MirrorBall, UnwrapsToWhatIsAroundIt) {
     for (int column = 0; column < 128; ++column) {
       const glm::vec3 d = test::ProbeDirection(column + 0.5, row + 0.5, 128, 64);
       if (std::acos(-d.z) < 42.0 * kPi / 180.0) {
-        continue;  // hidden by the ball, or at its rim
+        continue;  // Hidden by the ball, or at its rim.
       }
       const float off = glm::distance(probe->pixels[row * 128 + column], Around(d));
       worst = std::max(worst, double{off});
@@ -114,7 +112,7 @@ TEST_P(MirrorBall, IsFoundInItsPhotograph) {
 INSTANTIATE_TEST_SUITE_P(FarAndNear, MirrorBall, ::testing::Values(0.0, 12.0, 3.0));
 
 TEST(MirrorBallDistance, MattersNearTheCamera) {
-  // A ball at three radii, unwrapped as if it were far, is wrong.
+  // A ball at a distance of three radii is unwrapped wrongly if it is assumed to be far away.
   BallView view = {{160, 160, 140.0, 0.0}, 3.0, glm::vec3(1.0f)};
   const cv::Mat photograph = Photograph(view, 320, 320);
   view.distance = 0.0;

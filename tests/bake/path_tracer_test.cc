@@ -10,7 +10,7 @@
 namespace lararium::bake {
 namespace {
 
-// From an eye towards a target; focal length in units of the width.
+// A view from an eye towards a target; the focal length is in units of the width.
 struct View {
   geometry::CameraModel pinhole;
   geometry::Rigid3 camera_from_stage;
@@ -53,21 +53,21 @@ glm::vec4 Mean(const RadianceImage& image) {
   return sum / static_cast<float>(std::max<size_t>(image.pixels.size(), 1));
 }
 
-// Of a white surface's radiance, which is irradiance / pi.
+// Radiance of a white surface, which is irradiance / pi.
 glm::vec3 QuadratureRadiance(const Environment& environment, const glm::vec3& normal) {
   constexpr int kWidth = 1024;
   glm::dvec3 sum(0.0);
   for (int row = 0; row < kWidth / 2; ++row) {
-    const float e = kPi * (0.5f - (static_cast<float>(row) + 0.5f) / (kWidth / 2));
-    const float solid_angle = std::cos(e) * (2.0f * kPi / kWidth) * (2.0f * kPi / kWidth);
+    const float e = kPiF * (0.5f - (static_cast<float>(row) + 0.5f) / (kWidth / 2));
+    const float solid_angle = std::cos(e) * (2.0f * kPiF / kWidth) * (2.0f * kPiF / kWidth);
     for (int column = 0; column < kWidth; ++column) {
-      const float a = 2.0f * kPi * (static_cast<float>(column) + 0.5f) / kWidth;
+      const float a = 2.0f * kPiF * (static_cast<float>(column) + 0.5f) / kWidth;
       const glm::vec3 d(std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a));
       sum +=
           glm::dvec3(environment.Radiance(d) * (std::max(glm::dot(d, normal), 0.0f) * solid_angle));
     }
   }
-  return glm::vec3(sum / static_cast<double>(kPi));
+  return glm::vec3(sum / static_cast<double>(kPiF));
 }
 
 TEST(PathTracer, AConvexThingInAWhiteFurnaceShowsItsAlbedo) {
@@ -88,20 +88,20 @@ TEST(PathTracer, AConvexThingInAWhiteFurnaceShowsItsAlbedo) {
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(radiance[c] / coverage, 2.0f * albedo[c], 0.01f * 2.0f * albedo[c]);
   }
-  // A sphere of radius 1 seen from distance d fills a circle of radius
-  // focal / sqrt(d^2 - 1), all but the little that is off the centre.
+  // A sphere of radius 1 seen from distance d fills a circle of radius focal / sqrt(d^2 - 1),
+  // apart from a small error off the centre.
   const double focal = 1.6 * 24;
   const double disc = std::numbers::pi * focal * focal / (4.0 * 4.0 + 0.3 * 0.3 - 1.0);
   EXPECT_NEAR(coverage, disc, 0.02 * disc);
 }
 
-// The inside of half a sphere sends half of its light out whichever point it comes from
-// (an integrating sphere): radiance = a / 2 sum (a / 2)^k over the bounces k.
+// A point inside half a sphere sends half of its light outside, independent of its position (an
+// integrating sphere): radiance = a / 2 sum (a / 2)^k over the bounces k.
 TEST(PathTracer, ABowlReflectsIntoItselfAsAnIntegratingSphereDoes) {
   const Environment environment(MakeUniformProbe(1.0f), {});
   for (const float albedo : {0.5f, 1.0f}) {
     const SurfaceMesh bowl =
-        MakeCap(glm::vec3(0.0f), 1.0f, 0.5f * kPi, true, glm::vec3(albedo), 32, 64);
+        MakeCap(glm::vec3(0.0f), 1.0f, 0.5f * kPiF, true, glm::vec3(albedo), 32, 64);
     for (const int bounces : {0, 1, 3, 12}) {
       float expected = 0.0f;
       for (int k = 0; k <= bounces; ++k) {
@@ -128,7 +128,7 @@ TEST(PathTracer, HalfASkyLightsByHowMuchOfItASurfaceSees) {
   EXPECT_NEAR(radiance({0, 1, 0}), 0.6f, 0.006f);
   EXPECT_NEAR(radiance({1, 0, 0}), 0.3f, 0.006f);
   EXPECT_NEAR(radiance({0, -1, 0}), 0.0f, 0.002f);
-  // (1 + cos tilt) / 2 of it.
+  // The visible share of the sky is (1 + cos tilt) / 2.
   EXPECT_NEAR(radiance({std::sin(0.8f), std::cos(0.8f), 0}), 0.3f * (1.0f + std::cos(0.8f)),
               0.006f);
 }
@@ -170,7 +170,7 @@ TEST(PathTracer, ASmallSunLightsAsItsIntegralSays) {
 }
 
 TEST(PathTracer, ImagesAreUprightAndNotMirrored) {
-  // Red to the right, green above, seen from +Z.
+  // Red is on the right and green above, seen from +Z.
   const SurfaceMesh meshes[] = {
       MakeDisc({0.6f, 0, 0}, {0, 0, 1}, 0.3f, {1, 0, 0}),
       MakeDisc({0, 0.6f, 0}, {0, 0, 1}, 0.3f, {0, 1, 0}),
@@ -190,7 +190,7 @@ TEST(PathTracer, ImagesAreUprightAndNotMirrored) {
 
 TEST(PathTracer, TheSameSeedGivesTheSameImageOnAnyNumberOfCores) {
   const SurfaceMesh meshes[] = {
-      MakeCap(glm::vec3(0.0f), 1.0f, 0.5f * kPi, true, glm::vec3(0.7f)),
+      MakeCap(glm::vec3(0.0f), 1.0f, 0.5f * kPiF, true, glm::vec3(0.7f)),
       MakeSphere({0.1f, -0.4f, 0.0f}, 0.3f, glm::vec3(0.5f)),
   };
   const Environment environment(
@@ -206,7 +206,7 @@ TEST(PathTracer, TheSameSeedGivesTheSameImageOnAnyNumberOfCores) {
 }
 
 TEST(PathTracer, KeepsRealSurfacesApartAndLetsThemTakePartInTheLight) {
-  // A disc under a black one: it is seen around it, darker than alone.
+  // A disc under a black one: it is visible around the black one, and darker than alone.
   const SurfaceMesh meshes[] = {
       MakeDisc({0, 0.5f, 0}, {0, 1, 0}, 0.4f, glm::vec3(0.0f)),
       MakeDisc({0, 0, 0}, {0, 1, 0}, 3.0f, glm::vec3(0.5f)),
@@ -222,7 +222,7 @@ TEST(PathTracer, KeepsRealSurfacesApartAndLetsThemTakePartInTheLight) {
     both = std::max(both, std::min(image.pixels[i].a, image.real[i].a));
   }
   EXPECT_GT(both, 0.1f);
-  // In a corner of the picture, about a metre from below the disc's middle.
+  // The corner of the picture is about a metre from the point below the middle of the disc.
   const glm::vec4 corner = image.real[0];
   EXPECT_LT(corner.g, 0.5f);
   EXPECT_GT(corner.g, 0.4f);
@@ -239,7 +239,7 @@ TEST(PathTracer, WhatGivesOffLightIsSeenWithItAndLightsOthers) {
   const Environment environment(MakeUniformProbe(0.0f), {});
   const View below = MakeView({0, 0.4, 0}, {0, 0, 0}, 40.0);
   const glm::vec4 lit = Mean(Trace(meshes, environment, below, {.samples = 1024}));
-  EXPECT_NEAR(lit.r, 0.5f * 0.5f * 4.0f, 0.03f);  // its form factor is a half
+  EXPECT_NEAR(lit.r, 0.5f * 0.5f * 4.0f, 0.03f);  // The form factor is a half.
   EXPECT_NEAR(lit.g, 0.5f * 0.5f * 2.0f, 0.02f);
   const View up = MakeView({0, 0.2, 0}, {0, 1, 0}, 4.0);
   EXPECT_NEAR(Mean(Trace(meshes, environment, up, {.samples = 4})).r, 4.0f, 1e-4f);

@@ -35,7 +35,8 @@ TEST(PosedSurface, NormalsAreThoseOfTheTrianglesNotOfTheFile) {
       MakeRigidHuman({glm::vec3(0.0f)}, {{MakeSphere({0, 1, 0}, 0.5f, glm::vec3(0.5f)), 0}});
   const std::vector<glm::vec3> expected = human.meshes[0].normals;
   human.meshes[0].normals.assign(expected.size(), glm::normalize(glm::vec3(1, 1, 1)));
-  // One seam only where the normals of the file agree: here no two vertices share a place.
+  // A seam is smooth only where the normals of the file agree; here no two vertices share a
+  // position.
   const std::vector<SurfaceMesh> posed = BindPose(human);
   for (size_t v = 0; v < expected.size(); ++v) {
     EXPECT_GT(glm::dot(posed[0].normals[v], expected[v]), 0.995f) << v;
@@ -58,8 +59,8 @@ TEST(PosedSurface, NormalsTurnWithTheBone) {
 }
 
 TEST(PosedSurface, SmoothSeamsShareNormalsAndEdgesKeepTheirOwn) {
-  // A roof of two halves with split vertices along the ridge, at half a radian each: the
-  // file says that the ridge is smooth. And a box, whose edges are hard.
+  // A roof of two halves with split vertices along the ridge, at half a radian each: according
+  // to the file, the ridge is smooth. And a box, whose edges are hard.
   SurfaceMesh roof;
   const glm::vec3 left = glm::normalize(glm::vec3(-0.5f, 1, 0));
   const glm::vec3 right = glm::normalize(glm::vec3(0.5f, 1, 0));
@@ -110,7 +111,7 @@ TEST(PosedSurface, AlbedoIsVertexTimesMaterialTimesTexture) {
         mesh.uvs[v].x > 0.5f ? glm::vec3(0.5f, 0.5f, 0.0f) : glm::vec3(0.25f, 0.5f, 1.0f);
     EXPECT_LT(glm::distance(mesh.AlbedoAt(v), expected), 0.01f) << v;
   }
-  // Alpha counts only for a material that cuts off.
+  // Alpha counts only for a material with a cutoff.
   human.materials[0].alpha_cutoff = 0.5f;
   posed = BindPose(human);
   ASSERT_EQ(posed[0].coverage.size(), cv::Size(2, 2));

@@ -4,19 +4,18 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "editor/bake/probe.h"
 #include "editor/bake/sun_split.h"
+#include "shared/core/units.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::bake {
 namespace {
 
-// Irradiance by summing the cosine-weighted texels, with the directions that the
-// data's notes give, moved from its Z-up world to stage axes (x, z, -y).
+// Irradiance as a sum of cosine-weighted texels, with the directions from the notes of the data
+// set, converted from its Z-up world to stage axes (x, z, -y).
 glm::dvec3 SumIrradiance(const ProbeImage& image, const glm::vec3& normal) {
-  constexpr double kPi = std::numbers::pi;
   glm::dvec3 sum(0.0);
   for (int row = 0; row < image.height; ++row) {
     const double elevation = kPi * (0.5 - (row + 0.5) / image.height);
@@ -39,8 +38,8 @@ TEST(MaquetteProbe, TheCoefficientsComeCloseToTheIntegral) {
   const auto image = ReadProbeImage(folder / "probe.exr");
   ASSERT_TRUE(image.ok()) << image.message();
   const light::ShRgb light = ProjectProbe(*image, {});
-  // With a sun of irradiance 5.9 in it, the error of degree 5 may reach 6 % of the
-  // sun's share at single normals; on average it is about one per cent.
+  // The sun has an irradiance of 5.9, so the error of degree 5 may reach 6 % of its share at
+  // single normals; the average is about 1 %.
   double squared_error = 0.0, squared = 0.0;
   int count = 0;
   for (int i = 0; i < 100; ++i) {
@@ -81,20 +80,19 @@ TEST(LightingProbes, AreRead) {
   }
 }
 
-// What is found at the brightest place, for the record of the tests.
+// Splits the image and records what was found at its brightest point.
 SplitProbe Found(const std::filesystem::path& file) {
   const auto image = ReadProbeImage(file);
   EXPECT_TRUE(image.ok()) << image.message();
   SplitProbe split = SplitSun(*image);
   const light::Sun& b = split.brightest;
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::printf(
       "%s: %s; azimuth %.1f, elevation %.1f, radius %.2f degrees, irradiance %.3f %.3f "
       "%.3f, %.1f %% of what falls on a surface facing it\n",
       file.filename().c_str(), split.sun ? "a sun" : "no sun",
-      std::atan2(b.direction.x, -b.direction.z) * kDegrees, std::asin(b.direction.y) * kDegrees,
-      b.angular_radius * kDegrees, b.irradiance.r, b.irradiance.g, b.irradiance.b,
-      100.0 * split.share);
+      std::atan2(b.direction.x, -b.direction.z) * kDegreesPerRadian,
+      std::asin(b.direction.y) * kDegreesPerRadian, b.angular_radius * kDegreesPerRadian,
+      b.irradiance.r, b.irradiance.g, b.irradiance.b, 100.0 * split.share);
   return split;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Probe images that are known as functions of direction.
+// Probe images defined as functions of direction.
 
 #include <cmath>
 #include <functional>
@@ -37,7 +37,7 @@ inline bake::ProbeImage MakeProbe(int width, const Radiance& radiance, int grid 
   return image;
 }
 
-// An even disc in front of something else.
+// A uniform disc in front of another radiance.
 inline Radiance DiscOn(Radiance behind, const light::Sun& sun) {
   const float sine = std::sin(sun.angular_radius);
   const glm::vec3 radiance = sun.irradiance / (std::numbers::pi_v<float> * sine * sine);
@@ -48,7 +48,7 @@ inline Radiance DiscOn(Radiance behind, const light::Sun& sun) {
   };
 }
 
-// By summing texels.
+// Sums texels.
 inline glm::dvec3 Irradiance(const bake::ProbeImage& image, const glm::vec3& normal) {
   glm::dvec3 sum(0.0);
   for (int row = 0; row < image.height; ++row) {

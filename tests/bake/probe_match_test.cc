@@ -66,7 +66,8 @@ TEST(ProbeMatch, TwoDirectionsGiveTheRotation) {
 }
 
 TEST(ProbeMatch, DirectionsThatDisagreeShareTheError) {
-  // 90 degrees apart in the probe, 80 on the stage: each is 5 degrees off.
+  // The directions are 90 degrees apart in the probe and 80 on the stage, so each is off by 5
+  // degrees.
   const glm::vec3 a(1, 0, 0);
   const glm::vec3 b(0, 1, 0);
   const float angle = 80.0f * std::numbers::pi_v<float> / 180.0f;
@@ -106,7 +107,7 @@ TEST(ProbeMatch, GreySurfacesGiveTheScale) {
 }
 
 TEST(ProbeMatch, SaysHowFarGreySurfacesDisagree) {
-  // One stop to either side.
+  // One patch is a stop too bright, the other a stop too dark.
   const GreyPatch patches[] = {Seen(Light(), {0, 1, 0}, 1.0f), Seen(Light(), {1, 0, 0}, 0.25f)};
   const auto match = MatchScale(Light(), patches);
   ASSERT_TRUE(match.ok()) << match.message();

@@ -32,7 +32,7 @@ void WriteExr(const std::filesystem::path& file, int width, int height, const Te
   output.writePixels(height);
 }
 
-// One bright texel on a grey ground.
+// One bright texel on grey.
 Texel Lamp(int lamp_column, int lamp_row) {
   return [=](int column, int row) {
     return column == lamp_column && row == lamp_row ? glm::vec3(400.0f, 300.0f, 200.0f)
@@ -85,7 +85,7 @@ TEST_F(Probe, RadianceAndOpenExrAgree) {
   ASSERT_TRUE(exr.ok() && hdr.ok());
   ASSERT_EQ(exr->pixels.size(), hdr->pixels.size());
   for (size_t i = 0; i < exr->pixels.size(); ++i) {
-    // Radiance keeps eight bits of the brightest channel.
+    // A Radiance file keeps eight bits of the brightest channel.
     EXPECT_NEAR(exr->pixels[i].r, hdr->pixels[i].r, 32.0 / 128.0);
     EXPECT_NEAR(exr->pixels[i].b, hdr->pixels[i].b, 32.0 / 128.0);
   }

@@ -32,14 +32,14 @@ std::vector<float> Vector(const stage::Prop& prop, size_t mesh, size_t pose, siz
   return vector;
 }
 
-// Irradiance over pi, for a sky of radiance 1.
+// Irradiance divided by pi for a sky of radiance 1.
 float UnderUniformSky(const stage::Prop& prop, size_t mesh, size_t pose, size_t vertex) {
-  return Vector(prop, mesh, pose, vertex)[0] * std::sqrt(4.0f * kPi) / kPi;
+  return Vector(prop, mesh, pose, vertex)[0] * std::sqrt(4.0f * kPiF) / kPiF;
 }
 
 TEST(PropTransfer, OfWhatNothingShadowsIsTheClampedCosine) {
   stage::Prop prop;
-  prop.parts = {MakePart("ball", MakeCap({0, 1, 0}, 0.5f, kPi, false, glm::vec3(0.5f), 12, 16))};
+  prop.parts = {MakePart("ball", MakeCap({0, 1, 0}, 0.5f, kPiF, false, glm::vec3(0.5f), 12, 16))};
   const stage::Prop lit = Bake(prop, {.longest_edge = 1.0f});
   ASSERT_EQ(lit.light.key_poses.size(), 1u);
   EXPECT_EQ(lit.light_shown, std::vector<uint32_t>{1});
@@ -57,7 +57,7 @@ TEST(PropTransfer, OfWhatNothingShadowsIsTheClampedCosine) {
   }
 }
 
-// A cup under a lid: the lid is a part that only one state shows.
+// A floor under a lid; the lid is a part that only one state shows.
 stage::Prop MakeCovered() {
   stage::Prop prop;
   prop.parts = {MakePart("floor", MakeDisc({0, 0, 0}, {0, 1, 0}, 0.5f, glm::vec3(0.0f))),
@@ -70,16 +70,16 @@ stage::Prop MakeCovered() {
 TEST(PropTransfer, EachStateThatShowsOtherPartsIsAKeyPose) {
   const stage::Prop lit = Bake(MakeCovered(), {.longest_edge = 10.0f});
   ASSERT_EQ(lit.light_shown, (std::vector<uint32_t>{1, 3}));
-  // The middle of the floor: open, and under a lid that hides most of the sky.
+  // The middle of the floor is open in one state; in the other a lid hides most of the sky.
   EXPECT_NEAR(UnderUniformSky(lit, 0, 0, 0), 1.0f, 0.02f);
   EXPECT_LT(UnderUniformSky(lit, 0, 1, 0), 0.2f);
-  // The lid has its own light at both, whether it is there or not.
+  // The lid has its own light at both key poses, whether it is shown or not.
   for (size_t v = 0; v < 4; ++v) {
     EXPECT_EQ(Vector(lit, 1, 0, v), Vector(lit, 1, 1, v));
   }
 }
 
-// A post whose foot stands in a block: the vertices in there see nothing, and would darken
+// A post whose foot is inside a block: the vertices there receive no light, and would darken
 // the post up to its next vertices.
 TEST(PropTransfer, WhatIsBuriedTakesTheLightOfItsNeighbours) {
   stage::Prop prop;
@@ -99,11 +99,11 @@ TEST(PropTransfer, WhatIsBuriedTakesTheLightOfItsNeighbours) {
 TEST(PropTransfer, PartsThatTurnKeepTheirVectorsInTheirOwnFrame) {
   stage::Prop prop;
   prop.parts = {MakePart("leaf", MakeDisc({0, 0, 0}, {0, 0, -1}, 0.3f, glm::vec3(0.5f)))};
-  prop.parts[0].parent_from_part = {{0, 1, 0}, glm::angleAxis(0.5f * kPi, glm::vec3(1, 0, 0))};
+  prop.parts[0].parent_from_part = {{0, 1, 0}, glm::angleAxis(0.5f * kPiF, glm::vec3(1, 0, 0))};
   const stage::Prop lit = Bake(prop, {.longest_edge = 1.0f});
-  // In its own frame it faces -Z, wherever the part is turned.
+  // In its own frame the part faces -Z, independent of its rotation.
   const std::vector<float> vector = Vector(lit, 0, 0, 0);
-  EXPECT_NEAR(vector[2], -2.0f * kPi / 3.0f * std::sqrt(3.0f / (4.0f * kPi)), 0.05f);
+  EXPECT_NEAR(vector[2], -2.0f * kPiF / 3.0f * std::sqrt(3.0f / (4.0f * kPiF)), 0.05f);
   EXPECT_NEAR(vector[1], 0.0f, 0.05f);
 }
 

@@ -28,7 +28,7 @@ cv::Mat Light(cv::Size size, bool noisy) {
   return light;
 }
 
-std::string Encoded(const cv::Mat& light) {
+std::string EncodedRadiance(const cv::Mat& light) {
   std::vector<uint8_t> bytes;
   EXPECT_TRUE(cv::imencode(".hdr", light, bytes));
   return {bytes.begin(), bytes.end()};
@@ -51,9 +51,9 @@ void ExpectAsOpenCvReads(const std::string& file) {
 const std::string kHeader = "#?RADIANCE\nEXPOSURE=1.0\nFORMAT=32-bit_rle_rgbe\n\n";
 
 TEST(ParseRadiance, GivesTheLightThatOpenCvGives) {
-  ExpectAsOpenCvReads(Encoded(Light({64, 32}, false)));
-  ExpectAsOpenCvReads(Encoded(Light({64, 32}, true)));
-  ExpectAsOpenCvReads(Encoded(Light({5, 3}, true))) /* too narrow for runs */;
+  ExpectAsOpenCvReads(EncodedRadiance(Light({64, 32}, false)));
+  ExpectAsOpenCvReads(EncodedRadiance(Light({64, 32}, true)));
+  ExpectAsOpenCvReads(EncodedRadiance(Light({5, 3}, true))) /* too narrow for runs */;
 }
 
 TEST(ParseRadiance, KnowsThatAHundredAndTwentyEightIsOneHalf) {
@@ -65,7 +65,7 @@ TEST(ParseRadiance, KnowsThatAHundredAndTwentyEightIsOneHalf) {
 }
 
 TEST(ParseRadiance, RepeatsPixelsOfOldRuns) {
-  // One pixel, then it two times more; then a run of 1 + 1 * 256, which leaves the row.
+  // One pixel, then two repeats; then a run of 1 + 1 * 256, which exceeds the row.
   const std::string pixel = {'\x80', '\x80', '\x80', '\x81'};
   const std::string twice = {'\x01', '\x01', '\x01', '\x02'};
   const std::string once = {'\x01', '\x01', '\x01', '\x01'};
@@ -77,7 +77,7 @@ TEST(ParseRadiance, RepeatsPixelsOfOldRuns) {
 }
 
 TEST(ParseRadiance, RefusesEveryCut) {
-  const std::string whole = Encoded(Light({64, 32}, true));
+  const std::string whole = EncodedRadiance(Light({64, 32}, true));
   for (size_t size = 0; size < whole.size(); ++size) {
     EXPECT_FALSE(ParseRadiance(Bytes(whole.substr(0, size)), "cut.hdr").ok()) << size;
   }

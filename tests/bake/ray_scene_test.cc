@@ -46,7 +46,7 @@ TEST(RayScene, AHitNamesItsMeshTriangleDistanceAndCorners) {
   }
   EXPECT_LT(glm::distance(at, target), 1e-5f);
   EXPECT_LT(glm::distance(hit->face, glm::vec3(0, 1, 0)), 1e-6f);
-  // Past the first, on to the second.
+  // Beyond the first surface, the ray hits the second.
   const auto next = scene.Trace({0.5f, 2.0f, 0.5f}, {0, -1, 0}, 2.5f);
   ASSERT_TRUE(next);
   EXPECT_EQ(next->mesh, 2u);
@@ -81,7 +81,7 @@ TEST(RayScene, BlockedAgreesWithTrace) {
 
 TEST(RayScene, RaysPassWhereATextureCoversNothing) {
   SurfaceMesh upper = MakeSquare(0.0f);
-  // Left half open, right half solid; texture coordinates wrap.
+  // The left half is open, the right half solid; texture coordinates wrap.
   upper.coverage = (cv::Mat_<uint8_t>(1, 2) << 0, 255);
   for (glm::vec2& uv : upper.uvs) {
     uv += glm::vec2(-2.0f, 3.0f);

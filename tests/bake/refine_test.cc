@@ -15,9 +15,9 @@
 namespace lararium::bake {
 namespace {
 
-using Place = std::tuple<float, float, float>;
+using PlaceLevel = std::tuple<float, float, float>;
 
-Place PlaceOf(const glm::vec3& p) { return {p.x, p.y, p.z}; }
+PlaceLevel PlaceOf(const glm::vec3& p) { return {p.x, p.y, p.z}; }
 
 float LongestEdge(const stage::PropMesh& mesh) {
   float longest = 0.0f;
@@ -47,12 +47,13 @@ TEST(Refine, LeavesNoLongEdgeAndTheSameClosedSurface) {
   EXPECT_LE(LongestEdge(mesh), 0.1f);
   EXPECT_NEAR(AreaOf(mesh), area, 1e-4f);
   EXPECT_TRUE(mesh.Validate(0, "here").ok()) << mesh.Validate(0, "here").message();
-  // Watertight: each edge, by its places, is used as often in one direction as in the other.
-  std::map<std::pair<Place, Place>, int> edges;
+  // Watertight: each edge, identified by its positions, is used equally often in both
+  // directions.
+  std::map<std::pair<PlaceLevel, PlaceLevel>, int> edges;
   for (size_t i = 0; i < mesh.indices.size(); ++i) {
     const uint32_t next = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
-    const Place a = PlaceOf(mesh.positions[mesh.indices[i]]);
-    const Place b = PlaceOf(mesh.positions[next]);
+    const PlaceLevel a = PlaceOf(mesh.positions[mesh.indices[i]]);
+    const PlaceLevel b = PlaceOf(mesh.positions[next]);
     edges[std::minmax(a, b)] += a < b ? 1 : -1;
   }
   for (const auto& [edge, balance] : edges) {

@@ -43,7 +43,7 @@ TEST(SynthesizeSound, EverySoundIsTheSameEachTimeAndHasItsLevel) {
     const Sound sound = SynthesizeSound(built_in.name);
     EXPECT_EQ(sound.rate, 48'000);
     EXPECT_EQ(sound.samples, SynthesizeSound(built_in.name).samples) << built_in.name;
-    // Softer than somebody who speaks, and no peak near full scale.
+    // Softer than speech, and no peak near full scale.
     EXPECT_LT(RmsDb(sound.samples), -25.0) << built_in.name;
     EXPECT_GT(RmsDb(sound.samples), -60.0) << built_in.name;
     for (const float sample : sound.samples) {
@@ -61,7 +61,7 @@ TEST(SynthesizeSound, NamesAreUniqueAndInOrder) {
   EXPECT_GE(names.size(), 7u);
 }
 
-// Where a loop begins anew nothing is to be heard of it: the step there is one of its own.
+// The restart of a loop is inaudible: the step there is as small as any other.
 TEST(SynthesizeSound, LoopsHaveNoSeam) {
   for (const BuiltInSound& built_in : BuiltInSounds()) {
     if (!built_in.loops) {
@@ -76,13 +76,13 @@ TEST(SynthesizeSound, LoopsHaveNoSeam) {
     const auto usual = steps.begin() + static_cast<std::ptrdiff_t>(0.999 * steps.size());
     std::nth_element(steps.begin(), usual, steps.end());
     EXPECT_LE(seam, *usual) << built_in.name;
-    // And the level goes on.
+    // The level continues too.
     const std::span all(samples);
     EXPECT_NEAR(RmsDb(all.first(24'000)), RmsDb(all.last(24'000)), 8.0) << built_in.name;
   }
 }
 
-// Bubbles of 0.4 to 6 mm sing from 540 Hz up (Minnaert); most of the sound is there.
+// Bubbles of 0.4 to 6 mm ring from 540 Hz up (Minnaert); most of the sound is there.
 TEST(SynthesizeSound, PouredLiquidSingsWhereItsBubblesDo) {
   const Sound pour = SynthesizeSound("pour");
   double low = 0.0, middle = 0.0;
@@ -95,13 +95,13 @@ TEST(SynthesizeSound, PouredLiquidSingsWhereItsBubblesDo) {
   EXPECT_GT(middle, 20.0 * low);
 }
 
-// A murmur has the formants of voices, and nothing of what distance takes away.
+// Distant speech has the formants of voices, but no high frequencies.
 TEST(SynthesizeSound, AStreetIsAsDullAsItIsFar) {
   const Sound street = SynthesizeSound("street");
   EXPECT_GT(PowerAt(street, 500.0), 100.0 * PowerAt(street, 6000.0));
 }
 
-// What bursts is short and loud beside what burns.
+// Bursts are short and loud compared with the burning.
 TEST(SynthesizeSound, AFireCrackles) {
   const Sound fire = SynthesizeSound("brazier");
   float peak = 0.0f;

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The synthesis as a recording of somebody else's: silence and hiss before it.
+// The synthesis, changed to resemble a recording of another voice, after silence and with hiss.
 Sound Recording(const SpokenText& spoken, double lead, double hiss) {
   Sound sound;
   sound.rate = spoken.rate;

@@ -26,7 +26,7 @@ std::vector<Viseme> Shown(const human::VisemeTrack& track) {
   return visemes;
 }
 
-// Whoever translates holds locks of the C library that the engine's process wants.
+// Translation holds locks of the C library that the process of the engine needs.
 TEST(Synthesis, AnswersWhileTextsAreTranslated) {
   std::jthread translates([](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -113,7 +113,7 @@ TEST(Sound, FlacKeepsSamplesToSixteenBits) {
 TEST(Sound, NormalizedVoicesAreEquallyLoud) {
   Sound quiet;
   quiet.rate = 8000;
-  for (int i = 0; i < 8000; ++i) {  // half of it a pause
+  for (int i = 0; i < 8000; ++i) {  // Half of the sound is a pause.
     quiet.samples.push_back(i < 4000 ? 0.01f * std::sin(0.3f * static_cast<float>(i)) : 0.0f);
   }
   Normalize(quiet);

@@ -18,7 +18,7 @@ using test::MakeProbe;
 
 glm::vec3 Even(const glm::vec3& d) { return {0.4f + 0.2f * d.y, 0.5f + 0.2f * d.y, 0.8f}; }
 
-glm::vec3 Direction(Random& random) {
+glm::vec3 SunDirection(Random& random) {
   return glm::normalize(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
 }
 
@@ -26,7 +26,7 @@ TEST(SunSplit, FindsWhereHowLargeAndHowBrightADiscIs) {
   Random random(11);
   for (const float radius : {0.02f, 0.05f}) {
     for (int i = 0; i < 4; ++i) {
-      const light::Sun sun{Direction(random), {5.0f, 4.0f, 3.0f}, radius};
+      const light::Sun sun{SunDirection(random), {5.0f, 4.0f, 3.0f}, radius};
       const ProbeImage image = MakeProbe(512, DiscOn(Even, sun));
       const SplitProbe split = SplitSun(image);
       ASSERT_TRUE(split.sun) << "seed 11, sun " << i;
@@ -40,12 +40,12 @@ TEST(SunSplit, FindsWhereHowLargeAndHowBrightADiscIs) {
 TEST(SunSplit, SkyAndSunTogetherAreTheWholeImage) {
   Random random(12);
   for (int i = 0; i < 3; ++i) {
-    const light::Sun sun{Direction(random), {9.0f, 8.0f, 6.0f}, 0.02f};
+    const light::Sun sun{SunDirection(random), {9.0f, 8.0f, 6.0f}, 0.02f};
     const ProbeImage image = MakeProbe(512, DiscOn(Even, sun));
     const SplitProbe split = SplitSun(image);
     ASSERT_TRUE(split.sun);
     for (int k = 0; k < 10; ++k) {
-      const glm::vec3 normal = Direction(random);
+      const glm::vec3 normal = SunDirection(random);
       const glm::dvec3 whole = Irradiance(image, normal);
       const glm::dvec3 parts = Irradiance(split.sky, normal) +
                                std::max(0.0, double{glm::dot(normal, split.sun->direction)}) *
@@ -60,13 +60,13 @@ TEST(SunSplit, SkyAndSunTogetherAreTheWholeImage) {
   }
 }
 
-// The lowest radiance that the harmonics show, over the mean.
+// The lowest radiance of the harmonics relative to the mean.
 float Undershoot(const light::ShRgb& light) {
   Random random(1);
   float least = 1.0f;
   const float mean = light[0].g * light::EvaluateShBasis({0, 1, 0})[0];
   for (int i = 0; i < 2000; ++i) {
-    least = std::min(least, light::EvaluateRadiance(light, Direction(random)).g / mean);
+    least = std::min(least, light::EvaluateRadiance(light, SunDirection(random)).g / mean);
   }
   return least;
 }
@@ -80,9 +80,9 @@ TEST(SunSplit, WhatIsLeftDoesNotRing) {
 
 TEST(SunSplit, AnEvenSkyAWideWindowAndAWeakLampAreNoSuns) {
   EXPECT_FALSE(SplitSun(MakeProbe(256, Even)).sun);
-  // 40 degrees wide.
+  // The source is 40 degrees wide.
   EXPECT_FALSE(SplitSun(MakeProbe(256, DiscOn(Even, {{0, 0, -1}, glm::vec3(4.0f), 0.35f}))).sun);
-  // Four hundredths of what falls on a surface facing it.
+  // The source gives 4 % of the irradiance of a surface that faces it.
   const SplitProbe lamp =
       SplitSun(MakeProbe(512, DiscOn(Even, {{0, 0, -1}, glm::vec3(0.06f), 0.02f})));
   EXPECT_FALSE(lamp.sun);

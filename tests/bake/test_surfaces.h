@@ -1,24 +1,22 @@
 #pragma once
 
-// Surfaces and skies of which the light is known in closed form.
+// Surfaces and skies whose light is known in closed form.
 
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "editor/bake/posed_surface.h"
 #include "editor/bake/probe.h"
+#include "shared/core/units.h"
 #include "shared/human/human.h"
 
 namespace lararium::bake {
 
-inline constexpr float kPi = std::numbers::pi_v<float>;
-
-// A triangle whose front is on the side that towards points to.
+// Adds a triangle whose front is on the side of `towards`.
 inline void AddTriangle(
     uint32_t a, uint32_t b, uint32_t c, const glm::vec3& towards, SurfaceMesh& mesh) {
   const auto& p = mesh.positions;
@@ -36,7 +34,7 @@ inline void AddVertex(const glm::vec3& position,
 }
 
 // The part of a sphere up to a polar angle from its lowest point: pi / 2 is a bowl, pi the
-// whole. inside: its front is towards the centre.
+// complete sphere. `inside` turns its front towards the centre.
 inline SurfaceMesh MakeCap(const glm::vec3& centre,
                            float radius,
                            float angle,
@@ -46,7 +44,7 @@ inline SurfaceMesh MakeCap(const glm::vec3& centre,
                            int segments = 48) {
   SurfaceMesh mesh;
   const float side = inside ? -1.0f : 1.0f;
-  const bool closed = angle > 0.999f * kPi;
+  const bool closed = angle > 0.999f * kPiF;
   const auto add = [&](float polar, float azimuth) {
     const glm::vec3 out(std::sin(polar) * std::cos(azimuth), -std::cos(polar),
                         std::sin(polar) * std::sin(azimuth));
@@ -57,14 +55,14 @@ inline SurfaceMesh MakeCap(const glm::vec3& centre,
   for (int ring = 1; ring <= last; ++ring) {
     for (int i = 0; i < segments; ++i) {
       add(angle * static_cast<float>(ring) / static_cast<float>(rings),
-          2.0f * kPi * static_cast<float>(i) / static_cast<float>(segments));
+          2.0f * kPiF * static_cast<float>(i) / static_cast<float>(segments));
     }
   }
   if (closed) {
-    add(kPi, 0.0f);
+    add(kPiF, 0.0f);
   }
   const auto index = [&](int ring, int i) {
-    // The poles are one vertex each.
+    // Each pole is one vertex.
     const int vertex = ring == 0          ? 0
                        : ring == last + 1 ? 1 + last * segments
                                           : 1 + (ring - 1) * segments + i % segments;
@@ -88,10 +86,10 @@ inline SurfaceMesh MakeCap(const glm::vec3& centre,
 }
 
 inline SurfaceMesh MakeSphere(const glm::vec3& centre, float radius, const glm::vec3& albedo) {
-  return MakeCap(centre, radius, kPi, false, albedo);
+  return MakeCap(centre, radius, kPiF, false, albedo);
 }
 
-// Facing normal.
+// A disc whose front is on the side of `normal`.
 inline SurfaceMesh MakeDisc(const glm::vec3& centre,
                             const glm::vec3& normal,
                             float radius,
@@ -103,7 +101,7 @@ inline SurfaceMesh MakeDisc(const glm::vec3& centre,
   const glm::vec3 y = glm::cross(normal, x);
   AddVertex(centre, normal, albedo, mesh);
   for (int i = 0; i < kSegments; ++i) {
-    const float angle = 2.0f * kPi * static_cast<float>(i) / kSegments;
+    const float angle = 2.0f * kPiF * static_cast<float>(i) / kSegments;
     AddVertex(centre + radius * (std::cos(angle) * x + std::sin(angle) * y), normal, albedo, mesh);
   }
   for (uint32_t i = 0; i < kSegments; ++i) {
@@ -112,7 +110,7 @@ inline SurfaceMesh MakeDisc(const glm::vec3& centre,
   return mesh;
 }
 
-// Its corners are split: each side has its own normals.
+// A box with split corners, because each side has its own normals.
 inline SurfaceMesh MakeBox(const glm::vec3& low, const glm::vec3& high, const glm::vec3& albedo) {
   SurfaceMesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
@@ -136,8 +134,8 @@ inline SurfaceMesh MakeBox(const glm::vec3& low, const glm::vec3& high, const gl
   return mesh;
 }
 
-// Joints without a hierarchy among them but for the first, which is the root of all; each
-// at its place, unturned. Each surface follows one of them.
+// A human of rigid surfaces that each follow one joint. The first joint is the root and the
+// parent of all others; joints have no rotation.
 inline human::Human MakeRigidHuman(const std::vector<glm::vec3>& joints,
                                    const std::vector<std::pair<SurfaceMesh, uint8_t>>& surfaces) {
   human::Human human;
@@ -167,15 +165,15 @@ inline human::Human MakeRigidHuman(const std::vector<glm::vec3>& joints,
   return human;
 }
 
-// radiance: of a direction in the probe's axes.
+// `radiance` is a function of a direction in the axes of the probe.
 inline ProbeImage MakeProbe(int width, const std::function<glm::vec3(const glm::vec3&)>& radiance) {
   ProbeImage image;
   image.width = width;
   image.height = width / 2;
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < width; ++column) {
-      const float a = 2.0f * kPi * ((static_cast<float>(column) + 0.5f) / width - 0.5f);
-      const float e = kPi * (0.5f - (static_cast<float>(row) + 0.5f) / image.height);
+      const float a = 2.0f * kPiF * ((static_cast<float>(column) + 0.5f) / width - 0.5f);
+      const float e = kPiF * (0.5f - (static_cast<float>(row) + 0.5f) / image.height);
       image.pixels.push_back(
           radiance({std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)}));
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Things to be lit, made of the surfaces of test_surfaces.h.
+// Objects made of the surfaces of test_surfaces.h.
 
 #include <memory>
 #include <string>

@@ -23,7 +23,7 @@ LightTransfer Bake(const human::Human& human, const TransferOptions& options) {
   return *std::move(transfer);
 }
 
-// T_k of a vertex; all meshes have their vertices in their own order.
+// T_k of a vertex.
 std::vector<float> Vector(
     const LightTransfer& transfer, size_t mesh, size_t pose, size_t vertex, size_t channel = 0) {
   const LightTransfer::Mesh& from = transfer.meshes[mesh];
@@ -37,9 +37,9 @@ std::vector<float> Vector(
   return vector;
 }
 
-// Irradiance over pi, for a sky of radiance 1.
+// Irradiance divided by pi for a sky of radiance 1.
 float UnderUniformSky(const std::vector<float>& vector) {
-  return vector[0] * std::sqrt(4.0f * kPi) / kPi;
+  return vector[0] * std::sqrt(4.0f * kPiF) / kPiF;
 }
 
 float Distance(const std::vector<float>& a, const std::vector<float>& b) {
@@ -61,7 +61,7 @@ std::vector<float> ClampedCosine(const glm::vec3& normal, int count) {
 }
 
 TEST(Transfer, OfWhatNothingShadowsIsTheClampedCosine) {
-  const SurfaceMesh sphere = MakeCap({0, 1, 0}, 0.5f, kPi, false, glm::vec3(0.5f), 12, 16);
+  const SurfaceMesh sphere = MakeCap({0, 1, 0}, 0.5f, kPiF, false, glm::vec3(0.5f), 12, 16);
   const human::Human human = MakeRigidHuman({glm::vec3(0.0f)}, {{sphere, 0}});
   for (const int count : {9, 36}) {
     const LightTransfer transfer =
@@ -71,15 +71,15 @@ TEST(Transfer, OfWhatNothingShadowsIsTheClampedCosine) {
     for (size_t v = 0; v < sphere.positions.size(); ++v) {
       const std::vector<float> expected = ClampedCosine(sphere.normals[v], count);
       for (size_t channel = 0; channel < 3; ++channel) {
-        // The length of the whole is about 1.5.
+        // The norm of the complete vector is about 1.5.
         EXPECT_LT(Distance(Vector(transfer, 0, 0, v, channel), expected), 0.06f) << v;
       }
     }
   }
 }
 
-// A vertex in the middle between two parallel discs loses their form factor, and bounces
-// bring back what the albedo allows.
+// A vertex in the middle between two parallel discs loses their form factor; reflections return
+// a part in proportion to the albedo.
 TEST(Transfer, BetweenTwoDiscsTheFormFactorIsHidden) {
   const float radius = 1.0f;
   const float height = 0.8f;
@@ -90,16 +90,16 @@ TEST(Transfer, BetweenTwoDiscsTheFormFactorIsHidden) {
   const LightTransfer transfer = Bake(human, {.rays = 1024, .bounces = 1});
   EXPECT_NEAR(UnderUniformSky(Vector(transfer, 0, 0, 0)), 1.0f - factor, 0.01f);
   EXPECT_NEAR(UnderUniformSky(Vector(transfer, 1, 0, 0)), 1.0f - factor, 0.01f);
-  // What is left comes from the sides: nothing from straight above, much less than the
-  // clamped cosine has along the normal.
+  // The remaining light comes from the sides: none from straight above, and much less along the
+  // normal than for the clamped cosine.
   const std::vector<float> open = ClampedCosine({0, 1, 0}, transfer.count);
   EXPECT_LT(Vector(transfer, 0, 0, 0)[1], 0.5f * open[1]);
   EXPECT_GT(Vector(transfer, 0, 0, 0)[1], 0.0f);
   EXPECT_LT(Vector(transfer, 1, 0, 0)[1], 0.0f);
 }
 
-// The back of the lower of two parallel sheets sees everything but the form factor of a black
-// disc beneath it; that of a closed surface is not asked for.
+// The back of the lower of two parallel sheets receives everything but the form factor of a
+// black disc beneath it. A closed surface has no transfer for its back.
 TEST(Transfer, TheBackOfASheetLosesTheFormFactorOfWhatIsBehindIt) {
   const float factor = 1.0f / (1.0f + 0.8f * 0.8f);
   const human::Human human = MakeRigidHuman(
@@ -115,10 +115,10 @@ TEST(Transfer, TheBackOfASheetLosesTheFormFactorOfWhatIsBehindIt) {
   EXPECT_TRUE(transfer.meshes[2].backs.empty());
 }
 
-// As in path_tracer_test.cc: a bowl sends half of its light back to itself.
+// As in path_tracer_test.cc: a bowl receives half of its reflected light.
 TEST(Transfer, BouncesInABowlAddUpAsInAnIntegratingSphere) {
   const glm::vec3 albedo(1.0f, 0.5f, 0.0f);
-  const SurfaceMesh bowl = MakeCap({0, 1, 0}, 0.5f, 0.5f * kPi, true, albedo, 10, 20);
+  const SurfaceMesh bowl = MakeCap({0, 1, 0}, 0.5f, 0.5f * kPiF, true, albedo, 10, 20);
   const human::Human human = MakeRigidHuman({glm::vec3(0.0f)}, {{bowl, 0}});
   for (const int bounces : {0, 1, 3}) {
     const LightTransfer transfer = Bake(human, {.rays = 256, .bounces = bounces});
@@ -136,8 +136,8 @@ TEST(Transfer, BouncesInABowlAddUpAsInAnIntegratingSphere) {
   }
 }
 
-// A bell stands over the middle of a disc and keeps all light off it; farther in than three rings a
-// closed place stays dark.
+// A bell over the middle of a disc blocks all light there. Only the three outer rings of a
+// closed pocket are lightened; further inside it stays dark.
 TEST(Transfer, OfAClosedPocketIsThatOfItsRim) {
   const SurfaceMesh disc = MakeDisc({0, 1, 0}, {0, 1, 0}, 1.0f, glm::vec3(0.0f));
   const SurfaceMesh bell = MakeSphere({0, 1, 0}, 0.05f, glm::vec3(0.0f));
@@ -146,15 +146,16 @@ TEST(Transfer, OfAClosedPocketIsThatOfItsRim) {
   EXPECT_NEAR(UnderUniformSky(Vector(opened, 0, 0, 0)), 1.0f, 0.02f) << "the middle";
   EXPECT_NEAR(UnderUniformSky(Vector(opened, 0, 0, 1)), 1.0f, 0.02f) << "the rim";
 
-  // Ring k of the bowl lies at k / 10 of its depth; the lid is a wide sphere about its lower half.
-  const SurfaceMesh bowl = MakeCap({0, 1, 0}, 0.5f, 0.5f * kPi, true, glm::vec3(0.0f), 10, 20);
+  // Ring k of the bowl is at k / 10 of its depth; the lid is a wide sphere about its lower
+  // half.
+  const SurfaceMesh bowl = MakeCap({0, 1, 0}, 0.5f, 0.5f * kPiF, true, glm::vec3(0.0f), 10, 20);
   const SurfaceMesh lid = MakeSphere({0, 0.5f, 0}, 0.4f, glm::vec3(0.0f));
   const human::Human deep = MakeRigidHuman({glm::vec3(0.0f)}, {{bowl, 0}, {lid, 0}});
   const LightTransfer closed = Bake(deep, {.rays = 256, .bounces = 0});
   EXPECT_LT(UnderUniformSky(Vector(closed, 0, 0, 0)), 0.01f) << "its lowest point";
 }
 
-// Two boxes side by side that turn together, far from a third that is the root.
+// Two boxes side by side that rotate together, far from a third one at the root.
 human::Human MakeTurningPair() {
   human::Human human = MakeRigidHuman(
       {glm::vec3(0.0f), glm::vec3(2, 0, 0)},
@@ -165,7 +166,7 @@ human::Human MakeTurningPair() {
   clip.name = "turn";
   clip.duration = 1.0f;
   clip.keys_per_second = 1.0f;
-  for (const float angle : {0.0f, 0.5f * kPi}) {
+  for (const float angle : {0.0f, 0.5f * kPiF}) {
     std::vector<human::JointTransform> pose = human.skeleton.rest;
     pose[1].rotation = glm::angleAxis(angle, glm::vec3(0, 0, 1));
     clip.keys.insert(clip.keys.end(), pose.begin(), pose.end());
@@ -179,7 +180,7 @@ TEST(Transfer, TurnsWithTheBone) {
   const LightTransfer transfer = Bake(human, {.rays = 1024, .key_poses = 2, .blockers = 8});
   ASSERT_EQ(transfer.key_poses.size(), 2u);
   ASSERT_NEAR(std::abs(glm::dot(transfer.key_poses[1][1].rotation,
-                                glm::angleAxis(0.5f * kPi, glm::vec3(0, 0, 1)))),
+                                glm::angleAxis(0.5f * kPiF, glm::vec3(0, 0, 1)))),
               1.0f, 1e-4f);
   float shadowed = 0.0f;
   for (size_t mesh = 1; mesh < 3; ++mesh) {
@@ -193,7 +194,7 @@ TEST(Transfer, TurnsWithTheBone) {
       }
     }
   }
-  // They do shadow one another.
+  // The boxes do shadow each other.
   EXPECT_GT(shadowed, 0.4f);
 }
 
@@ -217,14 +218,14 @@ TEST(Transfer, IsTheSameOnAnyNumberOfCores) {
   }
 }
 
-class Impatient : public Progress {
+class CancelAtOnce : public Progress {
  public:
   void Report(std::string_view, double) override {}
   bool Cancelled() const override { return true; }
 };
 
 TEST(Transfer, EndsWhenCancelled) {
-  Impatient impatient;
+  CancelAtOnce impatient;
   EXPECT_FALSE(BakeTransfer(MakeTurningPair(), {.rays = 16}, impatient).ok());
 }
 

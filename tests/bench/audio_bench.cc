@@ -1,5 +1,4 @@
-// What sound costs: a block of ten milliseconds. Budget: a tenth of it, on a thread of
-// its own.
+// Cost of mixing a block of ten milliseconds. Budget: a tenth of it, on its own thread.
 
 #include <benchmark/benchmark.h>
 
@@ -12,7 +11,7 @@
 namespace lararium::audio {
 namespace {
 
-// So many voices around a listener who walks, a quarter of them streamed from FLAC.
+// A number of voices around a walking listener, a quarter of them streamed from FLAC.
 void BenchMixer(benchmark::State& state) {
   const auto library = test::Library(
       {test::Sound("held", test::Encode(test::Noise(2.0), 1)),
@@ -46,7 +45,7 @@ void BenchMixer(benchmark::State& state) {
 }
 BENCHMARK(BenchMixer)->Args({8, 0})->Args({8, 1})->Args({32, 1})->Unit(benchmark::kMicrosecond);
 
-// All rays of one frame: so many voices, a wall of 20000 triangles.
+// All rays of one frame: a number of voices and a wall of 20000 triangles.
 void BenchObstruction(benchmark::State& state) {
   constexpr int kSide = 100;
   stage::Occluder wall;

@@ -1,5 +1,5 @@
-// Cloth and hair of one person: what the simulation does each frame. Budget for five
-// people with 700 particles each, hair included: 3 ms a frame on one core.
+// Cloth and hair of one person, simulated as in each frame. Budget for five people with 700
+// particles each, hair included: 3 ms a frame on one core.
 
 #include <benchmark/benchmark.h>
 
@@ -16,13 +16,13 @@
 namespace lararium::human {
 namespace {
 
-// Frame by frame to the end and back, without a leap.
+// Index of a frame when playing to the end and back without a jump.
 size_t ThereAndBack(size_t frame, size_t count) {
   const size_t at = frame % (2 * count - 2);
   return at < count ? at : 2 * count - 2 - at;
 }
 
-// 720 particles over 11 capsules, walking; one frame of so many a second.
+// 720 particles over 11 capsules, walking. Argument: frames per second.
 void BenchStepCloth(benchmark::State& bench) {
   const Human human = SkirtedWalker(36, 19);
   const ClothModel model(human);
@@ -50,9 +50,9 @@ BENCHMARK(BenchStepCloth)
     ->ArgsProduct({{25, 60}, {0, 1, 2}})
     ->Unit(benchmark::kMicrosecond);
 
-// The same edges and hinges as a plain loop would have them: one after the other in
-// the mesh's order, hinges by their dihedral angle (Mueller et al., "Position Based
-// Dynamics", 2007); four steps, no body, nothing else.
+// The same edges and hinges as a plain loop: one constraint after another in the mesh's order,
+// hinges by their dihedral angle (Mueller et al., "Position Based Dynamics", 2007); four steps, no
+// body, nothing else.
 void BenchPlainConstraints(benchmark::State& bench) {
   const Human human = SkirtedWalker(36, 19);
   const ClothModel model(human);

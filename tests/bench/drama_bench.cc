@@ -1,5 +1,5 @@
-// What a script costs, going to another time, and long timelines.
-// Budget of the script: 0.5 ms a frame, which is four ticks at 30 frames a second.
+// Costs of a script, of seeking, and of long timelines. Budget of a script: 0.5 ms per frame, which
+// is four ticks at 30 frames a second.
 
 #include <benchmark/benchmark.h>
 
@@ -33,7 +33,8 @@ struct World {
 
 constexpr char kPlaced[] = "for i = 0, 4 do actor('a' .. i):place{ x = i, z = -2 } end\n";
 
-// Five people whose coroutines wake in every tick, ask and tell: far more than a drama does.
+// Five actors whose coroutines wake in every tick and call the API: far more than a real drama
+// does.
 constexpr char kBusy[] = R"(
   for i = 0, 4 do
     local me, other = actor("a" .. i), actor("a" .. (i + 1) % 5)
@@ -48,7 +49,7 @@ constexpr char kBusy[] = R"(
   end
 )";
 
-// One frame of four ticks; the difference is what the script costs.
+// One frame of four ticks; the difference to an empty script is the script's cost.
 void BenchFrame(benchmark::State& state, const std::string& script) {
   World world;
   const auto drama = world.Make(script);
@@ -93,7 +94,7 @@ void BenchQueryTimeline(benchmark::State& state) {
   }
   state.counters["found"] = static_cast<double>(found.size());
 }
-// A drag: one number, and what is drawn then.
+// A drag: changes one number and computes what is drawn then.
 void BenchEditTimeline(benchmark::State& state) {
   TimelineText timeline = *TimelineText::Read(LongTimeline(), "bench.lua");
   std::vector<uint32_t> found;
@@ -119,8 +120,8 @@ void BenchLoadLongDrama(benchmark::State& state) {
   }
 }
 
-// To random times of ten minutes that were played. script: 0: only the timeline; 1: coroutines
-// besides that wake twice a second.
+// Seeks to random times within ten minutes that were played. script: 0: only the timeline; 1: also
+// coroutines that wake twice a second.
 void BenchSeek(benchmark::State& state) {
   World world;
   const auto drama =

@@ -1,14 +1,13 @@
-// What a frame of the editor's interface costs, with a large map and a long timeline: all
-// processor time of the process, the software renderer's threads included, without the
-// composite picture (there is no recording). What other threads do once after the start, such as
-// making the library's sounds, is waited for: it would count as the frames'. Prints JSON: median
-// and 95 % of frames in which the pointer wanders over the timeline; of frames in which the
-// timeline scrolls under it; in which the view around the place turns; and of frames that are
-// painted whole.
+// Cost of a frame of the editor's interface, with a large map and a long timeline: all CPU time of
+// the process, including the software renderer's threads, without the composite (there is no
+// recording). Work that other threads do once after the start, such as synthesising the library's
+// sounds, is awaited first: it would count as the frames' cost. Prints JSON with median and 95th
+// percentile for frames in which the pointer moves over the timeline; in which the timeline scrolls
+// below it; in which the scene view turns; and that are painted completely.
 //
 //   lararium_editor_bench ITEMS FRAMES [SCENE.larscene [POINTS]]
 //
-// POINTS: the map's points are repeated, a little beside themselves, until there are so many.
+// POINTS: the map's points are repeated with small offsets up to this number.
 
 #include <epoxy/gl.h>
 // epoxy first: ImGui's back end must not bring its own OpenGL headers.
@@ -24,13 +23,13 @@
 #include <thread>
 #include <vector>
 
-#include "editor/app/frame_painter.h"
-#include "editor/app/layout.h"
-#include "editor/app/workspace.h"
-#include "editor/panels/theme.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/session/workspace.h"
+#include "editor/window/frame_painter.h"
+#include "editor/window/layout.h"
 #include "shared/core/file.h"
-#include "shared/render/graphics_context.h"
-#include "shared/render/render_target.h"
+#include "shared/render/gl/graphics_context.h"
+#include "shared/render/gl/render_target.h"
 #include "shared/vision/scene_database.h"
 #include "tests/support/test_files.h"
 
@@ -53,8 +52,8 @@ double ThreadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Until nothing but frames takes processor time.
-void AwaitQuiet(app::Workspace& workspace) {
+// Waits until only frames take CPU time.
+void AwaitQuiet(editor::Workspace& workspace) {
   constexpr double kQuietShare = 0.02;
   constexpr auto kSpell = std::chrono::milliseconds(250);
   constexpr int kMostSpells = 240;
@@ -69,7 +68,8 @@ void AwaitQuiet(app::Workspace& workspace) {
   std::fprintf(stderr, "Something works in the background all the while; it counts as well.\n");
 }
 
-// Ten lanes of speech, gazes, expressions and markers, spread over the items' seconds.
+// Twenty lanes of speech, gazes, expressions and gestures with `items` items, one every quarter of
+// a second.
 std::string LongScript(int items) {
   const char* const kLanes[] = {"speech", "gaze", "expressions", "gestures"};
   const char* const kFields[] = {"line = 'salve'", "target = 'visitor'", "expression = 'joy'",
@@ -94,7 +94,7 @@ double Quantile(std::vector<double> values, double share) {
   return 1e3 * *at;
 }
 
-// With points that cost drawing, but match nothing.
+// Copies a map and adds points that cost drawing time but do not match anything.
 void CopyScene(const std::filesystem::path& from, const std::filesystem::path& to, size_t points) {
   auto scene = vision::LoadSceneDatabase(from);
   CHECK(scene.ok());
@@ -115,7 +115,7 @@ void CopyScene(const std::filesystem::path& from, const std::filesystem::path& t
 
 enum class Scenario { kPointer, kScroll, kOrbit, kWhole };
 
-void Act(Scenario scenario, int frame, app::FramePainter& painter) {
+void Act(Scenario scenario, int frame, editor::FramePainter& painter) {
   ImGuiIO& io = ImGui::GetIO();
   io.DeltaTime = 1.0f / 60.0f;
   io.MouseDown[0] = scenario == Scenario::kOrbit;
@@ -141,20 +141,20 @@ int main(int argc, char** argv) {
   const int items = std::atoi(argv[1]);
   const int frames = std::atoi(argv[2]);
   const test::TemporaryFolder folder;
-  const app::ProjectPaths paths{folder / "bench.lararium"};
-  CHECK(app::CreateProject(paths, "bench").ok());
+  const editor::ProjectPaths paths{folder / "bench.lararium"};
+  CHECK(editor::CreateProject(paths, "bench").ok());
   CHECK(WriteFileAtomically(paths.Drama(), LongScript(items)).ok());
   if (argc > 3) {
-    app::ProjectDocument document;
+    editor::ProjectDocument document;
     document.title = "bench";
     document.places.emplace_back().name = "site";
-    CHECK(app::SaveProject(paths, document).ok());
+    CHECK(editor::SaveProject(paths, document).ok());
     std::filesystem::create_directories(paths.Place("site"));
     CopyScene(argv[3], paths.Scene("site"), argc > 4 ? static_cast<size_t>(std::atoi(argv[4])) : 0);
   }
   const std::shared_ptr<Log> log = MakeSilentLog();
   const auto opening = std::chrono::steady_clock::now();
-  const auto workspace = app::Workspace::Open(paths, *log);
+  const auto workspace = editor::Workspace::Open(paths, *log);
   CHECK(workspace.ok());
   const double open_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - opening).count();
@@ -165,21 +165,21 @@ int main(int argc, char** argv) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().DisplaySize = ImVec2(1440, 900);
-  app::Settings settings;
-  app::PanelSizes sizes;
-  panels::ApplyTheme(app::Theme::kDark, 1.0f);
+  editor::Settings settings;
+  editor::PanelSizes sizes;
+  panels::ApplyTheme(editor::Theme::kDark, 1.0f);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  const auto layout = app::Layout::Create();
+  const auto layout = editor::Layout::Create();
   CHECK(layout.ok());
   size_t points = 0;
-  for (int i = 0; i < 3000 && argc > 3 && points == 0; ++i) {  // until the map is there
+  for (int i = 0; i < 3000 && argc > 3 && points == 0; ++i) {  // Wait until the map is loaded.
     (*workspace)->Update(0.01);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if ((*workspace)->loaded().database != nullptr) {
       points = (*workspace)->loaded().database->points.size();
     }
   }
-  app::FramePainter painter;
+  editor::FramePainter painter;
   const auto run = [&](Scenario scenario, int count, std::vector<double>* interface_s) {
     std::vector<double> process_s;
     for (int i = 0; i < count; ++i) {
@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
       ImGui::Render();
       const double laid_out = ThreadSeconds();
       if (painter.Paint(*ImGui::GetDrawData(), glm::vec3(0.0f))) {
-        painter.CopyInto(target->framebuffer());  // as into the window
+        painter.CopyInto(target->framebuffer());  // The window does the same.
       }
       glFinish();
       if (interface_s != nullptr) {
@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
     return process_s;
   };
   run(Scenario::kPointer, 3, nullptr);
-  (*layout)->AddKey({'2', 0, false});  // around the place
+  (*layout)->AddKey({'2', 0, false});  // The scene view.
   run(Scenario::kPointer, 17, nullptr);
   AwaitQuiet(**workspace);
   std::vector<double> interface_s;

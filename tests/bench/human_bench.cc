@@ -1,5 +1,5 @@
-// Posing one person: what the simulation does each frame. The GPU skins; SkinMesh
-// is its oracle and serves baking.
+// Poses one person as the simulation does in each frame. The GPU skins; SkinMesh is its reference
+// and is used for baking.
 
 #include <benchmark/benchmark.h>
 
@@ -14,7 +14,7 @@
 namespace lararium::human {
 namespace {
 
-// A chain of joints with clips of random rotations and a part around it.
+// A chain of joints with clips of random rotations, and a mesh around it.
 Human MakeChain(size_t joints, size_t vertices) {
   Random random(1);
   Human human;

@@ -1,5 +1,5 @@
-// Light at run time. Budgets, on one core: shadows of 60 balls on 1280 receivers (five
-// people) well under 1.5 ms with 16 coefficients; 125 000 vertices lit in 3 ms.
+// Lighting at run time. Budgets on one core: shadows of 60 spheres on 1280 receivers (five people)
+// well below 1.5 ms with 16 coefficients; 125 000 vertices lit in 3 ms.
 
 #include <benchmark/benchmark.h>
 
@@ -20,10 +20,10 @@ namespace {
 
 constexpr size_t kReceivers = 1280;
 
-// Five people on a floor of six by six metres: twelve balls each, receivers near them.
+// Five people on a floor of six by six metres: twelve spheres each, with receivers near them.
 struct Crowd {
-  std::vector<float> x, y, z, radius;  // balls
-  std::vector<float> px, py, pz;       // receivers
+  std::vector<float> x, y, z, radius;  // Spheres.
+  std::vector<float> px, py, pz;       // Receivers.
 
   Crowd() {
     Random random(51);
@@ -59,7 +59,7 @@ ShRowsRgb RgbRows(int count) {
   return {ShRows(count, kReceivers), ShRows(count, kReceivers), ShRows(count, kReceivers)};
 }
 
-// A brazier amid the crowd, whose light the balls hide in part.
+// A brazier among the crowd, partly hidden by the spheres.
 void BenchLamp(benchmark::State& bench) {
   const Crowd crowd;
   const auto count = static_cast<int>(bench.range(0));
@@ -112,7 +112,7 @@ void BenchExponential(benchmark::State& bench) {
 }
 BENCHMARK(BenchExponential)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
-// Logs, exponential, product with the light.
+// Log visibility, exponential, and product with the light.
 void BenchShadowedReceivers(benchmark::State& bench) {
   const Crowd crowd;
   const int count = static_cast<int>(bench.range(0));
@@ -128,7 +128,7 @@ void BenchShadowedReceivers(benchmark::State& bench) {
 }
 BENCHMARK(BenchShadowedReceivers)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
-// Light into the frames of as many receivers.
+// Rotates light into the frames of a number of receivers.
 void BenchTurnReceivers(benchmark::State& bench) {
   const auto count = static_cast<int>(bench.range(0));
   const glm::quat turn = glm::normalize(glm::quat(0.3f, 0.5f, -0.2f, 0.7f));
@@ -152,7 +152,7 @@ void BenchLightMatrix(benchmark::State& bench) {
 }
 BENCHMARK(BenchLightMatrix)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
-// Five people of 25 000 vertices, five key poses of which two count.
+// Five people of 25 000 vertices, with five key poses of which two have weights.
 void BenchLightVertices(benchmark::State& bench) {
   constexpr size_t kVertices = 125000, kPoses = 5;
   const int count = static_cast<int>(bench.range(0));

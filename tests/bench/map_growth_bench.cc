@@ -1,8 +1,7 @@
-// lararium_map_growth MAP.larscene VIDEO [STEP]: what the first pose from one
-// frame costs, and how many frames get one, in the map cut to 10 000 points and
-// grown from there to 100 000 and 1 000 000. The growth is a house of many rooms:
-// copies of the points beside each other, with descriptors that are perturbed
-// mixtures of real ones. One thread; processor time.
+// lararium_map_growth MAP.larscene VIDEO [STEP]: measures the cost of the first pose from one
+// frame, and how many frames get one, in the map reduced to 10 000 points and grown from there to
+// 100 000 and 1 000 000. The grown map is a house of many rooms: copies of the points beside each
+// other, with descriptors that are perturbed mixtures of real ones. One thread; CPU time.
 
 #include <algorithm>
 #include <cstdio>
@@ -18,8 +17,8 @@
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
 #include "shared/core/statistics.h"
+#include "shared/vision/feature_scale_controller.h"
 #include "shared/vision/features.h"
-#include "shared/vision/level_of_detail.h"
 #include "shared/vision/localizer.h"
 #include "shared/vision/scene_database.h"
 
@@ -27,7 +26,7 @@ namespace lararium::vision {
 namespace {
 
 constexpr size_t kSizes[] = {10'000, 100'000, 1'000'000};
-constexpr double kDescriptorNoise = 10.0;  // standard deviation of a component
+constexpr double kDescriptorNoise = 10.0;  // Standard deviation of a component.
 constexpr int kFeatureBudget = 1000;
 
 void AddPoint(const SceneDatabase& from, uint32_t point, SceneDatabase& to) {
@@ -42,7 +41,7 @@ void AddDescriptor(const Descriptor& descriptor, SceneDatabase& to) {
   to.descriptor_point.push_back(static_cast<uint32_t>(to.points.size() - 1));
 }
 
-// The points that training saw most often.
+// The points with the most observations.
 SceneDatabase Reduced(const SceneDatabase& map, size_t count) {
   std::vector<uint32_t> order(map.points.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -88,15 +87,15 @@ Descriptor Mixture(const Descriptor& a, const Descriptor& b, Random& random) {
   return mixture;
 }
 
-// Rooms on a square grid, each as large as the map's and with its keyframes.
+// Places rooms on a square grid, each as large as the map's room and with its keyframes.
 SceneDatabase Grown(const SceneDatabase& map, size_t count) {
   SceneDatabase grown = map;
   const size_t own = map.points.size();
-  std::vector<const Observation*> sight(own, nullptr);
+  std::vector<const Observation*> observation(own, nullptr);
   for (const Observation& o : map.observations) {
-    sight[o.point] = &o;
+    observation[o.point] = &o;
   }
-  // Without the few points far away.
+  // Ignore the few points that are far away.
   std::vector<float> extents;
   const Eigen::Vector3f centre = map.points[0];
   for (const Eigen::Vector3f& point : map.points) {
@@ -126,8 +125,8 @@ SceneDatabase Grown(const SceneDatabase& map, size_t count) {
       for (uint32_t d = map.descriptor_begin[point]; d < map.descriptor_begin[point + 1]; ++d) {
         AddDescriptor(Mixture(any(), any(), random), grown);
       }
-      if (sight[point] != nullptr) {
-        Observation o = *sight[point];
+      if (observation[point] != nullptr) {
+        Observation o = *observation[point];
         o.point = static_cast<uint32_t>(grown.points.size() - 1);
         o.keyframe += first_keyframe;
         grown.observations.push_back(o);
@@ -139,10 +138,10 @@ SceneDatabase Grown(const SceneDatabase& map, size_t count) {
 }
 
 struct Cost {
-  double build_ms = 0.0;   // of the forest
-  double first_ms = 0.0;   // features and location, median
-  double locate_ms = 0.0;  // location alone, median
-  double tracked = 0.0;    // share of the frames
+  double build_ms = 0.0;   // Building the forest.
+  double first_ms = 0.0;   // Median of features and location.
+  double locate_ms = 0.0;  // Median of location alone.
+  double tracked = 0.0;    // Share of the frames with a pose.
 };
 
 Cost Measure(SceneDatabase& map, const std::vector<cv::Mat>& frames) {

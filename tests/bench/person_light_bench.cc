@@ -1,5 +1,5 @@
-// The light on five people in one frame: blockers, receivers, vertices. Budget: 3 ms of one
-// core, at the levels of detail that the demo draws.
+// Lighting of five people in one frame: blockers, receivers, vertices. Budget: 3 ms of one core, at
+// the demo's levels of detail.
 
 #include <benchmark/benchmark.h>
 
@@ -20,16 +20,17 @@ namespace {
 constexpr size_t kPeople = 5;
 constexpr size_t kVertices = 40'000;
 constexpr size_t kPoses = 7;
-constexpr size_t kReceivers = 240;
+constexpr size_t kPersonReceivers = 240;
 constexpr size_t kBlockers = 56;
-constexpr float kCoarse = 0.01f;  // allows the coarse level
+constexpr float kCoarse = 0.01f;  // Allows the coarse level.
 
 glm::vec3 Near(const glm::vec3& point, Random& random) {
   const auto offset = [&] { return static_cast<float>(random.Uniform(-0.12, 0.12)); };
   return point + glm::vec3(offset(), offset(), offset());
 }
 
-// As the baker makes them in number and form; what the transfer holds is chance.
+// A human with as much light data as the baker produces, in the same form; transfer values are
+// random.
 human::Human LitHuman(int divisor) {
   Random random(54);
   human::Human human = human::FullBody(0.3f, 0);
@@ -56,14 +57,14 @@ human::Human LitHuman(int divisor) {
     const auto joint = static_cast<uint32_t>(i % joints.size());
     light.blockers.push_back({joint, Near(joints[joint], random), 0.07f});
   }
-  for (size_t i = 0; i < kReceivers; ++i) {
-    const auto joint = static_cast<uint32_t>(i * joints.size() / kReceivers);
+  for (size_t i = 0; i < kPersonReceivers; ++i) {
+    const auto joint = static_cast<uint32_t>(i * joints.size() / kPersonReceivers);
     light.receivers.push_back({joint, Near(joints[joint], random)});
   }
   light.meshes.resize(1);
   human::LightTransfer::Mesh& lit = light.meshes[0];
   for (size_t v = 0; v < kVertices; ++v) {
-    const size_t near = v * (kReceivers - 16) / kVertices;
+    const size_t near = v * (kPersonReceivers - 16) / kVertices;
     auto& receivers = lit.receivers.emplace_back();
     for (uint16_t& receiver : receivers) {
       receiver = static_cast<uint16_t>(near + random.Below(16));
@@ -78,7 +79,7 @@ human::Human LitHuman(int divisor) {
   return human;
 }
 
-// A turn of everything about somewhere near by, as of a limb in so many frames.
+// Rotates each joint's matrix, as when limbs move over several frames.
 std::vector<glm::mat4> Moved(const std::vector<glm::mat4>& skin, float radians) {
   std::vector<glm::mat4> moved;
   for (size_t joint = 0; joint < skin.size(); ++joint) {
@@ -88,8 +89,8 @@ std::vector<glm::mat4> Moved(const std::vector<glm::mat4>& skin, float radians) 
   return moved;
 }
 
-// Arguments: of how many vertices one is drawn; milliradians by which limbs and body turn from
-// one frame to the next (20: walking, 1: somebody who stands).
+// Arguments: one of how many vertices is drawn; rotation of limbs and body per frame in
+// milliradians (20: walking, 1: standing).
 void BenchStageLight(benchmark::State& bench) {
   const auto human =
       std::make_shared<const human::Human>(LitHuman(static_cast<int>(bench.range(0))));
@@ -97,7 +98,7 @@ void BenchStageLight(benchmark::State& bench) {
   StageLight stage_light(cast);
   const std::vector<glm::mat4> pose =
       human::SkinOfPose(human->skeleton, human->light.key_poses.back());
-  // To and fro over sixteen frames.
+  // Moves to and fro over sixteen frames.
   const float step = 0.001f * static_cast<float>(bench.range(1));
   std::vector<std::vector<glm::mat4>> skins;
   for (int i = 0; i < 16; ++i) {

@@ -1,7 +1,7 @@
-// What drawing a show costs at each quality, and how far its pictures are from the best:
+// The cost of drawing a show at each quality, and the difference of its pictures from the best:
 //   lararium_quality_bench SHOW.larshow VIDEO [FIRST_FRAME [FRAMES [WIDTH HEIGHT [FOLDER]]]]
-// Processor time of all threads, so that it says what software drawing takes; a folder
-// gets the last picture of each.
+// Measures CPU time of all threads, which includes software rendering. FOLDER receives the last
+// picture of each quality.
 
 #include <epoxy/gl.h>
 
@@ -21,7 +21,7 @@
 #include "shared/bundle/bundle.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/log.h"
-#include "shared/render/graphics_context.h"
+#include "shared/render/gl/graphics_context.h"
 #include "shared/render/quality.h"
 #include "shared/show/show_renderer.h"
 #include "shared/vision/tracker.h"
@@ -34,7 +34,7 @@ struct Setting {
   render::Quality quality;
 };
 
-// One thing less at a time, then the steps of the ladder.
+// Settings with one feature less each, then the quality levels.
 std::vector<Setting> Settings() {
   std::vector<Setting> settings = {
       {"full", {}},
@@ -83,7 +83,7 @@ class Bench {
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   std::vector<vision::TrackedFrame> tracked_;
-  std::vector<cv::Mat> best_;  // of each frame, at full quality
+  std::vector<cv::Mat> best_;  // Each frame at full quality.
 };
 
 Status Bench::Prepare(const Arguments& arguments) {
@@ -121,7 +121,7 @@ Status Bench::Measure(const Setting& setting, const std::filesystem::path& folde
   show::StagedFrame staged;
   cv::Mat picture;
   double staging = 0.0, drawing = 0.0, error = 0.0, worst = 0.0;
-  // The first picks levels of detail, compiles and seeks.
+  // The first pass chooses levels of detail, compiles shaders and seeks.
   for (size_t i = 0; i < tracked_.size(); ++i) {
     const double before = ProcessorMilliseconds();
     show_->StageFrame(tracked_[i], tracked_[i].frame.capture_time, staged);

@@ -1,5 +1,5 @@
-// Drawing a composited picture, off screen. Budget: 16 ms at 1280x720 on a GPU;
-// in software (Mesa's llvmpipe) it is what the machine gives.
+// Draws a composite off screen. Budget: 16 ms at 1280x720 on a GPU; with software rendering (Mesa's
+// llvmpipe) there is no budget.
 
 #include <benchmark/benchmark.h>
 #include <epoxy/gl.h>
@@ -8,7 +8,7 @@
 
 #include "shared/core/random.h"
 #include "shared/render/clip_space.h"
-#include "shared/render/graphics_context.h"
+#include "shared/render/gl/graphics_context.h"
 #include "shared/render/overlay.h"
 #include "shared/render/renderer.h"
 #include "tests/render/test_people.h"
@@ -25,8 +25,8 @@ geometry::CameraModel Pinhole(int width, int height) {
           .cy = 0.5 * (height - 1)};
 }
 
-// A background through a lens, one occluder, one person of 8000 vertices and 64
-// joints that fills a fifth of the height. Arguments: width, height, samples.
+// A background with lens distortion, one occluder, one person of 8000 vertices and 64 joints that
+// fills a fifth of the height. Arguments: width, height, samples.
 void BenchRendererDraw(benchmark::State& state) {
   const int width = static_cast<int>(state.range(0));
   const int height = static_cast<int>(state.range(1));

@@ -1,6 +1,6 @@
-// Skinning on the processor: our job against a plain loop over Eigen's types, the
-// same vertices, influences and matrices. per_vertex is what a vertex costs;
-// BenchDualQuaternions says what a joint costs.
+// Skinning on the CPU: our job against a plain loop over Eigen's types, with the same vertices,
+// influences and matrices. per_vertex is the cost of a vertex; BenchDualQuaternions measures the
+// cost of a joint.
 
 #include <benchmark/benchmark.h>
 
@@ -17,10 +17,10 @@
 namespace lararium::human {
 namespace {
 
-constexpr size_t kJoints = 72;  // as people of the cast have
+constexpr size_t kJoints = 72;  // People of the cast have as many.
 
-// Vertices in the order of a body: neighbours share joints, and a third each follow
-// one, two and four of them.
+// Vertices in the order of a body: neighbours share joints; a third each follow one, two and four
+// joints.
 struct Body {
   explicit Body(size_t count) {
     Random random(1);
@@ -76,7 +76,7 @@ void BenchSkinningDualQuaternion(benchmark::State& state) {
 BENCHMARK(BenchSkinningLinear)->Arg(15'000);
 BENCHMARK(BenchSkinningDualQuaternion)->Arg(15'000);
 
-// What one would write first: the weighted matrices, then point and normal.
+// The straightforward implementation: blends the matrices, then transforms point and normal.
 void BenchSkinningPlainEigen(benchmark::State& state) {
   Body body(static_cast<size_t>(state.range(0)));
   std::vector<Eigen::Matrix4f> skin;
@@ -106,7 +106,7 @@ void BenchSkinningPlainEigen(benchmark::State& state) {
 }
 BENCHMARK(BenchSkinningPlainEigen)->Arg(15'000);
 
-// Of all joints of one person.
+// Converts all joints of one person.
 void BenchDualQuaternions(benchmark::State& state) {
   const Body body(100);
   std::vector<DualQuaternion> packed(kJoints);

@@ -1,4 +1,4 @@
-// A tick of the stage, and building its floor.
+// Costs of a tick of the stage and of building its floor.
 
 #include <benchmark/benchmark.h>
 
@@ -13,7 +13,7 @@
 namespace lararium::stage {
 namespace {
 
-// Five people and twenty objects; everybody always has something to do.
+// Five people and twenty objects; each person always has a task.
 class BusyStage {
  public:
   BusyStage() {
@@ -68,7 +68,7 @@ class BusyStage {
   std::vector<TaskId> tasks_;
 };
 
-// Five ticks, as of one frame at 25 Hz; the stage's part is to stay far below 1 ms.
+// Five ticks, as in one frame at 25 Hz; the stage's share must stay far below 1 ms.
 void BenchStageFrame(benchmark::State& state) {
   BusyStage stage;
   for (int tick = 0; tick < 1200; ++tick) {

@@ -1,5 +1,5 @@
-// The light on twenty things of a street kitchen with five people among them. Budget: 0.1 ms
-// of one core while nothing near has moved, 1 ms a frame where people walk.
+// Lighting of twenty objects of a street kitchen with five people among them. Budget: 0.1 ms of one
+// core while nothing near has moved, 1 ms a frame while people walk.
 
 #include <benchmark/benchmark.h>
 
@@ -17,11 +17,11 @@ namespace lararium::show {
 namespace {
 
 constexpr size_t kThings = 20;
-constexpr size_t kPeople = 5;
-constexpr size_t kVertices = 1500;
-constexpr uint16_t kReceivers = 32;
+constexpr size_t kThingPeople = 5;
+constexpr size_t kThingVertices = 1500;
+constexpr uint16_t kThingReceivers = 32;
 
-// A jar, as far as light is concerned.
+// A jar with the data that lighting needs.
 stage::Prop MakeJar(Random& random) {
   stage::Prop prop;
   stage::PropPart& part = prop.parts.emplace_back();
@@ -35,14 +35,14 @@ stage::Prop MakeJar(Random& random) {
     return glm::normalize(
         glm::vec3(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)));
   };
-  for (uint16_t i = 0; i < kReceivers; ++i) {
+  for (uint16_t i = 0; i < kThingReceivers; ++i) {
     light.receivers.push_back({0, 0.22f * direction()});
   }
   human::LightTransfer::Mesh& lit = light.meshes.emplace_back();
-  for (size_t v = 0; v < kVertices; ++v) {
+  for (size_t v = 0; v < kThingVertices; ++v) {
     mesh.positions.push_back(0.2f * direction());
     mesh.indices.push_back(static_cast<uint32_t>(v));
-    const auto first = static_cast<uint16_t>(random.Below(kReceivers - 3));
+    const auto first = static_cast<uint16_t>(random.Below(kThingReceivers - 3));
     lit.receivers.push_back({first, static_cast<uint16_t>(first + 1),
                              static_cast<uint16_t>(first + 2), static_cast<uint16_t>(first + 3)});
     lit.weights.push_back({120, 70, 40, 25});
@@ -54,7 +54,7 @@ stage::Prop MakeJar(Random& random) {
   return prop;
 }
 
-// Somebody who only shades.
+// A person who only casts shadows.
 std::shared_ptr<const human::Human> MakeShade(Random& random) {
   auto human = std::make_shared<human::Human>();
   human->skeleton.names = {"root"};
@@ -83,10 +83,10 @@ struct Kitchen {
   Kitchen() {
     Random random(1);
     sky[0] = glm::vec3(3.0f);
-    for (size_t i = 0; i < kThings + kPeople; ++i) {
+    for (size_t i = 0; i < kThings + kThingPeople; ++i) {
       const bool is_thing = i < kThings;
       cast.push_back(is_thing ? FigureOf(MakeJar(random)) : MakeShade(random));
-      irradiance.emplace_back(is_thing ? kVertices : 0);
+      irradiance.emplace_back(is_thing ? kThingVertices : 0);
       memories.emplace_back(0.25f);
       places.push_back(glm::translate(
           glm::mat4(1.0f), glm::vec3(random.Uniform(-3, 3), is_thing ? random.Uniform(0, 1) : 0.0,

@@ -1,5 +1,5 @@
-// Budgets on one core of a PC: features 40 ms at first octave 0, search 10 ms for
-// a thousand queries, preemptive RANSAC 3 ms. OpenCV's SIFT is the yardstick.
+// Budgets on one core of a PC: features 40 ms at first octave 0, search 10 ms for a thousand
+// queries, preemptive RANSAC 3 ms. OpenCV's SIFT is the reference.
 
 #include <benchmark/benchmark.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kFeatures = 1000;
 
-// 640 x 480, as rich as a photograph of a decorated wall.
+// A 640 x 480 picture, as rich as a photograph of a decorated wall.
 cv::Mat Picture() {
   Random random(1);
   cv::Mat picture(480, 640, CV_8UC1, cv::Scalar(128));
@@ -36,7 +36,7 @@ cv::Mat Picture() {
   return picture;
 }
 
-// First octave; at most kFeatures features.
+// Argument: first octave. At most kFeatures features.
 void BenchExtractFeatures(benchmark::State& state) {
   const ThreadLimit limit(1);
   const cv::Mat picture = Picture();
@@ -65,7 +65,7 @@ void BenchOpenCvSift(benchmark::State& state) {
 }
 BENCHMARK(BenchOpenCvSift)->Unit(benchmark::kMillisecond);
 
-// Checks for each of kFeatures queries among 100 000 descriptors.
+// Argument: checks for each of kFeatures queries among 100 000 descriptors.
 void BenchForestSearch(benchmark::State& state) {
   Random random(2);
   std::vector<Descriptor> descriptors(100'000);
@@ -84,7 +84,7 @@ void BenchForestSearch(benchmark::State& state) {
 }
 BENCHMARK(BenchForestSearch)->Arg(32)->Arg(64)->Arg(128)->Unit(benchmark::kMillisecond);
 
-// Matches, six of ten wrong: the time must hardly grow with their number.
+// Argument: number of matches, six of ten wrong. The time must hardly grow with it.
 void BenchPreemptiveRansac(benchmark::State& state) {
   using Pose = Eigen::Matrix<double, 3, 4>;
   const auto world =
@@ -121,7 +121,7 @@ void BenchPreemptiveRansac(benchmark::State& state) {
 }
 BENCHMARK(BenchPreemptiveRansac)->Arg(300)->Arg(3000)->Unit(benchmark::kMillisecond);
 
-// All of a frame but its features.
+// Locates a frame whose features are given.
 void BenchLocate(benchmark::State& state) {
   const ThreadLimit limit(1);
   const auto world = test::MakeSyntheticWorld({.points = static_cast<int>(state.range(0))});

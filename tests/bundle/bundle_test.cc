@@ -54,9 +54,9 @@ class BundleTest : public ::testing::Test {
     return entries;
   }
 
-  // What opening a file of this content says; "" when it opens.
+  // Returns the error of opening a file with this content; "" if it opens.
   std::string Open(std::string_view content) {
-    std::filesystem::remove(path_);  // file systems flush what replaces a file at once
+    std::filesystem::remove(path_);  // Replacing a file would force a flush.
     std::ofstream(path_, std::ios::binary) << content;
     const auto opened = Bundle::Open(path_);
     if (!opened.ok()) {

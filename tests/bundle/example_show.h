@@ -4,7 +4,8 @@
 
 namespace lararium::test {
 
-// A small show with everything in it; its members are named, not listed.
+// A small show with everything in it. Entries refer to its members, but the list of members is
+// empty.
 inline bundle::ShowManifest ExampleManifest() {
   bundle::ShowManifest manifest;
   manifest.title = "The thermopolium";

@@ -51,7 +51,7 @@ TEST(ShowManifest, RoundTrips) {
   EXPECT_EQ(parsed->members[3].size, 4u);
 }
 
-// As schema 1 had it: one light, in the place itself.
+// A manifest of schema 1: one light, in the place itself.
 Json OfSchemaOne() {
   Json json = Json::parse(FormatShowManifest(Listed()));
   json["schema"] = 1;
@@ -120,7 +120,7 @@ TEST(ShowManifest, OldLightOfNineCoefficientsKeepsThemAndHasNoMore) {
 TEST(ShowManifest, ANewerSchemaAsksForANewerPlayer) {
   Json json = Json::parse(FormatShowManifest(Listed()));
   json["schema"] = ShowManifest::kSchema + 1;
-  EXPECT_THAT(Parse(json).message(), HasSubstr("it needs a newer player"));
+  EXPECT_THAT(Parse(json).message(), HasSubstr("update the player"));
 }
 
 TEST(ShowManifest, RefusesEveryMissingField) {

@@ -15,15 +15,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::span<const std::byte> Bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
+std::span<const std::byte> TextBytes(std::string_view text) {
+  return std::as_bytes(std::span(text));
+}
 
 class SignatureTest : public ::testing::Test {
  protected:
   std::vector<MemberContent> Members() const {
-    return {{"drama.lua", Bytes("function main() end\n")},
-            {"places/0/scene.larscene", Bytes("scene")},
-            {"places/0/occluder0.larmesh", Bytes("mesh")},
-            {"cast/0.larhuman", Bytes("x")}};
+    return {{"drama.lua", TextBytes("function main() end\n")},
+            {"places/0/scene.larscene", TextBytes("scene")},
+            {"places/0/occluder0.larmesh", TextBytes("mesh")},
+            {"cast/0.larhuman", TextBytes("x")}};
   }
   std::string Write(const SecretKey* key) {
     EXPECT_TRUE(WriteBundle(path_, test::ExampleManifest(), Members(), key).ok());
@@ -73,7 +75,7 @@ TEST_F(SignatureTest, TheSignatureOfAnotherShowDoesNotServe) {
   manifest.title = "Another show";
   ASSERT_TRUE(WriteBundle(path_, manifest, Members(), &stranger_).ok());
   std::string other = *ReadText(path_);
-  // The old signature, and the CRC-32 that the archive has for it, in the place of the new one.
+  // Replaces the new signature by the old one, with the CRC-32 that the archive has for it.
   const auto signature_of = [](const std::string& file) {
     const size_t name = file.find("manifest.sig");
     size_t data = name + 12;
@@ -101,7 +103,7 @@ TEST_F(SignatureTest, KeysComeBackFromTheirFiles) {
   EXPECT_EQ(std::filesystem::status(secret).permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   EXPECT_THAT(SaveSecretKey(secret, stranger_).message(), HasSubstr("never replaced"));
-  EXPECT_THAT(LoadPublicKey(secret).message(), HasSubstr("is no public key"));
+  EXPECT_THAT(LoadPublicKey(secret).message(), HasSubstr("is not a public key"));
   EXPECT_THAT(LoadSecretKey(open).message(), HasSubstr("is no secret key"));
 }
 

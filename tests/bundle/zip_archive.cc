@@ -13,7 +13,7 @@ void Append(std::string& out, uint32_t value, int bytes) {
   }
 }
 
-// From "version needed" to the lengths of name and extra field.
+// Writes the fields from "version needed" to the lengths of name and extra field.
 void AppendCommon(std::string& out, const ZipEntry& entry, uint32_t size, uint32_t extra_size) {
   const auto crc = crc32(0, reinterpret_cast<const Bytef*>(entry.data.data()),
                          static_cast<uInt>(entry.data.size()));

@@ -1,6 +1,6 @@
 #pragma once
 
-// A zip archive put together by hand, right or wrong in any way.
+// Builds zip archives by hand, valid or with any defect.
 
 #include <cstdint>
 #include <string>
@@ -13,12 +13,15 @@ struct ZipEntry {
   std::string data;
   uint16_t method = 0;
   uint16_t flags = 0;
-  uint32_t claimed_size = 0xffffffff;    // in both headers; unless given, the data's
-  uint32_t claimed_offset = 0xffffffff;  // in the directory; unless given, the true one
+  // Size in both headers; the default stands for the real size.
+  uint32_t claimed_size = 0xffffffff;
+  // Offset in the directory; the default stands for the real offset.
+  uint32_t claimed_offset = 0xffffffff;
   bool in_directory = true;
 };
 
-// In the form that bundles have. claimed_count: in the end record, when not 0.
+// Builds an archive in the form of bundles. claimed_count is written to the end record if it is not
+// 0.
 std::string MakeZip(const std::vector<ZipEntry>& entries, uint16_t claimed_count = 0);
 
 }  // namespace lararium::test

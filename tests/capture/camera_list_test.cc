@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-using Devices = std::map<int, FakeCamera*>;  // by their numbers; nullptr: nobody may open it
+using Devices = std::map<int, FakeCamera*>;  // key: number; nullptr: no permission
 
 std::vector<ConnectedCamera> List(const Devices& devices) {
   return ListCameras([&](int number) -> std::optional<Result<std::unique_ptr<VideoDevice>>> {
@@ -61,7 +61,7 @@ TEST(CameraList, KeepsACameraThatMayNotBeOpenedAndSaysSo) {
 
 TEST(CameraList, ANameIsPrintableWhateverTheDriverSays) {
   FakeCamera camera;
-  camera.card = std::string("Caf\xc3\xa9\n") + std::string(26, 'x');  // fills its field: no end
+  camera.card = std::string("Caf\xc3\xa9\n") + std::string(26, 'x');  // no terminator
   FakeCamera nameless;
   nameless.card = "";
   const auto cameras = List({{4, &camera}, {5, &nameless}});

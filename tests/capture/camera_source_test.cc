@@ -25,7 +25,7 @@ Result<std::unique_ptr<FrameSource>> Open(FakeCamera& camera, const CameraSettin
   return OpenCamera("camera 3", camera.Open(), settings);
 }
 
-// YUYV of the camera's size, all of one brightness: 16 is black, 235 white.
+// A YUYV image of the camera's size and of one brightness: 16 is black, 235 white.
 Sent Grey(const FakeCamera& camera, int luma) {
   Sent sent;
   for (uint32_t i = 0; i < camera.format.sizeimage / 2; ++i) {
@@ -35,7 +35,7 @@ Sent Grey(const FakeCamera& camera, int luma) {
   return sent;
 }
 
-// Smooth, so that JPEG keeps it.
+// A smooth picture, which JPEG preserves.
 cv::Mat Picture(int width, int height) {
   cv::Mat picture(height, width, CV_8UC3);
   for (int y = 0; y < height; ++y) {
@@ -53,7 +53,7 @@ std::vector<uint8_t> Jpeg(const cv::Mat& picture) {
   return jpeg;
 }
 
-// As most cameras send it: the tables are known.
+// Most cameras omit the tables, because they are standard.
 std::vector<uint8_t> WithoutHuffmanTables(std::vector<uint8_t> jpeg) {
   for (size_t i = 2; i + 4 <= jpeg.size() && jpeg[i + 1] != 0xda;) {
     const size_t length = 2 + jpeg[i + 2] * size_t{256} + jpeg[i + 3];
@@ -94,7 +94,7 @@ TEST(CameraSource, GivesTheNewestOfSeveralWaitingFrames) {
   EXPECT_EQ(camera.queued.size(), camera.buffers.size()) << "the driver has all buffers again";
 }
 
-// Where it had no buffer for a while, what it has is of before.
+// If the driver had no free buffer for a while, its images are from before the pause.
 TEST(CameraSource, GivesNoImageFromBeforeAPause) {
   FakeCamera camera;
   const auto source = Open(camera);
@@ -107,7 +107,7 @@ TEST(CameraSource, GivesNoImageFromBeforeAPause) {
   EXPECT_EQ(Brightness(NextOf(**source)), 255);
 }
 
-// BT.601 of limited range; lines may be longer than they are filled.
+// BT.601 with limited range; lines may have padding.
 TEST(CameraSource, KeepsColoursOfYuyvUyvyAndNv12) {
   const uint8_t red[] = {82, 90, 240};  // luma, Cb, Cr
   const std::map<uint32_t, std::array<int, 4>> orders = {{V4L2_PIX_FMT_YUYV, {0, 1, 0, 2}},
@@ -158,7 +158,7 @@ TEST(CameraSource, ReadsMotionJpegWithoutHuffmanTables) {
   const std::vector<uint8_t> whole = Jpeg(Picture(640, 480));
   std::vector<uint8_t> sent = WithoutHuffmanTables(whole);
   ASSERT_LT(sent.size(), whole.size());
-  sent.resize(sent.size() + 100);  // some fill up their buffers
+  sent.resize(sent.size() + 100);  // Some cameras pad their buffers.
   camera.coming = {{sent}, {sent}};
   for (int i = 0; i < 2; ++i) {
     const Frame frame = NextOf(**source);
@@ -178,14 +178,14 @@ TEST(CameraSource, SkipsDamagedFrames) {
   const Frame frame = NextOf(**source);
   EXPECT_EQ(Brightness(frame), 255);
   EXPECT_EQ(frame.index, 0);
-  // Neither do they hide the good one before them.
+  // Damaged images do not hide the good one before them.
   camera.Send(Grey(camera, 235));
   camera.Send(damaged);
   EXPECT_EQ(Brightness(NextOf(**source)), 255);
   EXPECT_EQ(camera.queued.size(), camera.buffers.size());
 }
 
-// libjpeg would fill the rest with grey.
+// libjpeg would fill the missing part with grey.
 TEST(CameraSource, SkipsJpegsThatWereCutShort) {
   FakeCamera camera = MotionJpegCamera();
   const auto source = Open(camera);
@@ -223,7 +223,7 @@ TEST(CameraSource, GivesUpWhereNoImageCanBeRead) {
   int sent = 0;
   camera.when_waited = [&] {
     ++sent;
-    return Sent{Jpeg(Picture(320, 240))};  // of another size than it said
+    return Sent{Jpeg(Picture(320, 240))};  // The size differs from the announced one.
   };
   EXPECT_THAT((*source)->Next().message(),
               AllOf(HasSubstr("camera 3: gives no image"), HasSubstr("640x480")));
@@ -271,7 +271,7 @@ TEST(CameraSource, RefusesASizeThatTheCameraLacks) {
     camera.driver = driver;
     camera.modes[0].sizes = {{320, 240}, {640, 480}};
     EXPECT_THAT(Open(camera, {.width = 800, .height = 600}).message(),
-                AllOf(HasSubstr("camera 3: has no images of 800x600"), HasSubstr("640x480"),
+                AllOf(HasSubstr("camera 3: does not offer images of 800x600"), HasSubstr("640x480"),
                       HasSubstr("change the device file's \"capture\"")));
     const auto source = Open(camera, {.width = 320, .height = 240});
     ASSERT_TRUE(source.ok()) << source.message();
@@ -280,7 +280,7 @@ TEST(CameraSource, RefusesASizeThatTheCameraLacks) {
   }
 }
 
-// libv4lconvert would cut this off: the calibration is of the whole image.
+// libv4lconvert would crop this image, but the calibration is for the whole image.
 TEST(CameraSource, KeepsSizesThatAreNoMultipleOfEight) {
   FakeCamera camera;
   camera.modes[0].sizes = {{1366, 769}};
@@ -298,7 +298,7 @@ TEST(CameraSource, TakesTheFormatThatItIsTold) {
   ASSERT_TRUE(Open(camera, {.format = "YUYV"}).ok());
   EXPECT_EQ(camera.format.pixelformat, V4L2_PIX_FMT_YUYV);
   EXPECT_THAT(Open(camera, {.format = "NV12"}).message(),
-              AllOf(HasSubstr("has no images of the format NV12"), HasSubstr("\"capture\"")));
+              AllOf(HasSubstr("does not offer the image format NV12"), HasSubstr("\"capture\"")));
 }
 
 TEST(CameraSource, TakesTheFormatThatHasTheSize) {
@@ -319,7 +319,7 @@ TEST(CameraSource, TakesTheFormatThatHasTheSize) {
 TEST(CameraSource, RefusesFormatsThatNobodyKnows) {
   FakeCamera camera;
   camera.modes = {{V4L2_PIX_FMT_H264, {{640, 480}}}};
-  EXPECT_THAT(Open(camera).message(), HasSubstr("has no images of a format that is known"));
+  EXPECT_THAT(Open(camera).message(), HasSubstr("offers no known image format"));
 }
 
 TEST(CameraSource, TakesTheRateThatTheDriverGrants) {
@@ -413,7 +413,7 @@ TEST(CameraSource, TellsWhenTheImageWasTaken) {
   };
   const double taken = time_of(0.1, V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC);
   EXPECT_LE(taken, now() - 0.1 - before);
-  // Clocks that cannot be compared, and those that err, do not count.
+  // Time stamps of other clocks, and wrong ones, are ignored.
   const double asked = now();
   EXPECT_GE(time_of(0.1, V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN), asked - opened);
   EXPECT_GE(time_of(1000.0, V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC), asked - opened);

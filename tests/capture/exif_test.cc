@@ -20,7 +20,7 @@ std::string Number(uint32_t value, int bytes, bool little_endian) {
   return text;
 }
 
-// A JPEG's head with a focal length of focal mm (35 mm film) in its EXIF data.
+// The beginning of a JPEG with a focal length of `focal` mm (35 mm film) in its EXIF data.
 std::string JpegWithFocal(uint32_t focal, bool little_endian) {
   const auto number = [&](uint32_t value, int bytes) {
     return Number(value, bytes, little_endian);
@@ -53,7 +53,7 @@ TEST(Exif, ReadsTheFocalLengthInBothByteOrders) {
   }
 }
 
-// A JPEG's head with exposure time above / below, f/2.8 and ISO 400.
+// The beginning of a JPEG with exposure time above / below, f/2.8 and ISO 400.
 std::string JpegWithExposure(uint32_t above, uint32_t below, bool little_endian) {
   const auto number = [&](uint32_t value, int bytes) {
     return Number(value, bytes, little_endian);

@@ -120,7 +120,7 @@ class FakeDevice final : public VideoDevice {
     capability = Zeroed<v4l2_capability>();
     std::copy(camera_.driver.begin(), camera_.driver.end(), capability.driver);
     std::copy(camera_.card.begin(), camera_.card.end(), capability.card);
-    // What all nodes of the camera can do together, and this one.
+    // Capabilities of all nodes of the camera together, and of this one.
     capability.capabilities =
         V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING | V4L2_CAP_META_CAPTURE;
     capability.device_caps = camera_.capabilities;
@@ -146,7 +146,7 @@ class FakeDevice final : public VideoDevice {
     return EINVAL;
   }
 
-  // To the nearest size of the format; a format that it lacks to its first one.
+  // Rounds to the nearest size of the format; an unknown format becomes the first one.
   int Round(v4l2_format& format) {
     if (format.type != kCapture) {
       return EINVAL;
@@ -300,7 +300,8 @@ void FakeCamera::Send(const Sent& sent) {
 }
 
 std::unique_ptr<VideoDevice> FakeCamera::Open() {
-  // Controls that libv4lconvert adds itself would be kept in shared memory, beyond the test.
+  // Disables the controls that libv4lconvert adds: it would keep them in shared memory beyond the
+  // test.
   setenv("LIBV4LCONTROL_CONTROLS", "0", 1);
   return std::make_unique<FakeDevice>(*this);
 }

@@ -65,7 +65,7 @@ TEST(ImageFolder, NamesTheImageThatIsBroken) {
 
 TEST(ImageFolder, RefusesFoldersWithoutImages) {
   test::TemporaryFolder folder;
-  EXPECT_THAT(OpenImageFolder(folder.path()).message(), HasSubstr("holds no images"));
+  EXPECT_THAT(OpenImageFolder(folder.path()).message(), HasSubstr("contains no images"));
   EXPECT_THAT(OpenImageFolder(folder / "absent").message(), HasSubstr("absent"));
 }
 

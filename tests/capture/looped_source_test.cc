@@ -50,7 +50,7 @@ TEST(LoopedSource, GoesOnFromRoundToRoundWithoutAGap) {
 
 TEST(LoopedSource, GoesOnFromWhereItWasSoughtTo) {
   const auto source = Loop(std::make_unique<Recording>(7));
-  for (const int before : {0, 10}) {  // frames: at once, and from the second round
+  for (const int before : {0, 10}) {  // frames read first: none, or into the second round
     for (int i = 0; i < before; ++i) {
       (void)source->Next();
     }

@@ -7,12 +7,12 @@
 namespace lararium::capture {
 namespace {
 
-// A world whose time passes only while somebody sleeps or waits for an image.
+// A simulated world whose time passes only during sleep() or while waiting for an image.
 struct World {
   double now = 100.0;
   bool plugged = true;
   int width = 64;
-  double clock = 0.0;  // of the camera, when it is opened
+  double clock = 0.0;  // camera's clock at opening
   int opened = 0;
   std::vector<std::string> changes;
 
@@ -26,7 +26,7 @@ struct World {
       world_.now += 1.0 / 30.0;
       geometry::Frame frame;
       frame.index = index_++;
-      frame.capture_time = world_.clock + world_.now - opened_at_ - 0.004;  // taken before it came
+      frame.capture_time = world_.clock + world_.now - opened_at_ - 0.004;  // taken earlier
       frame.bgr = cv::Mat(48, width_, CV_8UC3, cv::Scalar::all(200));
       frame.grey = cv::Mat(48, width_, CV_8UC1, cv::Scalar::all(200));
       return std::optional(frame);
@@ -109,7 +109,7 @@ TEST(SteadyCamera, IsBlackWhileUnpluggedAndComesBackWithinARetry) {
       EXPECT_EQ(frame.bgr.size(), cv::Size(64, 48));
     }
     EXPECT_LE(world.opened - opened, 21) << "asked twice a second";
-    world.clock += 1000.0;  // the camera's clock begins anew with each opening
+    world.clock += 1000.0;  // The camera's clock restarts at each opening.
     world.plugged = true;
     const double back = world.now;
     while (IsBlack(next())) {
@@ -136,8 +136,8 @@ TEST(SteadyCamera, ACameraOfAnotherSizeIsNotTaken) {
   }
   ASSERT_EQ(world.changes.size(), 2u) << "it is told once why there is no picture";
   EXPECT_EQ(world.changes[1],
-            "away: the camera came back with 32x48 pixels instead of 64x48; set its mode as it "
-            "was, or start anew");
+            "away: the camera came back with 32x48 pixels instead of 64x48; restore its former "
+            "mode, or restart the program");
   world.width = 64;
   for (int i = 0; i < 10; ++i) {
     (void)source->Next();

@@ -28,7 +28,7 @@ constexpr int kHeight = 96;
 constexpr int kBits = 10;
 constexpr int kFrames = 300;  // more than one group of pictures of the encoder
 
-// The number of a frame as ten black or white bars.
+// An image that shows the number of a frame as ten black or white bars.
 cv::Mat NumberedImage(int number) {
   cv::Mat image(kHeight, kWidth, CV_8UC3, cv::Scalar::all(0));
   for (int bit = 0; bit < kBits; ++bit) {
@@ -155,7 +155,7 @@ TEST_F(NumberedVideo, CutOffFilesAreOneClearError) {
   }
 }
 
-// Pictures at such times; two neighbours may have the same.
+// Writes pictures at these times; two neighbours may have the same time.
 void WriteTimedVideo(const std::filesystem::path& file, std::span<const int64_t> milliseconds) {
   AVFormatContext* format = nullptr;
   ASSERT_GE(avformat_alloc_output_context2(&format, nullptr, "matroska", file.c_str()), 0);
@@ -191,7 +191,7 @@ TEST(OpenVideo, TimeGoesOnWhereTheFilesOwnTimesLoseTheirOrder) {
       WriteTimedVideo(file, std::array<int64_t, 6>{0, 100, 200, 300, 300, 400}));
   const auto source = OpenVideo(file);
   ASSERT_TRUE(source.ok()) << source.message();
-  const std::array<double, 6> expected = {0.0, 0.1, 0.2, 0.3, 0.34, 0.38};  // 25 a second
+  const std::array<double, 6> expected = {0.0, 0.1, 0.2, 0.3, 0.34, 0.38};  // 25 frames a second
   for (const size_t first : {size_t{0}, size_t{2}, size_t{0}}) {
     ASSERT_TRUE((*source)->Seek(static_cast<int64_t>(first)).ok());
     for (size_t i = first; i < expected.size(); ++i) {
@@ -241,7 +241,7 @@ TEST(VideoWriter, KeepsColours) {
   }
 }
 
-// The samples of a file's sound (left ear, 48000 a second), each at its time.
+// Returns the samples of a file's sound (left channel, 48000 a second), each at its time.
 std::vector<float> DecodeSound(const std::filesystem::path& file) {
   std::vector<float> left;
   AVFormatContext* format = nullptr;

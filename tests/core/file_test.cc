@@ -21,7 +21,7 @@ TEST(File, WritesWhatItReads) {
 TEST(File, AFailedWriteLeavesTheOldFileAndNoOther) {
   const test::TemporaryFolder folder;
   ASSERT_TRUE(WriteFileAtomically(folder / "a", "old").ok());
-  // A folder in the place of the target makes the final rename fail.
+  // A folder at the target path makes the final rename fail.
   std::filesystem::create_directory(folder / "b");
   std::ofstream(folder / "b/keep") << "x";
   EXPECT_FALSE(WriteFileAtomically(folder / "b", "new").ok());

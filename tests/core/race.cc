@@ -1,5 +1,4 @@
-// A deliberate race: the thread sanitizer must see what iterations of a ParallelFor do
-// to one another.
+// A deliberate race: the thread sanitizer must detect races between iterations of a ParallelFor.
 
 #include <chrono>
 #include <cstdio>

@@ -79,7 +79,7 @@ TEST_F(DramaTest, PlayFadesFromClipToClip) {
       keeper:play("walk", {fade = 0.5})
     end)");
   PlayTo(*drama, 1.25);
-  const human::Animation& animation = State("keeper").performance.animation;
+  const human::Animation& animation = State("keeper").animation_state.animation;
   EXPECT_EQ(animation.clip, 1);
   EXPECT_EQ(animation.previous_clip, 0);
   EXPECT_NEAR(animation.clip_time, 0.25, 1e-9);
@@ -93,7 +93,7 @@ TEST_F(DramaTest, PlayingALoopAgainGoesOn) {
       while true do actor("keeper"):play("idle") wait(0.1) end
     end)");
   PlayTo(*drama, 1.0);
-  EXPECT_NEAR(State("keeper").performance.animation.clip_time, 1.0, 1e-9);
+  EXPECT_NEAR(State("keeper").animation_state.animation.clip_time, 1.0, 1e-9);
 }
 
 TEST_F(DramaTest, WalksAtTheClipsOwnSpeedAndEndsExactly) {
@@ -108,15 +108,15 @@ TEST_F(DramaTest, WalksAtTheClipsOwnSpeedAndEndsExactly) {
   const float begin = State("keeper").position.z;
   PlayTo(*drama, 1.5);
   EXPECT_NEAR(State("keeper").position.z - begin, -0.7f, 0.02f);
-  EXPECT_EQ(State("keeper").performance.animation.clip, 1);
-  EXPECT_NEAR(State("keeper").performance.animation.rate, 1.0, 0.02);
+  EXPECT_EQ(State("keeper").animation_state.animation.clip, 1);
+  EXPECT_NEAR(State("keeper").animation_state.animation.rate, 1.0, 0.02);
   PlayTo(*drama, 2.0);
   EXPECT_TRUE(State("keeper").visible);
   PlayTo(*drama, 5.0);
   EXPECT_FALSE(State("keeper").visible);
   EXPECT_EQ(State("keeper").position, glm::vec3(0.0f, 0.0f, -2.8f));
   EXPECT_FLOAT_EQ(State("keeper").heading, std::numbers::pi_v<float> / 2.0f);
-  EXPECT_EQ(State("keeper").performance.animation.clip, 0) << "idles after a walk";
+  EXPECT_EQ(State("keeper").animation_state.animation.clip, 0) << "idles after a walk";
   EXPECT_EQ(FirstError(*drama), "");
 }
 
@@ -131,7 +131,7 @@ TEST_F(DramaTest, AWalkAtAnotherSpeedKeepsStep) {
   const float begin = State("keeper").position.z;
   PlayTo(*drama, 4.0);
   EXPECT_NEAR(State("keeper").position.z - begin, -1.4f, 0.02f);
-  EXPECT_NEAR(State("keeper").performance.animation.rate, 0.5, 0.01);
+  EXPECT_NEAR(State("keeper").animation_state.animation.rate, 0.5, 0.01);
 }
 
 TEST_F(DramaTest, FacesWhereItWalks) {
@@ -216,7 +216,7 @@ TEST_F(DramaTest, AnInterruptedWalkEndsInIdle) {
       race(function() wait(1) end, function() actor("keeper"):walk_to{ z = -9 } end)
     end)");
   PlayTo(*drama, 1.5);
-  EXPECT_EQ(State("keeper").performance.animation.clip, 0);
+  EXPECT_EQ(State("keeper").animation_state.animation.clip, 0);
   const float stopped = State("keeper").position.z;
   EXPECT_LT(stopped, -0.5f);
   PlayTo(*drama, 2.0);
@@ -290,19 +290,19 @@ TEST_F(DramaTest, TracksIdleBetweenTheirClips) {
   ASSERT_EQ(FirstError(*drama), "");
   PlayTo(*drama, 7.0);
   EXPECT_NEAR(State("keeper").position.x, 2.1f, 1e-5);
-  EXPECT_NEAR(State("keeper").performance.animation.rate, 0.5, 1e-6)
+  EXPECT_NEAR(State("keeper").animation_state.animation.rate, 0.5, 1e-6)
       << "0.7 m/s with a 1.4 m/s walk";
   EXPECT_NEAR(State("keeper").heading, -std::numbers::pi / 2.0, 1e-5);
   PlayTo(*drama, 11.0);
-  EXPECT_EQ(State("keeper").performance.animation.clip, 0);
+  EXPECT_EQ(State("keeper").animation_state.animation.clip, 0);
   EXPECT_FLOAT_EQ(State("keeper").position.x, 4.2f);
   PlayTo(*drama, 12.5);
-  EXPECT_EQ(State("keeper").performance.animation.clip, 2);
+  EXPECT_EQ(State("keeper").animation_state.animation.clip, 2);
   PlayTo(*drama, 20.0);
-  EXPECT_EQ(State("keeper").performance.animation.clip, 0);
+  EXPECT_EQ(State("keeper").animation_state.animation.clip, 0);
 }
 
-// Seeking gives what playing gives, bit for bit.
+// Seeking gives the same result as playing, bit for bit.
 class SeekTest : public DramaTest, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(SeekTest, EqualsPlaying) {

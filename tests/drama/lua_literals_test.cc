@@ -7,7 +7,7 @@
 namespace lararium::drama {
 namespace {
 
-// What a text says; null where it cannot be read.
+// The value of a text; null if it cannot be read.
 Json Read(const std::string& text) {
   LuaLiterals literals(text, 0);
   Json value;
@@ -15,7 +15,7 @@ Json Read(const std::string& text) {
   return literals.Value(0, value, end) && end == text.size() ? value : Json();
 }
 
-// So many tables in one another.
+// `count` nested tables.
 Json Nested(int count) {
   Json value = 1.0;
   for (int i = 0; i < count; ++i) {
@@ -40,10 +40,10 @@ TEST(LuaLiterals, ReadTablesThatLieSoDeepAndNoDeeper) {
 
 TEST(LuaLiterals, SayWhereAndWhyTheyCannotReadOn) {
   const std::pair<const char*, std::pair<size_t, const char*>> cases[] = {
-      {"{1, f()}", {4, "only numbers, texts, true, false and tables can stand here"}},
-      {"{1, 2", {0, "this brace never closes"}},
-      {"{[1] = 2}", {2, "only texts can be keys"}},
-      {"{1, a = 2}", {0, "a table has either names or not"}}};
+      {"{1, f()}", {4, "only numbers, texts, true, false and tables are allowed here"}},
+      {"{1, 2", {0, "this brace is never closed"}},
+      {"{[1] = 2}", {2, "only a text can be a key"}},
+      {"{1, a = 2}", {0, "either all entries of a table have names or none"}}};
   for (const auto& [text, expected] : cases) {
     LuaLiterals literals(text, 0);
     Json value;

@@ -1,4 +1,4 @@
-// What docs/drama.md says: each of its examples runs, and each word has one.
+// Checks docs/drama.md: each of its examples runs, and each function of lua/std has one.
 
 #include <gmock/gmock.h>
 
@@ -88,7 +88,7 @@ TEST_F(ManualTest, EveryExampleRuns) {
     SCOPED_TRACE("docs/drama.md:" + std::to_string(example.line));
     const auto drama = Drama::Create(example.script, "drama.md", stage_, {}, *log_);
     ASSERT_TRUE(drama.ok()) << drama.message();
-    // Somebody comes, looks at the keeper and then at the chest.
+    // A visitor comes, looks at the keeper and then at the chest.
     for (int tick = 0; tick < 35 * Drama::kTicksPerSecond; ++tick) {
       Visitor visitor;
       visitor.tracked = true;

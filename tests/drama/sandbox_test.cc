@@ -16,14 +16,14 @@ using ::testing::HasSubstr;
 
 struct Attack {
   const char* name;
-  const char* script;  // the body of main()
-  const char* error;   // part of the message that must come; "" where none may
+  const char* script;  // The body of main().
+  const char* error;   // Part of the expected message; "": no error may occur.
 };
 
 class SandboxTest : public DramaTest, public ::testing::WithParamInterface<Attack> {
  protected:
-  // Processor time of all attacks' longest frame. The bar is 50 ms; it is printed and not
-  // a test, because machines differ.
+  // Processor time of the longest frame of all attacks. The limit is 50 ms; the time is printed and
+  // not asserted, because machines differ.
   static void TearDownTestSuite() {
     std::printf("worst frame under attack: %.1f ms\n", worst_frame_ms_);
   }
@@ -175,7 +175,7 @@ const Attack kAttacks[] = {
     {"CoroutineRecursion", "local function f() coroutine.wrap(f)() end f()", kTooLong},
     {"GsubRecursion", "local function f() return (('x'):gsub('x', f)) end f()", "C stack overflow"},
 
-    // Of what is new.
+    // Triggers and yields.
     {"TriggerBomb", "for i = 1, 5000 do start(function() first(timeout(99)) end) end", "more than"},
     {"OnBomb", "while true do on(timeout(0), function() wait(9) end) end", "more than"},
     {"OnItself", "on(timeout(0), function() local f f = function() on(timeout(0), f) end f() end)",
@@ -196,7 +196,7 @@ const Attack kAttacks[] = {
     {"HandlesAreLocked", "setmetatable(start(function() end), {})", "protected metatable"},
     {"VisitorIsLocked", "setmetatable(visitor, {})", "protected metatable"},
 
-    // Ways out.
+    // Ways out of the sandbox.
     {"NoLoaders", "assert(load == nil and loadstring == nil and loadfile == nil and dofile == nil)",
      ""},
     {"NoSystem",
@@ -226,7 +226,7 @@ const Attack kAttacks[] = {
     {"NoPointers", "string.format('%p', {})", "not available"},
     {"NoPointersWithFlags", "string.format('%-20p', {})", "not available"},
 
-    // Loops in other clothes.
+    // Hidden loops.
     {"Goto", "::again:: goto again", kTooLong},
     {"GotoInPcall", "while true do pcall(function() ::a:: goto a end) end", kTooLong},
     {"RepeatUntil", "repeat until false", kTooLong},
@@ -287,7 +287,7 @@ const Attack kAttacks[] = {
      "yield"},
     {"YieldsOutOfAReplacement", "('x'):gsub('x', function() wait(1) end)", "yield"},
 
-    // Floods of words.
+    // Floods of calls.
     {"MillionLines", "local k = actor('keeper') for i = 1, 1e6 do pcall(k.say, k, 'nothing') end",
      kTooLong},
     {"MillionGestures",
@@ -310,7 +310,7 @@ const Attack kAttacks[] = {
     {"PlaceNowhere", "actor('keeper'):place{x = 0/0}", "must be a number"},
     {"WaitForEver", "pcall(wait, 1/0) pcall(wait, 0/0) pcall(wait, -1)", ""},
 
-    // The library in other hands.
+    // Changed library functions.
     {"GlobalsAreTheirOwn",
      "setmetatable, table, string.match, pcall, error = nil, nil, nil, nil, nil wait(0.01)", ""},
     {"StolenMetatable",

@@ -1,4 +1,4 @@
-// Going to any moment: the stage as it was there, whoever did what in between.
+// Seeking restores the stage of any moment, no matter what happened in between.
 
 #include <gmock/gmock.h>
 #include <malloc.h>
@@ -28,7 +28,7 @@ class SeekingTest : public DramaTest {
     EXPECT_TRUE(stage_.AddObject(name, test::Model(std::move(prop)), pose).ok());
   }
 
-  // Plays so many seconds and keeps each tick.
+  // Plays a number of seconds and records each tick.
   std::vector<stage::StageSnapshot> Play(Drama& drama, int seconds) {
     std::vector<stage::StageSnapshot> played = {Snapshot()};
     for (int i = 0; i < seconds * Drama::kTicksPerSecond; ++i) {
@@ -76,7 +76,7 @@ constexpr char kBusy[] = R"(
   end
 )";
 
-// Comes, stays, looks about, is lost, is back.
+// The visitor comes, stays, looks about; tracking is lost and comes back.
 Visitor VisitorAt(double time) {
   Visitor visitor;
   visitor.tracked = std::fmod(time, 13.0) < 11.0;
@@ -150,7 +150,7 @@ TEST_F(SeekingTest, AForgottenPastTakesNoMemoryHoweverLongItWas) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizer keeps the memory";
 #endif
-  // Bytes that ten minutes take, after the first.
+  // Growth of memory in ten minutes, after a first minute; bytes.
   const auto growth = [&](Past past) {
     DramaOptions options;
     options.past = past;

@@ -10,7 +10,7 @@
 namespace lararium::drama {
 namespace {
 
-// What Lua's own string.find says of a pattern that is anchored nowhere, and ours.
+// Compares Lua's string.find with ours for an unanchored pattern.
 class Oracle {
  public:
   Oracle() : lua_(luaL_newstate()) { luaL_openlibs(lua_); }
@@ -113,7 +113,7 @@ TEST(TextPattern, AgreesWithLuaOnChosenPatterns) {
   for (const std::string& subject : subjects) {
     for (const std::string& pattern : patterns) {
       if (pattern[0] == '^' && pattern.size() == 1) {
-        continue;  // the anchor belongs to the callers
+        continue;  // The callers handle the anchor.
       }
       EXPECT_EQ(Find(subject, pattern), oracle.Find(subject, pattern))
           << "subject '" << subject << "' pattern '" << pattern << "'";
@@ -136,7 +136,7 @@ TEST(TextPattern, AgreesWithLuaOnRandomPatterns) {
       subject += "aab1 "[random.Below(5)];
     }
     const std::string ours = Find(subject, pattern);
-    // Lua finds an unclosed or unopened capture only when it gets there.
+    // Lua reports an unclosed or unopened capture only when the match reaches it.
     if (ours != "error") {
       ASSERT_EQ(ours, oracle.Find(subject, pattern))
           << "round " << round << " subject '" << subject << "' pattern '" << pattern << "'";

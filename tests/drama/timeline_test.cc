@@ -1,4 +1,4 @@
-// Lanes as they are played.
+// Playback of lanes.
 
 #include "shared/drama/timeline.h"
 
@@ -50,14 +50,14 @@ TEST_F(TimelineTest, LanesArePlayedWithoutAnyScript) {
   EXPECT_TRUE(State("keeper").visible);
   EXPECT_EQ(State("keeper").position.x, -2.0f);
   PlayTo(*drama, 1.5);
-  EXPECT_EQ(State("keeper").performance.gaze.kind, human::GazeKind::kPerson);
+  EXPECT_EQ(State("keeper").animation_state.gaze.kind, human::GazeKind::kPerson);
   PlayTo(*drama, 2.5);
-  EXPECT_NEAR(State("keeper").performance.face.expressions[1], 0.8f, 0.01f);
+  EXPECT_NEAR(State("keeper").animation_state.face.expressions[1], 0.8f, 0.01f);
   PlayTo(*drama, 3.5);
-  EXPECT_GT(State("keeper").performance.face.visemes[static_cast<size_t>(human::Viseme::kAa)],
+  EXPECT_GT(State("keeper").animation_state.face.visemes[static_cast<size_t>(human::Viseme::kAa)],
             0.5f);
   PlayTo(*drama, 5.0);
-  EXPECT_NEAR(State("keeper").performance.face.expressions[1], 0.0f, 0.01f);
+  EXPECT_NEAR(State("keeper").animation_state.face.expressions[1], 0.0f, 0.01f);
   PlayTo(*drama, 7.5);
   EXPECT_EQ(stage_.Find(*stage_.FindObject("cup"))->state.holder, *stage_.Find("keeper"));
   PlayTo(*drama, 28.1);
@@ -66,7 +66,7 @@ TEST_F(TimelineTest, LanesArePlayedWithoutAnyScript) {
             *stage_.FindObject("table"));
   EXPECT_EQ(stage_.Find(*stage_.FindObject("chest"))->state.state, 1);
   EXPECT_NEAR(State("keeper").position.x, 2.0f, 1e-4f);
-  EXPECT_EQ(State("keeper").performance.animation.clip, 2);
+  EXPECT_EQ(State("keeper").animation_state.animation.clip, 2);
   PlayTo(*drama, 32.1);
   EXPECT_FALSE(State("keeper").visible);
 }
@@ -138,18 +138,18 @@ TEST_F(TimelineTest, MistakesAreToldWithTheirItem) {
   } kMistakes[] = {
       {"speech = {{at = 1, line = 'salvete'}, {at = 2, line = 'poem'}}",
        "track: speech[2]: there is no line 'poem'"},
-      {"speech = {{line = 'salvete'}}", "track: speech[1]: says not `at`"},
+      {"speech = {{line = 'salvete'}}", "track: speech[1]: has no `at`"},
       {"walks = {{at = 1}}", "track: walks[1]: say where to go"},
       {"uses = {{at = 1, object = 'anvil'}}", "track: uses[1]: there is no object 'anvil'"},
       {"uses = {{at = 1, object = 'chest', action = 'eat'}}", "'chest' has no action 'eat'"},
-      {"gaze = {{at = 1, target = 'nobody'}}", "there is nobody and nothing"},
+      {"gaze = {{at = 1, target = 'nobody'}}", "there is no actor or object"},
       {"expressions = {{at = 1, expression = 'hunger'}}", "there is no expression 'hunger'"},
       {"expressions = {{at = 1, expression = 'joy', intensity = 3}}", "intensity must be"},
       {"gestures = {{at = 1, clip = 'fly'}}", "has no clip 'fly'"},
       {"gestures = {{at = 1, clip = 'bow', part = 'foot'}}", "the part must be"},
-      {"dances = {}", "track: knows no 'dances'"},
+      {"dances = {}", "track: there is no lane 'dances'"},
       {"speech = 3", "must be a list of items"},
-      {"speech = {3}", "an item {at = 0, ...} belongs here"},
+      {"speech = {3}", "write an item {at = 0, ...} here"},
   };
   for (const auto& mistake : kMistakes) {
     const auto drama = Make(std::string("\ntrack{ actor = 'keeper', ") + mistake.track + " }\n");
@@ -190,7 +190,8 @@ TEST_F(TimelineTest, ExpressionsComeAndGoAsTheirEaseSays) {
       {at = 1, length = 4, expression = "joy", fade = 2},
     }})");
   const auto joy = [&](const char* name) {
-    return State(name).performance.face.expressions[static_cast<size_t>(human::Expression::kJoy)];
+    return State(name)
+        .animation_state.face.expressions[static_cast<size_t>(human::Expression::kJoy)];
   };
   PlayTo(*drama, 2.0);
   EXPECT_NEAR(joy("keeper"), 0.25f, 0.01f);

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-TimelineText MustRead(const std::string& text) {
+TimelineText MustReadTimeline(const std::string& text) {
   auto timeline = TimelineText::Read(text, "drama.lua");
   EXPECT_TRUE(timeline.ok()) << timeline.message() << "\n" << text;
   return timeline.ok() ? *std::move(timeline) : *TimelineText::Read("", "drama.lua");
@@ -38,7 +38,7 @@ TEST(LuaTokens, NumbersAndTextsMeanWhatLuaMeans) {
 }
 
 TEST(TimelineText, LanesAndItemsAreFoundAmongScript) {
-  const TimelineText timeline = MustRead(R"(
+  const TimelineText timeline = MustReadTimeline(R"(
     -- track{ markers = {{at = 1}} }
     local text = "track{ markers = {{at = 1}} }"
     local long = [=[ track{ markers = {{at = 1}} } ]=]
@@ -72,19 +72,20 @@ TEST(TimelineText, WhatIsNotWrittenOutIsToldWithItsPlaceAndLeftAlone) {
       {"track{markers = {{at = 1 + 1}}}", "drama.lua:1:26: only numbers, texts"},
       {"track{actor = keeper, gaze = {}}", "drama.lua:1:15: only numbers, texts"},
       {"\ntrack{gaze = {{at = 1}}}", "drama.lua:2:6: 'gaze' need an actor"},
-      {"track{dances = {}}", "drama.lua:1:16: track knows no 'dances'"},
+      {"track{dances = {}}", "drama.lua:1:16: track has no lane 'dances'"},
       {"track{markers = {{at = -1}}}", "at must be a number from 0"},
       {"track{markers = {{at = 1, length = 'long'}}}", "length must be a number"},
-      {"track{markers = {{name = 'x'}}}", "drama.lua:1:18: this item does not say `at`"},
+      {"track{markers = {{name = 'x'}}}", "drama.lua:1:18: this item has no `at`"},
       {"track{markers = {{at = 1, ease = 'jump'}}}", "ease is"},
-      {"track{markers = {1, 2}}", "an item {at = 0, ...} belongs here"},
+      {"track{markers = {1, 2}}", "write an item {at = 0, ...} here"},
       {"track{markers = {{at = 1, 2}}}", "needs a name"},
       {"track{markers = {{at = 1, name = f()}}}", "only numbers, texts"},
-      {"track{markers = {{at = 1, x = {1, a = 2}}}}", "either names or not"},
+      {"track{markers = {{at = 1, x = {1, a = 2}}}}", "have names or none"},
       {"track{markers = {{at = 1, name = '\\q'}}}", "escape"},
   };
   for (const auto& bad : kCases) {
-    const TimelineText timeline = MustRead(bad.text + std::string("\ntrack{markers={{at=5}}}"));
+    const TimelineText timeline =
+        MustReadTimeline(bad.text + std::string("\ntrack{markers={{at=5}}}"));
     ASSERT_EQ(timeline.problems().size(), 1u) << bad.text;
     EXPECT_THAT(timeline.problems()[0], HasSubstr(bad.problem)) << bad.text;
     ASSERT_EQ(timeline.lanes().size(), 1u) << "the others are read";
@@ -104,11 +105,11 @@ TEST(TimelineText, TextsThatNeverEndAreErrorsWithTheirPlace) {
   }
   std::string deep = "track{markers = {{at = 1, x = ";
   deep += std::string(100'000, '{') + std::string(100'000, '}') + "}}}";
-  EXPECT_THAT(MustRead(deep).problems()[0], HasSubstr("too deep"));
+  EXPECT_THAT(MustReadTimeline(deep).problems()[0], HasSubstr("too deep"));
 }
 
 TEST(TimelineText, EditsKeepLinesAndComments) {
-  TimelineText timeline = MustRead(R"(track{ actor = "keeper", -- the old one
+  TimelineText timeline = MustReadTimeline(R"(track{ actor = "keeper", -- the old one
   speech = {
     {id = "a", at = 2, line = "salvete"}, -- to the visitor
     -- later
@@ -154,7 +155,7 @@ track{markers = {
 
 // ---- generated dramas --------------------------------------------------------
 
-// What a timeline says, apart from how it is written.
+// The contents of a timeline without its formatting.
 struct Lane {
   LaneKind kind;
   std::string actor;
@@ -341,7 +342,7 @@ bool Contains(const std::vector<std::string>& in, const std::string& text) {
   return std::find(in.begin(), in.end(), text) != in.end();
 }
 
-// One random edit of both; what was written before and is not meant stays.
+// Makes one random edit of text and model. All other text must stay.
 void Edit(Generator& random, TimelineText& timeline, Model& model, std::vector<TextEdit>& edits) {
   const std::string before = timeline.text();
   const auto comments = CommentsOf(before);
@@ -349,8 +350,8 @@ void Edit(Generator& random, TimelineText& timeline, Model& model, std::vector<T
   Lane& lane = model[l];
   const size_t i = lane.items.empty() ? 0 : random.Below(static_cast<uint32_t>(lane.items.size()));
   const uint32_t kind = lane.items.empty() ? 0 : random.Below(5);
-  std::string gone;  // text whose comments may go
-  size_t from = 0;   // where the edit may be
+  std::string gone;  // Text whose comments may be removed.
+  size_t from = 0;   // Begin of the range that the edit may change.
   size_t to = before.size();
   Result<TextEdit> edit = Status::Error("test", "no edit");
   if (kind == 0) {
@@ -408,7 +409,7 @@ TEST(TimelineText, GeneratedDramasSurviveEditsAndWhatWasNotMeantStays) {
     Generator random(seed);
     Model model = random.RandomModel();
     const std::string written = random.Written(model);
-    TimelineText timeline = MustRead(written);
+    TimelineText timeline = MustReadTimeline(written);
     ASSERT_THAT(timeline.problems(), IsEmpty()) << written;
     ASSERT_EQ(ModelOf(timeline), model) << written;
     std::vector<TextEdit> edits;
@@ -418,7 +419,7 @@ TEST(TimelineText, GeneratedDramasSurviveEditsAndWhatWasNotMeantStays) {
         return;
       }
       ASSERT_EQ(ModelOf(timeline), model) << timeline.text();
-      ASSERT_EQ(ModelOf(MustRead(timeline.text())), model) << timeline.text();
+      ASSERT_EQ(ModelOf(MustReadTimeline(timeline.text())), model) << timeline.text();
     }
     while (!edits.empty()) {
       ASSERT_TRUE(timeline.Apply(edits.back().Reverse()).ok());
@@ -434,7 +435,7 @@ TEST(TimelineText, WindowsFindWhatALinearSearchFinds) {
   for (int i = 0; i < 300; ++i) {
     model[0].items.push_back(random.Item());
   }
-  TimelineText timeline = MustRead(random.Written(model));
+  TimelineText timeline = MustReadTimeline(random.Written(model));
   for (int i = 0; i < 200; ++i) {
     if (i == 100) {
       ASSERT_TRUE(timeline.Set({0, 17}, "at", 599.0).ok());
@@ -462,8 +463,8 @@ TEST(TimelineText, SetAllDoesWhatOneAfterTheOtherDoes) {
     Generator random(seed);
     const Model model = random.RandomModel();
     const std::string written = random.Written(model);
-    TimelineText one = MustRead(written);
-    TimelineText all = MustRead(written);
+    TimelineText one = MustReadTimeline(written);
+    TimelineText all = MustReadTimeline(written);
     std::vector<TimelineChange> changes;
     for (size_t lane = 0; lane < one.lanes().size(); ++lane) {
       for (size_t item = 0; item < one.lanes()[lane].size(); item += 2) {
@@ -485,7 +486,8 @@ TEST(TimelineText, SetAllDoesWhatOneAfterTheOtherDoes) {
 }
 
 TEST(TimelineText, SetAllFailsAsAWhole) {
-  TimelineText timeline = MustRead("track{markers = {{at = 1, name = 'a'}, {at = 2, name = 'b'}}}");
+  TimelineText timeline =
+      MustReadTimeline("track{markers = {{at = 1, name = 'a'}, {at = 2, name = 'b'}}}");
   const std::string before = timeline.text();
   EXPECT_FALSE(
       timeline.SetAll(std::vector<TimelineChange>{{{0, 0}, "at", 3.0}, {{0, 1}, "at", -1.0}}).ok());

@@ -39,11 +39,11 @@ TEST(Track, HidesTheActorBeforeItsFirstSegment) {
 
 TEST(Track, LeavesAloneWhatTheBodyDoesBesides) {
   stage::ActorState state;
-  state.performance.face.visemes[3] = 0.5f;
-  state.performance.animation.previous_clip = 7;
+  state.animation_state.face.visemes[3] = 0.5f;
+  state.animation_state.animation.previous_clip = 7;
   ApplyTrack(TwoSegments(), 1.5, state);
-  EXPECT_EQ(state.performance.face.visemes[3], 0.5f);
-  EXPECT_EQ(state.performance.animation.previous_clip, human::Animation::kNoClip);
+  EXPECT_EQ(state.animation_state.face.visemes[3], 0.5f);
+  EXPECT_EQ(state.animation_state.animation.previous_clip, human::Animation::kNoClip);
 }
 
 TEST(Track, MovesAtConstantSpeedAndStays) {
@@ -55,13 +55,13 @@ TEST(Track, MovesAtConstantSpeedAndStays) {
 }
 
 TEST(Track, FadesFromTheClipBeforeWhichPlaysOn) {
-  const human::Animation animation = Evaluate(TwoSegments(), 3.25).performance.animation;
+  const human::Animation animation = Evaluate(TwoSegments(), 3.25).animation_state.animation;
   EXPECT_EQ(animation.clip, 1);
   EXPECT_DOUBLE_EQ(animation.clip_time, 0.125);
   EXPECT_EQ(animation.previous_clip, 0);
   EXPECT_DOUBLE_EQ(animation.previous_time, 2.25);
   EXPECT_FLOAT_EQ(animation.weight, 0.25f);
-  EXPECT_EQ(Evaluate(TwoSegments(), 4.0).performance.animation.weight, 1.0f);
+  EXPECT_EQ(Evaluate(TwoSegments(), 4.0).animation_state.animation.weight, 1.0f);
 }
 
 TEST(Track, TurnsTheShorterWay) {

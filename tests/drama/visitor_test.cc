@@ -1,4 +1,4 @@
-// Triggers, people who notice the visitor, and the points of what people do.
+// Triggers, actors who react to the visitor, and synchronisation points of actions.
 
 #include <gmock/gmock.h>
 
@@ -41,7 +41,7 @@ class VisitorTest : public DramaTest {
   }
   int Count() { return static_cast<int>(State("guest").position.x); }
 
-  // The visitor at a place, looking at a point, for a while.
+  // Keeps the visitor at a place, looking at a point, for some seconds.
   static void Be(Drama& drama, const glm::vec3& position, const glm::vec3& at, double seconds) {
     drama.SetVisitor(
         {.tracked = true, .position = position, .direction = glm::normalize(at - position)});
@@ -101,7 +101,8 @@ TEST_F(VisitorTest, LooksAtNeedsATimeAndForgivesAGlanceElsewhere) {
 }
 
 TEST_F(VisitorTest, LookingIsMeasuredByTheAngleToThePerson) {
-  // 5 m away, knees to eyes: a point beside it by tan(7 deg) is looked at, by tan(9 deg) not.
+  // The target is 5 m away. A look that misses it by 7 degrees counts, one that misses by 9 does
+  // not.
   for (const auto& [degrees, expected] : {std::pair(7.0, 1), std::pair(9.0, 0)}) {
     const auto drama = Counting("visitor:looks_at('keeper', {angle = 8})");
     const auto aside = static_cast<float>(5.0 * std::tan(degrees / 180.0 * M_PI));
@@ -221,7 +222,7 @@ TEST_F(VisitorTest, PeopleGreetAndAddressTheVisitor) {
       guest:place{ y = keeper:address("salvete", {patience = 1}) and 1 or 2 }
     end)");
   Be(*drama, {0.0f, 1.6f, 4.0f}, {0.0f, 1.6f, 9.0f}, 2.0);
-  EXPECT_EQ(State("keeper").performance.gaze.target, glm::vec3(0.0f, 1.6f, 4.0f));
+  EXPECT_EQ(State("keeper").animation_state.gaze.target, glm::vec3(0.0f, 1.6f, 4.0f));
   Be(*drama, {0.0f, 1.6f, 4.0f}, {0.0f, 1.6f, 9.0f}, 4.0);
   EXPECT_NEAR(std::abs(State("keeper").heading), M_PI, 0.05) << "faces them";
   EXPECT_TRUE(State("guest").visible);
@@ -259,7 +260,7 @@ TEST(SyncTimes, TheStrokeOfAGestureIsWhereItIsFurthestFromItsBeginning) {
   human::Clip clip;
   clip.keys_per_second = 10.0f;
   clip.duration = 3.0f;
-  // Rises for 1 s, stays nearly there for 1 s with its height in the middle, sinks for 1 s.
+  // Rises for 1 s, stays near the top for 1 s with the peak in the middle, sinks for 1 s.
   for (int key = 0; key <= 30; ++key) {
     const float t = static_cast<float>(key) / 10.0f;
     const float angle = t < 1.0f   ? t
@@ -406,7 +407,7 @@ TEST_F(VisitorTest, WrongWordsAreBlamedOnTheScript) {
   } kMistakes[] = {
       {"on(3, print)", "give a trigger"},
       {"on(timeout(1), 3)", "give functions"},
-      {"visitor:near('nobody')", "there is nobody and nothing called 'nobody'"},
+      {"visitor:near('nobody')", "there is no actor or object called 'nobody'"},
       {"visitor:near('keeper', -1)", "the distance must be a number"},
       {"visitor:looks_at('keeper', {angle = 200})", "angle must be a number"},
       {"clock('25:00')", "give a time like"},
@@ -465,7 +466,7 @@ TEST_F(VisitorTest, WhatTheLastMessageSaidIsKeptAndSought) {
   EXPECT_EQ(State("guest").position.x, 3.5f);
   ASSERT_TRUE(drama->Seek(0.5).ok());
   EXPECT_EQ(State("guest").position.x, 0.0f);
-  // The log of it, read again, gives the same drama.
+  // Its log, read again, gives the same drama.
   ASSERT_TRUE(drama->Seek(5.0).ok());
   EXPECT_EQ(State("guest").position.x, 3.5f);
   auto log = VisitorLog::Read(drama->visitor_log().Write(), "log");

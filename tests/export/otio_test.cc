@@ -11,13 +11,13 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// What OpenTimelineIO 0.15 serialises of each schema, and of which type: o object, a array,
-// s text, n number, b boolean, m object or null of a name below.
+// The fields that OpenTimelineIO 0.15 serialises for each schema, and their types: o object, a
+// array, s text, n number, b boolean, m object or null of a schema below.
 // (docs/tutorials/otio-serialized-schema.md of its repository.)
 struct Field {
   const char* name;
-  const char* types;                   // letters of what it may be; 0: null
-  std::set<std::string> schemas = {};  // of an object with a schema, or of an array's elements
+  const char* types;                   // Letters of the allowed types; 0: null.
+  std::set<std::string> schemas = {};  // Schemas of the object or of the elements.
 };
 
 const std::map<std::string, std::vector<Field>>& Schemas() {
@@ -73,7 +73,7 @@ char TypeOf(const Json& json) {
                              : '0';
 }
 
-// What is wrong with a document, field by field.
+// Lists the errors of a document, field by field.
 void Validate(const Json& json, const std::string& place, std::vector<std::string>& problems) {
   const std::string schema = json.value("OTIO_SCHEMA", "none");
   const auto found = Schemas().find(schema);
@@ -131,7 +131,7 @@ std::vector<std::string> Problems(const Json& json) {
   return problems;
 }
 
-// Where the clips of a track lie, seconds.
+// The begin of each clip of a track, seconds.
 std::vector<std::pair<std::string, double>> Clips(const Json& track) {
   std::vector<std::pair<std::string, double>> clips;
   double time = 0.0;
@@ -162,7 +162,7 @@ TEST(Otio, IsAsItsSchemasSay) {
   EXPECT_THAT(Problems(otio), IsEmpty());
   EXPECT_EQ(otio["OTIO_SCHEMA"], "Timeline.1");
   EXPECT_THAT(Problems(FormatOtio({})), IsEmpty());
-  // The validator itself finds what is wrong.
+  // Checks that the validator itself finds errors.
   Json bad = otio;
   bad["tracks"]["children"][0]["children"][1].erase("effects");
   bad["tracks"]["children"][1]["kind"] = 3;

@@ -1,10 +1,10 @@
-// libFuzzer harness: whatever the text is, importing it as BML ends, and what comes of it are
-// items of the drama's time.
+// libFuzzer harness: importing any text as BML terminates, and the resulting items lie within the
+// drama's time.
 
 #include <cmath>
 #include <string_view>
 
-#include "editor/import/bml.h"
+#include "editor/import/motion/bml.h"
 #include "shared/core/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,5 +1,5 @@
-// Any bytes as an archive, and as a manifest. (The manifest's CRC-32 and the
-// members' hashes stand between the two: what they guard is reached directly.)
+// libFuzzer harness: any bytes as an archive, and as a manifest. (The manifest's CRC-32 and the
+// members' hashes normally protect the manifest; here it is reached directly.)
 
 #include <span>
 #include <string_view>

@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the text is, reading it as a camera's response and as its
-// traits ends, and what is accepted is valid and survives being written.
+// libFuzzer harness: reading any text as a camera's response and as its traits terminates, and an
+// accepted input is valid and survives being written.
 
 #include <cmath>
 #include <string_view>

@@ -1,12 +1,12 @@
-// libFuzzer harness: whatever the text is, reading it as captions of any kind or as the
-// letters of captions ends, and cues that are accepted are the same again after writing them.
+// libFuzzer harness: reading any text as captions of any kind or as a caption font terminates, and
+// accepted cues are unchanged after writing and reading them.
 
 #include <string_view>
 
 #include "editor/bake/caption_file.h"
 #include "editor/bake/caption_layout.h"
 #include "shared/core/check.h"
-#include "shared/render/caption_font.h"
+#include "shared/render/text/caption_font.h"
 #include "shared/stage/caption_file.h"
 
 using namespace lararium;  // NOLINT(google-build-using-namespace)

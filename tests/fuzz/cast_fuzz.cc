@@ -1,12 +1,12 @@
-// libFuzzer harness: whatever the bytes are, reading them as a recipe and as a mesh of
-// the cast library ends, and what is accepted names only what is there.
+// libFuzzer harness: reading any bytes as a recipe and as a mesh of the cast library terminates,
+// and an accepted input refers only to existing items.
 
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-#include "editor/import/cast_mesh.h"
-#include "editor/import/cast_recipe.h"
+#include "editor/import/cast/cast_mesh.h"
+#include "editor/import/cast/cast_recipe.h"
 #include "shared/core/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,7 +1,6 @@
-// libFuzzer harness: whatever the three files of a COLMAP model hold, parsing them
-// ends, and what it accepts keeps every promise of colmap_model.h and reads back
-// as it is written. The first byte chooses the form, the next four where the
-// files are cut apart.
+// libFuzzer harness: parsing any three files as a COLMAP model terminates. An accepted model keeps
+// every promise of colmap_model.h and reads back as it was written. The first byte chooses the
+// format, the next four the positions at which the input is split into files.
 
 #include <algorithm>
 #include <cstddef>

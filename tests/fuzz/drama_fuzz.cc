@@ -1,4 +1,4 @@
-// Any text as a script: whatever it does, the host lives on.
+// libFuzzer harness: runs any text as a script; the host must survive.
 
 #include <string_view>
 

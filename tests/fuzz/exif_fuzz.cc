@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the bytes are, looking for EXIF data in them ends, and what is
-// found is a possible exposure and focal length.
+// libFuzzer harness: looking for EXIF data in any bytes terminates, and a result is a possible
+// exposure and focal length.
 
 #include <cmath>
 #include <span>

@@ -1,12 +1,12 @@
-// libFuzzer harness: whatever the bytes are, reading them as a garment of a recipe
-// ends, and what is accepted can be cut: its numbers are finite and in range.
+// libFuzzer harness: reading any bytes as a garment of a recipe terminates, and an accepted garment
+// can be cut: its numbers are finite and in range.
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-#include "editor/import/garment/garment_pattern.h"
+#include "editor/import/wardrobe/garment_pattern.h"
 #include "shared/core/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

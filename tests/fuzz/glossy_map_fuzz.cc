@@ -1,5 +1,5 @@
-// libFuzzer harness: a map of reflections whose beginning is whatever the input says, cut or
-// continued as its first byte says, is read or refused; what is accepted can be blended.
+// libFuzzer harness: a reflection map that begins with the input and is cut or padded as its first
+// byte says. It is read or refused; an accepted map can be blended.
 
 #include <algorithm>
 #include <span>

@@ -1,15 +1,15 @@
-// libFuzzer harness: whatever the bytes are, parsing them ends, and what it accepts
-// keeps every promise of human.h, is written and read again, and can be shown: posed,
-// skinned, with its cloth and hair in motion; and so is what is read of it coarsely.
+// libFuzzer harness: parsing any bytes as a human terminates. An accepted human keeps every promise
+// of human.h, can be written and read again, and can be shown: posed, skinned, with cloth and hair
+// in motion. The same holds for a coarse level read from the same bytes.
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "shared/core/check.h"
+#include "shared/human/animator.h"
 #include "shared/human/cloth.h"
 #include "shared/human/human.h"
-#include "shared/human/performance.h"
 #include "shared/human/skinning.h"
 #include "shared/human/spring.h"
 
@@ -19,8 +19,8 @@ namespace {
 constexpr float kTick = 1.0f / 30.0f;
 
 void Show(const std::shared_ptr<const Human>& human) {
-  const auto model = MakePerformanceModel(human);
-  Performer performer(model);
+  const auto model = MakeAnimationRig(human);
+  Animator animator(model);
   Performance performance;
   const ClothModel cloth(*human);
   ClothState cloth_state(cloth);
@@ -29,25 +29,25 @@ void Show(const std::shared_ptr<const Human>& human) {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
   for (int tick = 0; tick < 2; ++tick) {
-    UpdatePerformance(*model, glm::vec3(0.0f, 0.0f, -0.04f * static_cast<float>(tick)), 0.1f, kTick,
-                      {}, performance);
-    performer.Pose(performance);
-    std::vector<JointTransform> pose(performer.pose().begin(), performer.pose().end());
-    std::vector<glm::mat4> actor_from_joint(performer.actor_from_joint().begin(),
-                                            performer.actor_from_joint().end());
+    UpdateAnimationState(*model, glm::vec3(0.0f, 0.0f, -0.04f * static_cast<float>(tick)), 0.1f,
+                         kTick, {}, performance);
+    animator.Pose(performance);
+    std::vector<JointTransform> pose(animator.pose().begin(), animator.pose().end());
+    std::vector<glm::mat4> actor_from_joint(animator.actor_from_joint().begin(),
+                                            animator.actor_from_joint().end());
     StepSprings(springs, {.elapsed = kTick}, spring_state, pose, actor_from_joint);
     StepCloth(cloth, {.actor_from_joint = actor_from_joint, .elapsed = kTick}, cloth_state);
   }
   for (const SkinnedMesh& mesh : human->meshes) {
     positions.resize(mesh.positions.size());
     normals.resize(mesh.positions.size());
-    SkinMesh(mesh, performer.skin(), positions, normals, human->skinning);
+    SkinMesh(mesh, animator.skin(), positions, normals, human->skinning);
   }
   for (size_t i = 0; i < cloth.cloth_count(); ++i) {
     const SkinnedMesh& mesh = human->meshes[human->cloths[i].mesh];
     positions.resize(mesh.positions.size());
     normals.resize(mesh.positions.size());
-    DrapeMesh(cloth, cloth_state, i, mesh, performer.skin(), positions, normals);
+    DrapeMesh(cloth, cloth_state, i, mesh, animator.skin(), positions, normals);
   }
 }
 

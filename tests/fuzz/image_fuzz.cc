@@ -1,4 +1,4 @@
-// libFuzzer harness: whatever the bytes are, a picture is decoded whole or refused.
+// libFuzzer harness: any bytes as a picture are decoded completely or refused.
 
 #include <span>
 

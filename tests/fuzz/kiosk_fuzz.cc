@@ -1,15 +1,15 @@
-// Any text as a device file, as a kiosk's state and statistics, as a command of its staff page, and
-// as the key that shows must be signed with.
+// libFuzzer harness: any text as a device file, as a kiosk's state and statistics, as a command of
+// its staff page, and as the key that shows must be signed with.
 
 #include <cmath>
 #include <span>
 #include <string_view>
 
-#include "player/device_file.h"
-#include "player/kiosk_state.h"
-#include "player/staff_messages.h"
-#include "player/staff_texts.h"
-#include "player/visit_statistics.h"
+#include "player/app/device_file.h"
+#include "player/kiosk/kiosk_state.h"
+#include "player/kiosk/visit_statistics.h"
+#include "player/staff/staff_messages.h"
+#include "player/staff/staff_texts.h"
 #include "shared/bundle/signature.h"
 #include "shared/core/check.h"
 

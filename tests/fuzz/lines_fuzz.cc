@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the text is, reading it as a table of lines or as a catalogue
-// ends, and a table that is accepted is the same again after writing it.
+// libFuzzer harness: reading any text as a table of lines or as a catalogue terminates, and an
+// accepted table is unchanged after writing and reading it.
 
 #include <string_view>
 

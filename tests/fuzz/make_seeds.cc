@@ -1,5 +1,5 @@
-// make_seeds FOLDER: writes one good file of each kind that changes with its format and
-// that a harness starts from, with a little of everything in it.
+// make_seeds FOLDER: writes a valid file of each kind whose format may change and that a harness
+// starts from. Each contains a little of everything.
 
 #include <cstdio>
 #include <filesystem>
@@ -40,7 +40,7 @@ std::string Manifest() {
   return text;
 }
 
-// A WAV of 16 bits and one channel, little-endian.
+// A 16-bit WAV with one channel, little-endian.
 std::vector<std::byte> Wave() {
   std::vector<std::byte> bytes;
   const auto add = [&bytes](uint32_t value, int size) {

@@ -1,16 +1,16 @@
-// libFuzzer harness: whatever the bytes are, our part of reading models ends: the check of
-// glTF's JSON, what VRM adds, and saved bone maps. What the check accepts is written and
-// accepted again. (Assimp itself runs in a child process; see model_isolation.h.)
+// libFuzzer harness: our part of reading models terminates for any bytes: the check of glTF's JSON,
+// the extensions of VRM, and saved bone maps. JSON that the check accepts is written and accepted
+// again. (Assimp itself runs in a child process; see model_isolation.h.)
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
-#include "editor/import/bone_map.h"
-#include "editor/import/joint_names.h"
-#include "editor/import/model_gltf.h"
-#include "editor/import/vrm.h"
+#include "editor/import/model/bone_map.h"
+#include "editor/import/model/joint_names.h"
+#include "editor/import/model/model_gltf.h"
+#include "editor/import/model/vrm.h"
 #include "shared/core/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the text is, reading it as the use of an object ends, and
-// what is accepted keeps every promise of object_use.h and is asked what the stage asks.
+// libFuzzer harness: reading any text as an object's use terminates. An accepted one keeps every
+// promise of object_use.h and answers the stage's queries.
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
-// libFuzzer harness: any packet as Open Sound Control; what is accepted are words that a
-// visitor's log keeps.
+// libFuzzer harness: any packet as Open Sound Control. Accepted messages can be kept in a visitor's
+// log.
 
-#include "player/osc.h"
+#include "player/app/osc.h"
 #include "shared/core/check.h"
 #include "shared/drama/visitor.h"
 

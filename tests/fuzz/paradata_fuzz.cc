@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the text is, reading it as paradata ends, and what is accepted
-// reads again as it was written.
+// libFuzzer harness: reading any text as paradata terminates, and accepted paradata reads back as
+// it was written.
 
 #include <string_view>
 

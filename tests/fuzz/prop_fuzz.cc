@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the bytes are, parsing them ends, and what it accepts
-// keeps every promise of prop.h, is written and read again, and its use is checked.
+// libFuzzer harness: parsing any bytes as a prop terminates. An accepted prop keeps every promise
+// of prop.h, can be written and read again, and its use is checked.
 
 #include <span>
 

@@ -1,4 +1,4 @@
-// libFuzzer harness: whatever the bytes are, a Radiance image is read whole or refused.
+// libFuzzer harness: any bytes as a Radiance image are read completely or refused.
 
 #include <cmath>
 #include <span>

@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the bytes are, parsing them ends, and what it
-// accepts keeps every promise of scene_database.h.
+// libFuzzer harness: parsing any bytes as a map terminates, and an accepted map keeps every promise
+// of scene_database.h.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the bytes are, opening and decoding them as a sound ends, and
-// what is accepted keeps to its limits.
+// libFuzzer harness: opening and decoding any bytes as a sound terminates, and an accepted sound
+// keeps to its limits.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   CHECK(reader->rate() >= SoundReader::kMinRate && reader->rate() <= SoundReader::kMaxRate);
   CHECK(reader->channels() == 1 || reader->channels() == 2);
   CHECK(reader->frames() > 0 && reader->seconds() <= SoundReader::kMaxSeconds);
-  // What a mixer does: a few pieces, a leap, a piece.
+  // Access like a mixer: a few pieces, a seek, a piece.
   std::vector<int16_t> piece(4096);
   for (int i = 0; i < 4; ++i) {
     CHECK(reader->Read(piece) <= piece.size() / static_cast<size_t>(reader->channels()));

@@ -1,9 +1,9 @@
-// libFuzzer harness: whatever the bytes are, a texture is decoded whole, in every size, or refused.
+// libFuzzer harness: any bytes as a texture are decoded completely, at every size, or refused.
 
 #include <span>
 
 #include "shared/core/check.h"
-#include "shared/render/texture_image.h"
+#include "shared/render/gl/texture_image.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using lararium::render::TextureUse;

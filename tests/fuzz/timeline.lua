@@ -1,4 +1,4 @@
--- A seed: lanes of all manners of writing.
+-- A seed: lanes in many ways of writing.
 track{ actor = "keeper", -- who
   speech = { {id = "a", at = 2, length = 1.5, line = "salvete"}; {at = 0x10, line = [[vale]]} },
   gaze = {

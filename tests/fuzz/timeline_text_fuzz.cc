@@ -1,5 +1,5 @@
-// Any text as a drama whose timeline is read and edited: what is read can be edited,
-// and what was edited can be read.
+// libFuzzer harness: any text as a drama whose timeline is read and edited. A timeline that was
+// read can be edited, and the edited text can be read.
 
 #include <string>
 

@@ -1,5 +1,5 @@
-// libFuzzer harness: whatever the text is, reading it as visemes ends, and what is
-// accepted is valid and gives shares at any time.
+// libFuzzer harness: reading any text as visemes terminates, and an accepted track is valid and has
+// weights at any time.
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// Any text as the log of a visitor: what is read is written as it was read.
+// libFuzzer harness: any text as a visitor's log. A log that was read is written unchanged.
 
 #include <string_view>
 

@@ -32,18 +32,17 @@ TEST(CameraModel, ProjectsThePrincipalRayToThePrincipalPoint) {
   EXPECT_FALSE(kFox.Project({0, 0, 0}).has_value());
 }
 
-// Beyond the largest radius up to which the distortion grows, its polynomial comes back into the
-// image.
+// Beyond the radius at which the distortion folds back, its polynomial returns into the image.
 TEST(CameraModel, ShowsNothingFromBeyondTheFoldOfItsDistortion) {
-  CameraModel falling = kBarrel;  // its slope falls below zero
+  CameraModel falling = kBarrel;  // The slope falls below zero.
   falling.k2 = 0.0;
-  CameraModel wavy = kBarrel;  // its slope falls below zero and rises again
+  CameraModel wavy = kBarrel;  // The slope falls below zero and rises again.
   wavy.k1 = -0.4;
   wavy.k2 = 0.045;
   CameraModel fox = kFox;
   for (CameraModel camera : {falling, wavy, fox}) {
     camera.p1 = camera.p2 = 0.0;
-    double fold = 0.0;  // the radius
+    double fold = 0.0;  // radius of the fold
     const auto distorted = [&](double r) {
       return r * (1.0 + camera.k1 * r * r + camera.k2 * r * r * r * r);
     };
@@ -58,7 +57,7 @@ TEST(CameraModel, ShowsNothingFromBeyondTheFoldOfItsDistortion) {
       }
       lands_inside |= r > fold && camera.Contains(camera.PixelFromPlane({0.6 * r, 0.8 * r}));
     }
-    EXPECT_TRUE(lands_inside);  // what the test is about
+    EXPECT_TRUE(lands_inside);  // Makes sure that the case occurs.
   }
 }
 

@@ -4,15 +4,15 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
+#include "shared/core/units.h"
 #include "tests/geometry/lens_oracle.h"
 
 namespace lararium::geometry {
 namespace {
 
-// About as wide as a headset's.
+// A lens with about the field of view of a headset.
 LensModel Wide() {
   LensModel lens{960, 1080, 520.0, 520.0, 500.0, 545.0};
   lens.radial = {{{0.20, 0.05, 0.01}, {0.22, 0.06, 0.01}, {0.25, 0.07, 0.01}}};
@@ -51,13 +51,13 @@ TEST(LensModel, IsUndoneByItsInverseAllOverThePart) {
 }
 
 TEST(LensModel, OfAnglesSpansThem) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const LensModel lens =
-      LensModel::FromAngles(1000, 800, 50 * kDegree, 40 * kDegree, 45 * kDegree, 45 * kDegree);
+      LensModel::FromAngles(1000, 800, 50 * kRadiansPerDegree, 40 * kRadiansPerDegree,
+                            45 * kRadiansPerDegree, 45 * kRadiansPerDegree);
   ASSERT_TRUE(lens.Validate().ok()) << Problem(lens);
   const Eigen::AlignedBox2d box = lens.SeenBox();
-  EXPECT_NEAR(box.min().x(), -std::tan(50 * kDegree), 1e-12);
-  EXPECT_NEAR(box.max().x(), std::tan(40 * kDegree), 1e-12);
+  EXPECT_NEAR(box.min().x(), -std::tan(50 * kRadiansPerDegree), 1e-12);
+  EXPECT_NEAR(box.max().x(), std::tan(40 * kRadiansPerDegree), 1e-12);
   EXPECT_NEAR(box.min().y(), -1.0, 1e-12);
   EXPECT_NEAR(box.max().y(), 1.0, 1e-12);
 }
@@ -102,7 +102,7 @@ TEST(LensModel, SaysWhatIsImpossible) {
             std::string::npos);
   EXPECT_NE(with([](LensModel& l) {
               l.radial[0] = {3.0, 1.0, 1.0};
-            }).find("beside the eye"),
+            }).find("outside the eye's field of view"),
             std::string::npos);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(with([&](LensModel& l) { l.radial[1][2] = nan; }).find("finite"), std::string::npos);

@@ -6,8 +6,8 @@
 
 namespace lararium::test {
 
-// The pixel of the lens's part at which a point of the plane z = 1 is seen: along the ray from the
-// lens's middle, halved until found.
+// Finds the pixel at which a point of the plane z = 1 appears, by bisection along the ray from the
+// lens centre.
 inline Eigen::Vector2d PixelThrough(
     const geometry::LensModel& lens,
     const Eigen::Vector2d& plane,

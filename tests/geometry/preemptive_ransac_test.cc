@@ -14,7 +14,7 @@ struct Line {
   double slope, offset;
 };
 
-// Points on y = 2 x - 1, of which outlier_share lie anywhere.
+// Points on y = 2 x - 1, except a share of outliers at random positions.
 std::vector<Point> PointsOnLine(int count, double outlier_share, Random& random) {
   std::vector<Point> points;
   for (int i = 0; i < count; ++i) {

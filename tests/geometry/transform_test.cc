@@ -59,7 +59,7 @@ TEST(Similarity3, AreEqualWhereEveryNumberIs) {
     if (which == 0) {
       b.scale *= 1.0 + 1e-12;
     } else if (which == 1) {
-      b.rotation.coeffs() = -b.rotation.coeffs();  // turns alike
+      b.rotation.coeffs() = -b.rotation.coeffs();  // same rotation
     } else {
       b.translation.z() += 1e-12;
     }

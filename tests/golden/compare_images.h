@@ -1,6 +1,6 @@
 #pragma once
 
-// Compares pictures within bounds: drivers differ in the last digit.
+// Compares pictures within bounds, because drivers differ in the last digit.
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 namespace lararium::test {
 
 struct ImageBounds {
-  double max = 0.0;   // of the absolute difference, over all pixels and channels
-  double mean = 0.0;  // likewise
+  double max = 0.0;   // Maximum of the absolute difference over all pixels and channels.
+  double mean = 0.0;  // Mean of the absolute difference over all pixels and channels.
 };
 
-// Succeeds when both bounds hold; otherwise says by how much and where.
+// Succeeds if both bounds hold; otherwise the message says by how much and where they are exceeded.
 inline testing::AssertionResult ImagesAgree(const cv::Mat& actual,
                                             const cv::Mat& expected,
                                             const ImageBounds& bounds) {

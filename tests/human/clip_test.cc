@@ -5,16 +5,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
+#include "shared/core/units.h"
 #include "tests/human/two_joint_human.h"
 
 namespace lararium::human {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
-// The angle of a joint of a clip, about whatever axis it turns.
+// Returns the rotation angle of a joint of a clip, about any axis.
 float AngleAt(const Clip& clip, double time, size_t joint) {
   std::vector<JointTransform> pose(2);
   SampleClip(clip, time, pose);
@@ -24,21 +22,21 @@ float AngleAt(const Clip& clip, double time, size_t joint) {
 TEST(SampleClip, InterpolatesBetweenKeys) {
   const Clip bend = TwoJointHuman().clips[0];
   for (const float time : {0.0f, 0.1f, 0.125f, 0.5f, 0.9f, 1.0f}) {
-    EXPECT_NEAR(AngleAt(bend, time, 1), time * kPi / 2.0f, 1e-3f) << time;
+    EXPECT_NEAR(AngleAt(bend, time, 1), time * kPiF / 2.0f, 1e-3f) << time;
   }
 }
 
 TEST(SampleClip, HoldsTheEndsOfAClipThatDoesNotLoop) {
   const Clip bend = TwoJointHuman().clips[0];
   EXPECT_NEAR(AngleAt(bend, -3.0, 1), 0.0f, 1e-3f);
-  EXPECT_NEAR(AngleAt(bend, 99.0, 1), kPi / 2.0f, 1e-3f);
+  EXPECT_NEAR(AngleAt(bend, 99.0, 1), kPiF / 2.0f, 1e-3f);
 }
 
 TEST(SampleClip, WrapsALoopInBothDirections) {
   const Clip turn = TwoJointHuman().clips[1];
-  EXPECT_NEAR(AngleAt(turn, 0.5, 0), kPi / 2.0f, 1e-3f);
-  EXPECT_NEAR(AngleAt(turn, 0.5 + 2.0 * 1000.0, 0), kPi / 2.0f, 1e-3f);
-  EXPECT_NEAR(AngleAt(turn, 0.5 - 2.0, 0), kPi / 2.0f, 1e-3f);
+  EXPECT_NEAR(AngleAt(turn, 0.5, 0), kPiF / 2.0f, 1e-3f);
+  EXPECT_NEAR(AngleAt(turn, 0.5 + 2.0 * 1000.0, 0), kPiF / 2.0f, 1e-3f);
+  EXPECT_NEAR(AngleAt(turn, 0.5 - 2.0, 0), kPiF / 2.0f, 1e-3f);
 }
 
 TEST(SampleClip, SeekingEqualsPlaying) {

@@ -1,5 +1,5 @@
-// Cloth and hair allocate nothing while they move. Its own program: it replaces the
-// global allocator.
+// Cloth and hair allocate nothing while they move. This is a separate program because it replaces
+// the global allocator.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(ClothAllocation, NoStepNorDrapingAllocates) {
   PoseWalker(human, 0.0, walker);
   int allocations = 0;
   for (int i = 0; i < 200; ++i) {
-    PoseWalker(human, i % 90 == 0 ? 20.0 : i / 25.0, walker);  // now and then a cut
+    PoseWalker(human, i % 90 == 0 ? 20.0 : i / 25.0, walker);  // occasionally a cut
     ClothStep step;
     step.actor_from_joint = walker.actor_from_joint;
     step.stage_from_actor = walker.stage_from_actor;
@@ -37,7 +37,7 @@ TEST(ClothAllocation, NoStepNorDrapingAllocates) {
     step.wind.velocity = {2.0f, 0.0f, 0.0f};
     ClothState& moving = state;
     if (i == 120) {
-      state = snapshot;  // a copy has room for as much
+      state = snapshot;  // A copy has the same capacity.
     }
     test::AllocationCounter counter;
     StepSprings(springs, {.stage_from_actor = walker.stage_from_actor, .elapsed = 0.04f},

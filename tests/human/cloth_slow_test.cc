@@ -1,4 +1,4 @@
-// What the bars ask for at length: five minutes of drama, a million jolts.
+// Long versions of the required tests: five minutes of drama, a million jolts.
 
 #include <gtest/gtest.h>
 

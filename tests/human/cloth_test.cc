@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 #include "shared/human/cloth_data.h"
 #include "tests/human/walker.h"
 
@@ -18,13 +18,12 @@ namespace lararium::human {
 namespace {
 
 constexpr float kGravity = 9.81f;
-constexpr float kPi = std::numbers::pi_v<float>;
 const ClothSettings kVacuum{
     .gravity = kGravity, .air_density = 0.0f, .damping = 0.0f, .drops_loose = true};
 const ClothSettings kDroppable{
     .gravity = kGravity, .air_density = 1.2f, .damping = 1.0f, .drops_loose = true};
 
-// A person of one joint that wears one cloth.
+// A person with one joint and one cloth.
 struct Hanging {
   explicit Hanging(Cloth cloth, const ClothSettings& settings = kVacuum)
       : human(Dress(std::move(cloth))), model(human, settings), state(model) {
@@ -46,7 +45,7 @@ struct Hanging {
     return human;
   }
 
-  // At the skin and at rest, not settled.
+  // Starts at the skin, at rest, without settling.
   void Start() {
     step.detail = ClothDetail::kSkinned;
     StepCloth(model, step, state);
@@ -142,7 +141,7 @@ TEST(Cloth, PinnedTriangleSwingsWithThePendulumsPeriod) {
   ASSERT_GE(crossings.size(), 5u);
   const double period =
       (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-  const double expected = 2.0 * double(kPi) * std::sqrt(0.4 / double(kGravity)) *
+  const double expected = 2.0 * double(kPiF) * std::sqrt(0.4 / double(kGravity)) *
                           (1.0 + double(tilt) * double(tilt) / 16.0);
   EXPECT_NEAR(period, expected, 0.005 * expected);
 }
@@ -161,8 +160,8 @@ TEST(Cloth, StripBetweenTwoPinsHangsAsACatenary) {
   }
   Hanging strip(cloth,
                 {.gravity = kGravity, .air_density = 0.0f, .damping = 2.0f, .drops_loose = false});
-  // Brought together by moving one half of the pins: two joints would do; here the skin
-  // of the right-hand pins is that of a second pose, reached in small frames.
+  // The pins are moved together by giving the right-hand pins a second joint, whose pose changes in
+  // small steps.
   Human human = strip.human;
   human.skeleton.names.push_back("right");
   human.skeleton.parents.push_back(Skeleton::kNoParent);
@@ -200,8 +199,8 @@ TEST(Cloth, StripBetweenTwoPinsHangsAsACatenary) {
   }
 }
 
-// The work of a hinge is chord^2 / (2 compliance), so that the moment of a weight at
-// the arm's end gives tan(angle) = compliance * weight * arm.
+// The energy of a hinge is chord^2 / (2 compliance). The moment of a weight at the arm's end thus
+// gives tan(angle) = compliance * weight * arm.
 TEST(Cloth, HingeBendsUnderAWeightByItsCompliance) {
   Cloth cloth;
   const float h = 0.1f * std::sqrt(3.0f) / 2.0f;  // equilateral triangles of 10 cm
@@ -245,7 +244,7 @@ TEST(Cloth, SwingingSheetGainsNoEnergy) {
     cloth.reach[column] = 0.0f;
   }
   for (glm::vec3& p : cloth.positions) {
-    p = {p.x, 0.0f, p.y};  // held out level, then let go
+    p = {p.x, 0.0f, p.y};  // held level, then released
   }
   Hanging sheet(cloth);
   const double start = Energy(sheet.model, sheet.state);
@@ -592,7 +591,7 @@ TEST(Cloth, SeamsOfTheDrawnMeshStayClosed) {
   Human human = SkirtedWalker(16, 8);
   SkinnedMesh& mesh = human.meshes[0];
   Cloth& cloth = human.cloths[0];
-  // Two vertices at one place, bound to the triangles on either side of an edge.
+  // Two vertices at the same position, bound to the triangles on both sides of an edge.
   for (const uint32_t triangle : {20u, 21u}) {
     mesh.positions.push_back(0.5f * (mesh.positions[40] + mesh.positions[56]) +
                              glm::vec3(0.01f, 0.0f, 0.0f));
@@ -619,8 +618,8 @@ TEST(Cloth, SeamsOfTheDrawnMeshStayClosed) {
   }
 }
 
-// A capsule is a rough body: where the skin that is drawn stands out of it, cloth does
-// too.
+// A capsule is only a rough body. If the drawn skin is outside it, the cloth must stay outside the
+// skin.
 TEST(Cloth, LiesOnSkinThatStandsOutOfItsCapsule) {
   std::array<float, 2> heights = {};
   for (const bool has_skin : {false, true}) {

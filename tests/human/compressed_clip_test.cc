@@ -22,7 +22,7 @@ float AngleBetween(const glm::quat& a, const glm::quat& b) {
                                    1.0f));
 }
 
-// Smooth motions of a third of the joints by rotation, of two by translation.
+// Smooth rotations of a third of the joints and translations of two joints.
 Clip Swaying(uint64_t seed) {
   Random random(seed);
   Clip clip{"sway", 2.0f, 30.0f, true, 0.0f, Pose(kKeys * kJoints)};
@@ -32,7 +32,7 @@ Clip Swaying(uint64_t seed) {
     const glm::quat base = TurnBy(3.0f * axis);
     const auto turns = static_cast<float>(1 + random.Below(3));
     for (int key = 0; key < kKeys; ++key) {
-      const float angle = turns * 2.0f * kPi * static_cast<float>(key) / (kKeys - 1);
+      const float angle = turns * 2.0f * kPiF * static_cast<float>(key) / (kKeys - 1);
       JointTransform& at = clip.keys[static_cast<size_t>(key) * kJoints + joint];
       at.rotation = joint % 3 == 0 ? base * TurnBy(0.8f * std::sin(angle) * axis) : base;
       at.translation = glm::vec3(0.1f, 0.2f, 0.3f);

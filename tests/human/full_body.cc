@@ -13,7 +13,7 @@ namespace {
 struct Joint {
   const char* name;
   const char* parent;
-  glm::vec3 position;  // at rest, actor frame; of the right side where there are two
+  glm::vec3 position;  // rest position, actor frame; right side of pairs
 };
 
 constexpr Joint kMiddle[] = {
@@ -38,7 +38,7 @@ constexpr Joint kPaired[] = {
     {"sternoclavicular", "vt4", {0.020f, 1.41f, -0.030f}},
 };
 
-// The arm along +X from the shoulder, the palm down; turned down afterwards.
+// The arm along +X from the shoulder, palm down; it is lowered afterwards.
 constexpr glm::vec3 kShoulder(0.17f, 1.41f, 0.01f);
 constexpr Joint kArm[] = {
     {"shoulder", "sternoclavicular", kShoulder},

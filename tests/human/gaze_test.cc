@@ -7,23 +7,23 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "shared/human/performance.h"
+#include "shared/core/units.h"
+#include "shared/human/animator.h"
 #include "shared/human/turns.h"
 #include "tests/human/full_body.h"
 
 namespace lararium::human {
 namespace {
 
-constexpr float kTick = 1.0f / 120.0f;
-constexpr float kDegree = kPi / 180.0f;
+constexpr float kGazeTick = 1.0f / 120.0f;
 
-// Somebody who looks, posed as they are drawn.
+// A person who looks at targets, posed as drawn.
 class Looker {
  public:
   explicit Looker(uint64_t axes = 8, uint64_t seed = 1)
       : human_(std::make_shared<Human>(FullBody(0.7f, axes))),
-        model_(MakePerformanceModel(human_)),
-        performer_(model_) {
+        model_(MakeAnimationRig(human_)),
+        animator_(model_) {
     performance_.seed = seed;
   }
 
@@ -32,53 +32,53 @@ class Looker {
     performance_.gaze.target = target;
   }
   void Wait(float seconds) {
-    for (float time = 0.0f; time < seconds; time += kTick) {
+    for (float time = 0.0f; time < seconds; time += kGazeTick) {
       Tick();
     }
   }
   void Tick() {
-    UpdatePerformance(*model_, position_, heading_, kTick, {}, performance_);
-    performer_.Pose(performance_);
+    UpdateAnimationState(*model_, position_, heading_, kGazeTick, {}, performance_);
+    animator_.Pose(performance_);
   }
   void Move(const glm::vec3& position, float heading) {
     position_ = position;
     heading_ = heading;
   }
 
-  // The angle between where an eye looks and a point of the stage.
+  // Angle between the direction of an eye and a point of the stage.
   float Error(int side, const glm::vec3& target) const {
     const JointFrame eye = Frame(body().eyes[static_cast<size_t>(side)]);
     const glm::vec3 in_actor = TurnY(-heading_) * (target - position_);
     const glm::vec3 wanted = glm::normalize(in_actor - eye.position);
-    return std::acos(std::clamp(glm::dot(Sight(side), wanted), -1.0f, 1.0f));
+    return std::acos(std::clamp(glm::dot(GazeDirection(side), wanted), -1.0f, 1.0f));
   }
-  // Where an eye looks, in the actor frame and in the head's.
-  glm::vec3 Sight(int side) const {
+  // Direction of an eye, in the actor frame and in the head's.
+  glm::vec3 GazeDirection(int side) const {
     return Turned(body().eyes[static_cast<size_t>(side)]) * glm::vec3(0, 0, -1);
   }
-  glm::vec3 SightInHead(int side) const {
-    return glm::conjugate(Turned(body().head)) * Sight(side);
+  glm::vec3 GazeInHead(int side) const {
+    return glm::conjugate(Turned(body().head)) * GazeDirection(side);
   }
   glm::vec3 HeadInChest() const {
     return glm::conjugate(Turned(body().chest())) * (Turned(body().head) * glm::vec3(0, 0, -1));
   }
 
   Gaze& gaze() { return performance_.gaze; }
-  Performance& performance() { return performance_; }
+  AnimationState& animation_state() { return performance_; }
 
  private:
-  const Body& body() const { return model_->locomotion.body; }
+  const BodyRig& body() const { return model_->locomotion.body; }
   JointFrame Frame(JointIndex joint) const {
-    return ActorFromJoint(human_->skeleton, performer_.pose(), joint);
+    return ActorFromJoint(human_->skeleton, animator_.pose(), joint);
   }
   glm::quat Turned(JointIndex joint) const {
     return Frame(joint).rotation * glm::conjugate(body().rest[static_cast<size_t>(joint)].rotation);
   }
 
   std::shared_ptr<const Human> human_;
-  std::shared_ptr<const PerformanceModel> model_;
-  Performer performer_;
-  Performance performance_;
+  std::shared_ptr<const AnimationRig> model_;
+  Animator animator_;
+  AnimationState performance_;
   glm::vec3 position_ = glm::vec3(0.0f);
   float heading_ = 0.0f;
 };
@@ -90,8 +90,8 @@ TEST(Gaze, IsWithinTwoDegreesOfItsTargetInsideLimits) {
   Looker looker;
   for (const float yaw : {-100.0f, -50.0f, -20.0f, -5.0f, 0.0f, 8.0f, 30.0f, 70.0f, 110.0f}) {
     for (const float pitch : {-35.0f, -10.0f, 0.0f, 20.0f}) {
-      const glm::vec3 way =
-          TurnY(yaw * kDegree) * (TurnX(pitch * kDegree) * glm::vec3(0, 0, -1.5f));
+      const glm::vec3 way = TurnY(yaw * kRadiansPerDegreeF) *
+                            (TurnX(pitch * kRadiansPerDegreeF) * glm::vec3(0, 0, -1.5f));
       const glm::vec3 target = glm::vec3(0.0f, 1.63f, 0.0f) + way;
       looker.Look(GazeKind::kObject, target);
       looker.Wait(1.5f);
@@ -100,7 +100,7 @@ TEST(Gaze, IsWithinTwoDegreesOfItsTargetInsideLimits) {
         looker.Tick();
         worst = std::max({worst, looker.Error(kRight, target), looker.Error(kLeft, target)});
       }
-      EXPECT_LT(worst, 2.0f * kDegree) << yaw << " " << pitch;
+      EXPECT_LT(worst, 2.0f * kRadiansPerDegreeF) << yaw << " " << pitch;
     }
   }
 }
@@ -117,7 +117,7 @@ TEST(Gaze, StaysOnItsTargetWhileTheBodyMoves) {
     looker.Tick();
     worst = std::max({worst, looker.Error(kRight, target), looker.Error(kLeft, target)});
   }
-  EXPECT_LT(worst, 2.0f * kDegree);
+  EXPECT_LT(worst, 2.0f * kRadiansPerDegreeF);
 }
 
 TEST(Gaze, NeverLeavesAnatomicalLimits) {
@@ -130,13 +130,13 @@ TEST(Gaze, NeverLeavesAnatomicalLimits) {
     for (int tick = 0; tick < 90; ++tick) {
       looker.Tick();
       for (const int side : {kRight, kLeft}) {
-        const glm::vec3 eye = looker.SightInHead(side);
-        EXPECT_LT(std::abs(Yaw(eye)), GazeLimits::kEyeYaw + 0.5f * kDegree);
-        EXPECT_LT(Pitch(eye), GazeLimits::kEyeUp + 0.5f * kDegree);
-        EXPECT_GT(Pitch(eye), -GazeLimits::kEyeDown - 0.5f * kDegree);
+        const glm::vec3 eye = looker.GazeInHead(side);
+        EXPECT_LT(std::abs(Yaw(eye)), GazeLimits::kEyeYaw + 0.5f * kRadiansPerDegreeF);
+        EXPECT_LT(Pitch(eye), GazeLimits::kEyeUp + 0.5f * kRadiansPerDegreeF);
+        EXPECT_GT(Pitch(eye), -GazeLimits::kEyeDown - 0.5f * kRadiansPerDegreeF);
       }
-      EXPECT_LT(std::abs(Yaw(looker.HeadInChest())), 75.0f * kDegree);
-      EXPECT_LT(std::abs(Pitch(looker.HeadInChest())), 50.0f * kDegree);
+      EXPECT_LT(std::abs(Yaw(looker.HeadInChest())), 75.0f * kRadiansPerDegreeF);
+      EXPECT_LT(std::abs(Pitch(looker.HeadInChest())), 50.0f * kRadiansPerDegreeF);
     }
   }
 }
@@ -147,12 +147,12 @@ TEST(Gaze, MovesTheEyesBeforeTheHead) {
   looker.Wait(2.0f);
   const glm::vec3 target = glm::vec3(-1.5f, 1.63f, -1.5f);  // 45 degrees to the left
   looker.Look(GazeKind::kObject, target);
-  float eyes = 0.0f, head = 0.0f;  // seconds until each has gone half its way
+  float eyes = 0.0f, head = 0.0f;  // seconds until half of the motion
   for (int tick = 0; tick < 240; ++tick) {
     looker.Tick();
-    const float now = kTick * static_cast<float>(tick);
-    eyes = eyes == 0.0f && Yaw(looker.SightInHead(kRight)) > 15.0f * kDegree ? now : eyes;
-    head = head == 0.0f && looker.gaze().head.x > 12.0f * kDegree ? now : head;
+    const float now = kGazeTick * static_cast<float>(tick);
+    eyes = eyes == 0.0f && Yaw(looker.GazeInHead(kRight)) > 15.0f * kRadiansPerDegreeF ? now : eyes;
+    head = head == 0.0f && looker.gaze().head.x > 12.0f * kRadiansPerDegreeF ? now : head;
   }
   EXPECT_GT(eyes, 0.0f);
   EXPECT_GT(head, eyes + 0.03f);
@@ -162,7 +162,7 @@ TEST(Gaze, DoesNotTurnTheHeadForWhatIsNearby) {
   Looker looker;
   looker.Look(GazeKind::kObject, glm::vec3(0.0f, 1.63f, -2.0f) + glm::vec3(0.35f, 0.0f, 0.0f));
   looker.Wait(2.0f);  // 10 degrees
-  EXPECT_LT(std::abs(looker.gaze().head.x), 1.0f * kDegree);
+  EXPECT_LT(std::abs(looker.gaze().head.x), 1.0f * kRadiansPerDegreeF);
 }
 
 TEST(Gaze, LooksAwayFromEyesNowAndThen) {
@@ -172,7 +172,7 @@ TEST(Gaze, LooksAwayFromEyesNowAndThen) {
   bool was_away = false;
   for (int tick = 0; tick < 60 * 120; ++tick) {
     looker.Tick();
-    const bool now = looker.Error(kRight, looker.gaze().target) > 4.0f * kDegree;
+    const bool now = looker.Error(kRight, looker.gaze().target) > 4.0f * kRadiansPerDegreeF;
     away += now ? 1 : 0;
     glances += now && !was_away ? 1 : 0;
     was_away = now;
@@ -187,12 +187,12 @@ TEST(Gaze, BlinksAsOftenAsPeopleDo) {
   int blinks = 0;
   bool closed = false;
   for (int tick = 0; tick < 180 * 120; ++tick) {
-    UpdateGaze(MakeGazeModel(Body()), glm::vec3(0.0f), 0.0f, 3, kTick, looker.gaze());
+    UpdateGaze(MakeGazeModel(BodyRig()), glm::vec3(0.0f), 0.0f, 3, kGazeTick, looker.gaze());
     const bool now = looker.gaze().lids > 0.9f;
     blinks += now && !closed ? 1 : 0;
     closed = now;
   }
-  EXPECT_GT(blinks, 3 * 12);  // in three minutes
+  EXPECT_GT(blinks, 3 * 12);  // three minutes
   EXPECT_LT(blinks, 3 * 24);
 }
 
@@ -210,7 +210,7 @@ TEST(Gaze, GivesUpOnWhatIsBehind) {
   Looker looker;
   looker.Look(GazeKind::kObject, glm::vec3(0.05f, 1.6f, 2.0f));
   looker.Wait(2.0f);
-  EXPECT_LT(std::abs(Yaw(looker.Sight(kRight))), 40.0f * kDegree);
+  EXPECT_LT(std::abs(Yaw(looker.GazeDirection(kRight))), 40.0f * kRadiansPerDegreeF);
 }
 
 }  // namespace

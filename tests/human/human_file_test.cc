@@ -141,7 +141,7 @@ TEST(HumanFile, RoundTripKeepsTheLightTransfer) {
   EXPECT_EQ(light.meshes[0].backs, human.light.meshes[0].backs);
 }
 
-// Of wool, with a level that leaves the last vertex out.
+// A human with a coarser level that leaves out the last vertex.
 Human WithACoarserLevel() {
   Human human = RichHuman();
   human.meshes[0].coarser = {{0.01f, {0, 1, 2}}, {0.5f, {}}};

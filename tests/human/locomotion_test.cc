@@ -8,39 +8,39 @@
 #include <memory>
 #include <vector>
 
+#include "shared/human/animator.h"
 #include "shared/human/gait.h"
-#include "shared/human/performance.h"
 #include "shared/human/turns.h"
 #include "tests/human/full_body.h"
 
 namespace lararium::human {
 namespace {
 
-constexpr float kTick = 1.0f / 120.0f;
+constexpr float kWalkTick = 1.0f / 120.0f;
 
-// A person who goes where a test says, a tick at a time, and what they look like.
+// A person who walks as a test says, tick by tick, and the drawn pose.
 class Walk {
  public:
   explicit Walk(const Human& human, FloorHeight floor = {})
-      : model_(MakePerformanceModel(std::make_shared<Human>(human))),
-        performer_(model_),
+      : model_(MakeAnimationRig(std::make_shared<Human>(human))),
+        animator_(model_),
         floor_(std::move(floor)) {
     performance_.seed = 7;
     Step(0.0f, 0.0f);
   }
 
-  // Goes on for a tick: forward and turn in m/s and rad/s.
+  // Advances one tick; speed is forward, in m/s, and turn_rate in rad/s.
   void Step(float speed, float turn_rate) {
     previous_ = performance_;
-    heading_ += turn_rate * kTick;
-    position_ += speed * kTick * (TurnY(heading_) * glm::vec3(0.0f, 0.0f, -1.0f));
-    UpdatePerformance(*model_, position_, heading_, kTick, floor_, performance_);
+    heading_ += turn_rate * kWalkTick;
+    position_ += speed * kWalkTick * (TurnY(heading_) * glm::vec3(0.0f, 0.0f, -1.0f));
+    UpdateAnimationState(*model_, position_, heading_, kWalkTick, floor_, performance_);
   }
 
-  // As drawn between the last two ticks.
+  // Draws the pose between the last two ticks.
   void Draw(float alpha) {
     shown_ = Interpolate(previous_, performance_, alpha);
-    performer_.Pose(shown_);
+    animator_.Pose(shown_);
   }
 
   glm::vec3 Stage(const glm::vec3& actor) const {
@@ -48,36 +48,36 @@ class Walk {
     return at.position + TurnY(at.heading) * actor;
   }
   glm::vec3 InActor(JointIndex joint) const {
-    return glm::vec3(performer_.actor_from_joint()[static_cast<size_t>(joint)][3]);
+    return glm::vec3(animator_.actor_from_joint()[static_cast<size_t>(joint)][3]);
   }
   glm::vec3 InStage(JointIndex joint) const { return Stage(InActor(joint)); }
 
-  const Body& body() const { return model_->locomotion.body; }
-  const PerformanceModel& model() const { return *model_; }
-  const Performance& shown() const { return shown_; }
-  Performance& performance() { return performance_; }
-  const Performer& performer() const { return performer_; }
+  const BodyRig& body() const { return model_->locomotion.body; }
+  const AnimationRig& model() const { return *model_; }
+  const AnimationState& shown() const { return shown_; }
+  AnimationState& animation_state() { return performance_; }
+  const Animator& animator() const { return animator_; }
   float walked() const { return glm::length(position_); }
   glm::vec3 position() const { return position_; }
 
  private:
-  std::shared_ptr<const PerformanceModel> model_;
-  Performer performer_;
-  Performance performance_, previous_, shown_;
+  std::shared_ptr<const AnimationRig> model_;
+  Animator animator_;
+  AnimationState performance_, previous_, shown_;
   FloorHeight floor_;
   glm::vec3 position_ = glm::vec3(0.0f);
   float heading_ = 0.0f;
 };
 
-// Records by how much each planted foot moves from landing to leaving: the joint at its
-// ball while the toes are down, the ankle while the sole is flat.
+// Records the slide of each planted foot from landing to leaving: at the joint of the ball while
+// the toes are down, and at the ankle while the sole is flat.
 class SlideMeter {
  public:
   void Look(const Walk& walk) {
     for (int side = 0; side < 2; ++side) {
       const auto s = static_cast<size_t>(side);
       const Locomotion::Foot& foot = walk.shown().locomotion.feet[s];
-      const Body::Leg& leg = walk.body().legs[s];
+      const BodyRig::Leg& leg = walk.body().legs[s];
       if (!foot.planted) {
         ball_[s].Lift(slides_);
         ankle_[s].Lift(slides_);
@@ -124,7 +124,7 @@ class SlideMeter {
   std::vector<float> slides_;
 };
 
-// Twenty metres with curves to both sides, a turn on the spot and all speeds.
+// Walks twenty metres with curves to both sides, a turn on the spot and all speeds.
 template <typename Each>
 void WalkTwentyMetres(Walk& walk, const Each& each) {
   struct Leg {
@@ -136,9 +136,9 @@ void WalkTwentyMetres(Walk& walk, const Each& each) {
                            {2.0f, 1.2f, -0.8f}, {3.0f, 1.0f, 0.4f},  {1.5f, 0.0f, 0.0f}};
   float speed = 0.0f, turn_rate = 0.0f;
   for (const Leg& leg : kLegs) {
-    for (float time = 0.0f; time < leg.seconds; time += kTick) {
-      speed += std::clamp(leg.speed - speed, -2.5f * kTick, 2.5f * kTick);
-      turn_rate += std::clamp(leg.turn_rate - turn_rate, -8.0f * kTick, 8.0f * kTick);
+    for (float time = 0.0f; time < leg.seconds; time += kWalkTick) {
+      speed += std::clamp(leg.speed - speed, -2.5f * kWalkTick, 2.5f * kWalkTick);
+      turn_rate += std::clamp(leg.turn_rate - turn_rate, -8.0f * kWalkTick, 8.0f * kWalkTick);
       walk.Step(speed, turn_rate);
       each();
     }
@@ -177,10 +177,10 @@ TEST(Locomotion, StepsAreAsLongAsTheSpeedAsks) {
     std::array<bool, 2> stood = {true, true};
     const float begin = walk.walked();
     constexpr float kSeconds = 12.0f;
-    for (float time = 0.0f; time < kSeconds; time += kTick) {
+    for (float time = 0.0f; time < kSeconds; time += kWalkTick) {
       walk.Step(speed, 0.0f);
       for (size_t side = 0; side < 2; ++side) {
-        const bool stands = walk.performance().locomotion.feet[side].planted;
+        const bool stands = walk.animation_state().locomotion.feet[side].planted;
         steps += stands && !stood[side] ? 1 : 0;
         stood[side] = stands;
       }
@@ -195,9 +195,9 @@ TEST(Locomotion, BendsKneesOnlyBackwardsAndLikeWalkers) {
   Walk walk(FullBody(0.6f, 5));
   float most = 0.0f;
   for (int tick = 0; tick < 8 * 120; ++tick) {
-    walk.Step(std::min(1.3f, 2.0f * kTick * static_cast<float>(tick)), 0.0f);
+    walk.Step(std::min(1.3f, 2.0f * kWalkTick * static_cast<float>(tick)), 0.0f);
     walk.Draw(1.0f);
-    for (const Body::Leg& leg : walk.body().legs) {
+    for (const BodyRig::Leg& leg : walk.body().legs) {
       const glm::vec3 hip = walk.InActor(leg.hip), knee = walk.InActor(leg.knee);
       const glm::vec3 ankle = walk.InActor(leg.ankle);
       const glm::vec3 bend = glm::cross(knee - hip, ankle - knee);
@@ -217,18 +217,18 @@ TEST(Locomotion, KeepsToesOffTheFloorInSwing) {
     Walk walk(FullBody(0.6f, 0));
     float lowest = 1.0f;
     for (int tick = 0; tick < 6 * 120; ++tick) {
-      walk.Step(std::min(speed, 2.0f * kTick * static_cast<float>(tick)), 0.0f);
+      walk.Step(std::min(speed, 2.0f * kWalkTick * static_cast<float>(tick)), 0.0f);
       walk.Draw(1.0f);
       for (size_t side = 0; side < 2; ++side) {
         const Locomotion::Foot& foot = walk.shown().locomotion.feet[side];
         if (!foot.planted && foot.swing > 0.3f && foot.swing < 0.9f) {
-          const Body::Leg& leg = walk.body().legs[side];
+          const BodyRig::Leg& leg = walk.body().legs[side];
           lowest = std::min(lowest, walk.InStage(leg.toes[0]).y - leg.ball.y);
         }
       }
     }
     EXPECT_GT(lowest, 0.004f) << speed;
-    EXPECT_LT(lowest, 0.05f) << speed;  // and does not march
+    EXPECT_LT(lowest, 0.05f) << speed;  // not marching
   }
 }
 
@@ -262,9 +262,9 @@ TEST(Locomotion, StandsStillWithBothFeetFlatUnderTheHips) {
   for (int tick = 0; tick < 360; ++tick) {
     walk.Step(0.0f, 0.0f);
   }
-  const Locomotion before = walk.performance().locomotion;
+  const Locomotion before = walk.animation_state().locomotion;
   walk.Step(0.0f, 0.0f);
-  const Locomotion after = walk.performance().locomotion;
+  const Locomotion after = walk.animation_state().locomotion;
   EXPECT_FALSE(after.stepping);
   for (size_t side = 0; side < 2; ++side) {
     EXPECT_TRUE(after.feet[side].planted);
@@ -284,8 +284,8 @@ TEST(Locomotion, TurnsOnTheSpotInSteps) {
     meter.Look(walk);
     for (const Locomotion::Foot& foot : walk.shown().locomotion.feet) {
       const float turned =
-          std::remainder(foot.print.heading - walk.shown().locomotion.heading, 2.0f * kPi);
-      EXPECT_LT(std::abs(turned), 1.1f);  // no leg is wrung
+          std::remainder(foot.print.heading - walk.shown().locomotion.heading, 2.0f * kPiF);
+      EXPECT_LT(std::abs(turned), 1.1f);  // No leg is twisted.
     }
   }
   EXPECT_GE(meter.steps(), 4u);
@@ -303,7 +303,7 @@ TEST(Locomotion, FollowsAFloorThatIsNotLevel) {
     for (size_t side = 0; side < 2; ++side) {
       const Locomotion::Foot& foot = walk.shown().locomotion.feet[side];
       if (foot.planted && std::abs(foot.pitch) < 1e-6f) {
-        const Body::Leg& leg = walk.body().legs[side];
+        const BodyRig::Leg& leg = walk.body().legs[side];
         const glm::vec3 ball = walk.InStage(leg.toes[0]);
         EXPECT_NEAR(ball.y - leg.ball.y, floor(ball.x, ball.z), 0.012f);
       }
@@ -313,12 +313,12 @@ TEST(Locomotion, FollowsAFloorThatIsNotLevel) {
 }
 
 TEST(Locomotion, PutsTheFeetDownAnewAfterATeleport) {
-  const auto model = MakePerformanceModel(std::make_shared<Human>(FullBody(0.6f, 0)));
+  const auto model = MakeAnimationRig(std::make_shared<Human>(FullBody(0.6f, 0)));
   Locomotion state;
-  UpdateLocomotion(model->locomotion, glm::vec3(0.0f), 0.0f, kTick, {}, state);
+  UpdateLocomotion(model->locomotion, glm::vec3(0.0f), 0.0f, kWalkTick, {}, state);
   const Locomotion before = state;
   const glm::vec3 there(3.0f, 0.0f, -4.0f);
-  UpdateLocomotion(model->locomotion, there, 1.0f, kTick, {}, state);
+  UpdateLocomotion(model->locomotion, there, 1.0f, kWalkTick, {}, state);
   for (const Locomotion::Foot& foot : state.feet) {
     EXPECT_TRUE(foot.planted);
     EXPECT_LT(glm::distance(foot.print.position, there), 0.2f);
@@ -331,7 +331,7 @@ TEST(Locomotion, LooksTheSameWhereverOneSeeks) {
   Walk played(FullBody(0.6f, 0)), replayed(FullBody(0.6f, 0));
   WalkTwentyMetres(played, [] {});
   WalkTwentyMetres(replayed, [] {});
-  EXPECT_EQ(played.performance(), replayed.performance());
+  EXPECT_EQ(played.animation_state(), replayed.animation_state());
 }
 
 // The greatest acceleration of a joint over a walk, m/s^2.
@@ -339,7 +339,7 @@ class JoltMeter {
  public:
   void Look(const glm::vec3& at) {
     if (++looks_ > 2) {
-      worst_ = std::max(worst_, glm::length(at - 2.0f * last_ + before_) / (kTick * kTick));
+      worst_ = std::max(worst_, glm::length(at - 2.0f * last_ + before_) / (kWalkTick * kWalkTick));
     }
     before_ = last_;
     last_ = at;
@@ -368,11 +368,11 @@ TEST(Locomotion, MovesWithoutJolts) {
 TEST(Locomotion, CarriesTheHeadEvenlyAtAnySpeed) {
   for (const float speed : {0.3f, 0.7f, 1.0f, 1.3f}) {
     Walk walk(FullBody(0.6f, 0));
-    walk.performance().vigour = 0.0f;
+    walk.animation_state().idle_intensity = 0.0f;
     JoltMeter head;
     float low = 10.0f, high = 0.0f;
     for (int tick = 0; tick < 8 * 120; ++tick) {
-      walk.Step(std::min(speed, kTick * static_cast<float>(tick)), 0.0f);
+      walk.Step(std::min(speed, kWalkTick * static_cast<float>(tick)), 0.0f);
       walk.Draw(1.0f);
       if (tick > 3 * 120) {
         const glm::vec3 at = walk.InStage(walk.body().head);
@@ -394,7 +394,7 @@ TEST(Locomotion, LeavesAFigureWithoutLegsAtRest) {
   Walk walk(human);
   walk.Step(1.0f, 0.0f);
   walk.Draw(1.0f);
-  const Body& body = walk.body();
+  const BodyRig& body = walk.body();
   EXPECT_FALSE(body.walks());
   EXPECT_LT(glm::distance(walk.InActor(body.legs[kRight].ankle),
                           body.rest[static_cast<size_t>(body.legs[kRight].ankle)].position),
@@ -406,10 +406,10 @@ TEST(GaitStyleNamed, MakesPeopleWalkDifferentlyWithoutSliding) {
     Walk walk(FullBody(0.6f, 0));
     const auto style = GaitStyleNamed(name);
     ASSERT_TRUE(style.has_value()) << name;
-    walk.performance().locomotion.style = *style;
+    walk.animation_state().locomotion.style = *style;
     SlideMeter meter;
     for (int tick = 0; tick < 6 * 120; ++tick) {
-      walk.Step(std::min(0.9f, kTick * static_cast<float>(tick)), 0.2f);
+      walk.Step(std::min(0.9f, kWalkTick * static_cast<float>(tick)), 0.2f);
       walk.Draw(0.5f);
       meter.Look(walk);
     }

@@ -15,7 +15,7 @@ namespace {
 
 using Pose = std::vector<JointTransform>;
 
-float AngleBetween(const glm::quat& a, const glm::quat& b) {
+float GripAngle(const glm::quat& a, const glm::quat& b) {
   return 2.0f * std::acos(std::min(std::abs(glm::dot(a, b)), 1.0f));
 }
 
@@ -23,7 +23,7 @@ GripFrame Grip(float x, float y, float z, const glm::quat& rotation = kNoTurn) {
   return {glm::vec3(x, y, z), rotation};
 }
 
-// Both hands at their grips, as whoever poses people does it.
+// Moves both hands to their grips, as the Animator does.
 void ApplyBoth(const ReachModel& model,
                const Skeleton& skeleton,
                const std::array<Reach, 2>& reaches,
@@ -36,8 +36,8 @@ void ApplyBoth(const ReachModel& model,
 
 TEST(TwoBoneIk, BringsTheEndToAnyTargetWithinReach) {
   const Human human = FullBody(0.4f, 5);
-  const Body body = MakeBody(human.skeleton);
-  const Body::Arm& arm = body.arms[kRight];
+  const BodyRig body = MakeBodyRig(human.skeleton);
+  const BodyRig::Arm& arm = body.arms[kRight];
   const glm::vec3 shoulder = body.rest[static_cast<size_t>(arm.shoulder)].position;
   Random random(2);
   for (int i = 0; i < 200; ++i) {
@@ -65,8 +65,8 @@ TEST(TwoBoneIk, BringsTheEndToAnyTargetWithinReach) {
 
 TEST(TwoBoneIk, StretchesSoftlyTowardsWhatIsTooFar) {
   const Human human = FullBody(0.4f, 0);
-  const Body body = MakeBody(human.skeleton);
-  const Body::Arm& arm = body.arms[kRight];
+  const BodyRig body = MakeBodyRig(human.skeleton);
+  const BodyRig::Arm& arm = body.arms[kRight];
   const glm::vec3 shoulder = body.rest[static_cast<size_t>(arm.shoulder)].position;
   const float length = arm.upper_length + arm.lower_length;
   float before = 0.0f;
@@ -86,17 +86,17 @@ TEST(TwoBoneIk, StretchesSoftlyTowardsWhatIsTooFar) {
 
 TEST(Reach, PutsThePalmWithinFiveMillimetresOfEveryGripAtHand) {
   const GripFrame grips[] = {Grip(0.20f, 1.00f, -0.45f),
-                             Grip(0.15f, 1.05f, -0.50f, TurnZ(-kPi / 2)),
-                             Grip(0.10f, 1.00f, -0.80f, TurnZ(-kPi / 2)),
+                             Grip(0.15f, 1.05f, -0.50f, TurnZ(-kPiF / 2)),
+                             Grip(0.10f, 1.00f, -0.80f, TurnZ(-kPiF / 2)),
                              Grip(0.30f, 1.85f, -0.25f, TurnX(1.0f)),
-                             Grip(0.25f, 0.45f, -0.40f, TurnZ(-kPi / 2)),
+                             Grip(0.25f, 0.45f, -0.40f, TurnZ(-kPiF / 2)),
                              Grip(0.20f, 0.10f, -0.35f),
                              Grip(-0.25f, 1.10f, -0.35f, TurnY(0.6f)),
                              Grip(0.06f, 1.50f, -0.20f, TurnY(1.4f))};
   for (const float arms : {0.0f, 0.8f}) {
     for (const uint64_t axes : {0u, 9u}) {
       const Human human = FullBody(arms, axes);
-      const ReachModel model = MakeReachModel(MakeBody(human.skeleton));
+      const ReachModel model = MakeReachModel(MakeBodyRig(human.skeleton));
       for (const GripFrame& grip : grips) {
         std::array<Reach, 2> reaches;
         StartReach(reaches[kRight], grip, 1.0f);
@@ -105,7 +105,7 @@ TEST(Reach, PutsThePalmWithinFiveMillimetresOfEveryGripAtHand) {
         ApplyBoth(model, human.skeleton, reaches, pose);
         const GripFrame palm = ActorFromPalm(model, human.skeleton, pose, kRight);
         EXPECT_LT(glm::distance(palm.position, grip.position), 0.005f);
-        EXPECT_LT(AngleBetween(palm.rotation, grip.rotation), 0.01f);
+        EXPECT_LT(GripAngle(palm.rotation, grip.rotation), 0.01f);
       }
     }
   }
@@ -113,7 +113,7 @@ TEST(Reach, PutsThePalmWithinFiveMillimetresOfEveryGripAtHand) {
 
 TEST(Reach, MirrorsForTheLeftHand) {
   const Human human = FullBody(0.8f, 0);
-  const ReachModel model = MakeReachModel(MakeBody(human.skeleton));
+  const ReachModel model = MakeReachModel(MakeBodyRig(human.skeleton));
   std::array<Reach, 2> reaches;
   StartReach(reaches[kRight], Grip(0.2f, 1.0f, -0.4f), 0.0f);
   StartReach(reaches[kLeft], Grip(-0.2f, 1.0f, -0.4f), 0.0f);
@@ -132,7 +132,7 @@ TEST(Reach, MirrorsForTheLeftHand) {
 
 TEST(Reach, KeepsTheFeetWhereTheyAreWhenItCrouches) {
   const Human human = FullBody(0.8f, 4);
-  const ReachModel model = MakeReachModel(MakeBody(human.skeleton));
+  const ReachModel model = MakeReachModel(MakeBodyRig(human.skeleton));
   std::array<Reach, 2> reaches;
   StartReach(reaches[kRight], Grip(0.2f, 0.10f, -0.35f), 0.0f);
   Pose pose = human.skeleton.rest;
@@ -141,7 +141,7 @@ TEST(Reach, KeepsTheFeetWhereTheyAreWhenItCrouches) {
     return ActorFromJoint(human.skeleton, of, joint).position.y;
   };
   EXPECT_LT(height(pose, model.body.root), height(human.skeleton.rest, model.body.root) - 0.1f);
-  for (const Body::Leg& leg : model.body.legs) {
+  for (const BodyRig::Leg& leg : model.body.legs) {
     EXPECT_LT(glm::distance(ActorFromJoint(human.skeleton, pose, leg.ankle).position,
                             model.body.rest[static_cast<size_t>(leg.ankle)].position),
               0.001f);
@@ -150,7 +150,7 @@ TEST(Reach, KeepsTheFeetWhereTheyAreWhenItCrouches) {
 
 TEST(Reach, GoesAndComesBackWithoutAJump) {
   const Human human = FullBody(0.8f, 6);
-  const ReachModel model = MakeReachModel(MakeBody(human.skeleton));
+  const ReachModel model = MakeReachModel(MakeBodyRig(human.skeleton));
   std::array<Reach, 2> reaches;
   Reach& reach = reaches[kRight];
   glm::vec3 before = ActorFromPalm(model, human.skeleton, human.skeleton.rest, kRight).position;
@@ -159,7 +159,7 @@ TEST(Reach, GoesAndComesBackWithoutAJump) {
   for (int tick = 0; tick < 360; ++tick) {
     if (tick == 10) {
       StartReach(reach, Grip(0.2f, 1.0f, -0.45f), 0.8f);
-    } else if (tick == 60) {  // on the way it thinks better of it
+    } else if (tick == 60) {  // The goal changes during the motion.
       StartReach(reach, Grip(0.0f, 1.2f, -0.40f, TurnY(0.5f)), 0.8f);
     } else if (tick == 200) {
       EndReach(reach, 0.7f);
@@ -177,7 +177,7 @@ TEST(Reach, GoesAndComesBackWithoutAJump) {
 
 TEST(Reach, OfWeightZeroChangesNothing) {
   const Human human = FullBody(0.8f, 6);
-  const ReachModel model = MakeReachModel(MakeBody(human.skeleton));
+  const ReachModel model = MakeReachModel(MakeBodyRig(human.skeleton));
   Pose pose = human.skeleton.rest;
   ApplyBoth(model, human.skeleton, {}, pose);
   for (size_t i = 0; i < pose.size(); ++i) {
@@ -188,7 +188,7 @@ TEST(Reach, OfWeightZeroChangesNothing) {
 TEST(Reach, LeavesBodiesWithoutArmsAlone) {
   Human human = FullBody(0.8f, 6);
   human.skeleton.names[*human.skeleton.Find("r_elbow")] = "something";
-  const ReachModel model = MakeReachModel(MakeBody(human.skeleton));
+  const ReachModel model = MakeReachModel(MakeBodyRig(human.skeleton));
   std::array<Reach, 2> reaches;
   StartReach(reaches[kRight], Grip(0.2f, 1.0f, -0.45f), 0.0f);
   Pose pose = human.skeleton.rest;

@@ -4,8 +4,8 @@
 
 namespace lararium::human {
 
-// The two-joint human with one of everything that a person can have. Its texture only
-// begins like an image.
+// The two-joint human with one of everything that a person can have. Its texture is only the
+// beginning of an image.
 Human RichHuman();
 
 }  // namespace lararium::human

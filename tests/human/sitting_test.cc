@@ -6,18 +6,18 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "shared/human/performance.h"
+#include "shared/human/animator.h"
 #include "shared/human/turns.h"
 #include "tests/human/full_body.h"
 
 namespace lararium::human {
 namespace {
 
-constexpr float kTick = 1.0f / 120.0f;
+constexpr float kSeatTick = 1.0f / 120.0f;
 constexpr float kStool = 0.46f;  // metres
 
 // The same body, smaller or larger.
-std::shared_ptr<const PerformanceModel> Scaled(float scale, uint64_t axes) {
+std::shared_ptr<const AnimationRig> Scaled(float scale, uint64_t axes) {
   Human human = FullBody(0.6f, axes);
   for (JointTransform& joint : human.skeleton.rest) {
     joint.translation *= scale;
@@ -25,14 +25,14 @@ std::shared_ptr<const PerformanceModel> Scaled(float scale, uint64_t axes) {
   for (glm::mat4& joint_from_actor : human.skeleton.joint_from_actor) {
     joint_from_actor[3] = glm::vec4(scale * glm::vec3(joint_from_actor[3]), 1.0f);
   }
-  return MakePerformanceModel(std::make_shared<const Human>(std::move(human)));
+  return MakeAnimationRig(std::make_shared<const Human>(std::move(human)));
 }
 
 class Sitter {
  public:
-  explicit Sitter(std::shared_ptr<const PerformanceModel> model)
-      : model_(std::move(model)), performer_(model_) {
-    performance_.vigour = 0.0f;
+  explicit Sitter(std::shared_ptr<const AnimationRig> model)
+      : model_(std::move(model)), animator_(model_) {
+    performance_.idle_intensity = 0.0f;
     Tick(2.0f);
   }
 
@@ -42,48 +42,48 @@ class Sitter {
   }
   void Up() { StandUp(performance_.sitting, 1.9f); }
 
-  // Lets time pass; what moves is watched.
+  // Advances the time and measures the motion of all joints.
   void Tick(float seconds) {
-    for (float t = 0.0f; t < seconds; t += kTick) {
-      UpdatePerformance(*model_, glm::vec3(0.0f), 0.0f, kTick, {}, performance_);
-      const std::vector<JointTransform> before(performer_.pose().begin(), performer_.pose().end());
-      performer_.Pose(performance_);
+    for (float t = 0.0f; t < seconds; t += kSeatTick) {
+      UpdateAnimationState(*model_, glm::vec3(0.0f), 0.0f, kSeatTick, {}, performance_);
+      const std::vector<JointTransform> before(animator_.pose().begin(), animator_.pose().end());
+      animator_.Pose(performance_);
       Watch(before);
     }
   }
 
   glm::vec3 At(JointIndex joint) const {
-    return ActorFromJoint(model_->human->skeleton, performer_.pose(), joint).position;
+    return ActorFromJoint(model_->human->skeleton, animator_.pose(), joint).position;
   }
   glm::vec3 Hips() const { return 0.5f * (At(Leg(0).hip) + At(Leg(1).hip)); }
-  const Body::Leg& Leg(size_t side) const { return model_->sitting.body.legs[side]; }
-  const Body& body() const { return model_->sitting.body; }
+  const BodyRig::Leg& Leg(size_t side) const { return model_->sitting.body.legs[side]; }
+  const BodyRig& body() const { return model_->sitting.body; }
   const SittingModel& sitting() const { return model_->sitting; }
   std::vector<JointTransform> pose() const {
-    return {performer_.pose().begin(), performer_.pose().end()};
+    return {animator_.pose().begin(), animator_.pose().end()};
   }
   bool IsEye(size_t joint) const {
     return static_cast<JointIndex>(joint) == body().eyes[0] ||
            static_cast<JointIndex>(joint) == body().eyes[1];
   }
-  float fastest() const { return fastest_; }  // of any joint against its parent, rad/s
+  float fastest() const { return fastest_; }  // fastest joint against its parent, rad/s
   void Forget() { fastest_ = 0.0f; }
 
  private:
   void Watch(const std::vector<JointTransform>& before) {
     for (size_t i = 0; watched_ && i < before.size(); ++i) {
       if (IsEye(i)) {
-        continue;  // they jump
+        continue;  // Eyes may jump.
       }
-      const float cosine = std::abs(glm::dot(before[i].rotation, performer_.pose()[i].rotation));
-      fastest_ = std::max(fastest_, 2.0f * std::acos(std::min(cosine, 1.0f)) / kTick);
+      const float cosine = std::abs(glm::dot(before[i].rotation, animator_.pose()[i].rotation));
+      fastest_ = std::max(fastest_, 2.0f * std::acos(std::min(cosine, 1.0f)) / kSeatTick);
     }
     watched_ = true;
   }
 
-  std::shared_ptr<const PerformanceModel> model_;
-  Performer performer_;
-  Performance performance_;
+  std::shared_ptr<const AnimationRig> model_;
+  Animator animator_;
+  AnimationState performance_;
   bool watched_ = false;
   float fastest_ = 0.0f;
 };
@@ -112,7 +112,7 @@ TEST(Sitting, LeavesTheFeetOfGrownPeopleWhereTheyStand) {
     if (tick == 240) {
       sitter.Up();
     }
-    sitter.Tick(kTick);
+    sitter.Tick(kSeatTick);
     for (size_t side = 0; side < 2; ++side) {
       furthest = std::max(furthest, glm::distance(sitter.At(sitter.Leg(side).ankle), stood[side]));
     }
@@ -148,7 +148,7 @@ TEST(Sitting, LeansForwardOverTheFeetBeforeItLeavesTheSeat) {
   sitter.Up();
   float lean_at_leaving = -1.0f, most = 0.0f;
   for (int tick = 0; tick < 240; ++tick) {
-    sitter.Tick(kTick);
+    sitter.Tick(kSeatTick);
     const glm::vec3 trunk = sitter.At(sitter.body().neck.front()) - sitter.Hips();
     const float lean = std::atan2(-trunk.z, trunk.y);
     most = std::max(most, lean);

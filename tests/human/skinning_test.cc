@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 #include "tests/human/two_joint_human.h"
 
 namespace lararium::human {
@@ -50,7 +51,7 @@ TEST(SkinMesh, MovesVerticesWithTheirJoints) {
   EXPECT_LT(glm::distance(skinned.positions[0], glm::vec3(0.0f, 1.1f, 0.0f)), 1e-6f);
   EXPECT_LT(glm::distance(skinned.positions[2], glm::vec3(0.9f, 2.0f, 0.0f)), 1e-6f);
   EXPECT_LT(glm::distance(skinned.normals[2], glm::vec3(-1.0f, 0.0f, 0.0f)), 1e-6f);
-  // Half of each at the elbow: the mean of (1, 1.1) and (0.9, 1).
+  // The elbow takes half of each: the mean of (1, 1.1) and (0.9, 1).
   EXPECT_LT(glm::distance(skinned.positions[1], glm::vec3(0.95f, 1.05f, 0.0f)), 1e-6f);
   EXPECT_NEAR(glm::length(skinned.normals[1]), 1.0f, 1e-6f);
 }
@@ -166,12 +167,11 @@ TEST(SkinningJob, AHalfTwistKeepsItsRadiusWithDualQuaternionsAlone) {
 }
 
 TEST(SkinningJob, SignsOfQuaternionsDoNotMatter) {
-  // Two turns that differ by a few degrees and whose quaternions come out on
-  // opposite sides must blend to what lies between.
+  // Two rotations that differ by a few degrees, but whose quaternions have opposite signs, must
+  // blend to a rotation between them.
   const glm::vec3 axis(0.0f, 0.0f, 1.0f);
-  constexpr float kPi = std::numbers::pi_v<float>;
-  const std::array skin = {glm::rotate(glm::mat4(1.0f), kPi - 0.1f, axis),
-                           glm::rotate(glm::mat4(1.0f), kPi + 0.1f, axis)};
+  const std::array skin = {glm::rotate(glm::mat4(1.0f), kPiF - 0.1f, axis),
+                           glm::rotate(glm::mat4(1.0f), kPiF + 0.1f, axis)};
   const glm::vec3 position(1.0f, 0.0f, 0.0f);
   const std::array<uint8_t, 4> joints = {0, 1, 0, 0};
   const glm::vec4 weights(0.5f, 0.5f, 0.0f, 0.0f);

@@ -6,15 +6,13 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 
 namespace lararium::human {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kLength = 0.1f;
 
 SpringChain Like(float stiffness, float drag, float radius = 0.02f) {
@@ -25,7 +23,7 @@ SpringChain Like(float stiffness, float drag, float radius = 0.02f) {
   return chain;
 }
 
-// A head at 1.6 m and a braid of so many joints behind it, hanging or held out level.
+// A head at 1.6 m and a braid of `joints` joints behind it, hanging or level.
 Human Braided(int joints, bool level, const SpringChain& like) {
   Human human;
   human.name = "braided";
@@ -46,7 +44,7 @@ Human Braided(int joints, bool level, const SpringChain& like) {
     chain.joints.push_back(static_cast<uint32_t>(i) + 1);
     add("braid" + std::to_string(i), static_cast<int16_t>(i), from_parent, place);
   }
-  // What hangs from the end.
+  // A joint that hangs from the end.
   add("ribbon", static_cast<int16_t>(joints), step, place + step);
   human.springs.push_back(chain);
   return human;
@@ -81,8 +79,8 @@ struct Swinging {
   std::vector<glm::mat4> actor_from_joint;
 };
 
-// Stiffness is per mass and arm: the pull is stiffness * length * sin(bend) across, the
-// weight g across; they balance where tan(sag) = g / (stiffness * length).
+// Stiffness is per mass and arm: the pull across the stick is stiffness * length * sin(bend), the
+// weight across it is g. They balance at tan(sag) = g / (stiffness * length).
 TEST(Springs, LevelStickSagsWhereWeightAndStiffnessBalance) {
   Swinging stick(Braided(1, true, Like(200.0f, 5.0f)));
   stick.Run(4.0f, 60.0f);
@@ -94,7 +92,7 @@ TEST(Springs, LevelStickSagsWhereWeightAndStiffnessBalance) {
 TEST(Springs, LimpStickSwingsWithThePendulumsPeriod) {
   Swinging stick(Braided(1, false, Like(0.0f, 0.0f)));
   stick.Run(0.5f, 120.0f);
-  // A push: the actor is suddenly elsewhere, though not as far as a leap.
+  // A push: the actor moves suddenly, but less than the limit for a jump.
   stick.step.stage_from_actor = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, -0.01f));
   std::vector<double> crossings;
   float before = 0.0f;
@@ -109,7 +107,7 @@ TEST(Springs, LimpStickSwingsWithThePendulumsPeriod) {
   ASSERT_GE(crossings.size(), 4u);
   const double period =
       (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-  const double expected = 2.0 * double(kPi) * std::sqrt(double(kLength) / 9.81);
+  const double expected = 2.0 * double(kPiF) * std::sqrt(double(kLength) / 9.81);
   EXPECT_NEAR(period, expected, 0.03 * expected);
 }
 
@@ -214,7 +212,7 @@ TEST(Springs, FadeToTheAnimationAndBackWithoutAJump) {
     EXPECT_LT(glm::distance(before, braid.Place(5)), 0.08f) << i;
     before = braid.Place(5);
     if (i == 60) {
-      EXPECT_NEAR(before.y, 1.6f, 1e-4f);  // as animated: level
+      EXPECT_NEAR(before.y, 1.6f, 1e-4f);  // level, equal to the animation
     }
   }
 }

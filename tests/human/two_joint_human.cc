@@ -1,12 +1,11 @@
-#include "tests/human/two_joint_human.h"
+#include "shared/core/units.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
+
+#include "tests/human/two_joint_human.h"
 
 namespace lararium::human {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 Clip MakeClip(const Human& human,
               const std::string& name,
@@ -49,8 +48,8 @@ Human TwoJointHuman() {
   mesh.weights = {{1, 0, 0, 0}, {0.5f, 0.5f, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
   mesh.indices = {0, 1, 2, 1, 3, 2};
   human.meshes.push_back(mesh);
-  human.clips = {MakeClip(human, "bend", 1.0f, false, 1, {0, 0, 1}, kPi / 2.0f),
-                 MakeClip(human, "turn", 2.0f, true, 0, {0, 1, 0}, 2.0f * kPi)};
+  human.clips = {MakeClip(human, "bend", 1.0f, false, 1, {0, 0, 1}, kPiF / 2.0f),
+                 MakeClip(human, "turn", 2.0f, true, 0, {0, 1, 0}, 2.0f * kPiF)};
   human.clips[1].stride = 1.25f;
   return human;
 }

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 #include <string>
+
+#include "shared/core/units.h"
 
 namespace lararium::human {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kRest = 0.35f;  // share of a thigh in the skirt's skin
 
 void AddJoint(Human& human, const std::string& name, int16_t parent, const glm::vec3& place) {
@@ -24,7 +23,7 @@ void AddJoint(Human& human, const std::string& name, int16_t parent, const glm::
   human.skeleton.joint_from_actor.push_back(glm::translate(glm::mat4(1.0f), -place));
 }
 
-// A cloth drawn as its particles.
+// A mesh whose vertices are the particles of a cloth.
 SkinnedMesh MeshOf(const Cloth& cloth) {
   SkinnedMesh mesh;
   mesh.name = cloth.name;
@@ -59,7 +58,7 @@ Cloth Skirt(int columns, int rows) {
   for (int row = 0; row <= rows; ++row) {
     const float down = static_cast<float>(row) / static_cast<float>(rows);
     for (int column = 0; column < columns; ++column) {
-      const float angle = 2.0f * kPi * static_cast<float>(column) / static_cast<float>(columns);
+      const float angle = 2.0f * kPiF * static_cast<float>(column) / static_cast<float>(columns);
       const float x = std::sin(angle);
       const float z = std::cos(angle);
       cloth.positions.emplace_back((0.215f + 0.13f * down) * x, 1.02f - 0.72f * down,
@@ -153,7 +152,7 @@ void PoseWalker(const Human& human, double time, WalkerPose& walker) {
   constexpr float kSpeed = 1.3f;
   constexpr float kRadius = 2.0f;
   const auto seconds = static_cast<float>(std::fmod(time, 600.0));
-  // Stands for three of every ten seconds, and does something there.
+  // The walker stands for three of every ten seconds and acts then.
   const float in_round = std::fmod(seconds, 10.0f);
   const float standing = std::clamp(std::min(in_round - 6.5f, 10.0f - in_round) * 2.0f, 0.0f, 1.0f);
   const float act = standing * standing * (3.0f - 2.0f * standing);
@@ -162,14 +161,14 @@ void PoseWalker(const Human& human, double time, WalkerPose& walker) {
   const float crouch = round == 1 ? act : 0.0f;
   const float lift = round == 2 ? act : 0.0f;
   const float stride = 1.0f - act;
-  const float phase = 2.0f * kPi * 0.95f * seconds;
+  const float phase = 2.0f * kPiF * 0.95f * seconds;
   const glm::vec3 x(1.0f, 0.0f, 0.0f);
   std::vector<JointTransform>& pose = walker.pose;
   pose = human.skeleton.rest;
   pose[0].translation.y += 0.02f * stride * std::cos(2.0f * phase) - 0.32f * crouch;
   pose[1] = Turned(pose[1], -0.9f * bow, x);
   for (int side = 0; side < 2; ++side) {
-    const float leg = phase + kPi * static_cast<float>(side);
+    const float leg = phase + kPiF * static_cast<float>(side);
     const float swing = stride * 0.45f * std::sin(leg);
     const float knee = stride * (0.45f + 0.45f * std::sin(leg + 1.2f));
     pose[2 + 2 * side] = Turned(pose[2 + 2 * side], swing + 1.1f * crouch, x);
@@ -179,7 +178,7 @@ void PoseWalker(const Human& human, double time, WalkerPose& walker) {
   }
   walker.actor_from_joint.resize(human.skeleton.size());
   ComputeActorFromJoint(human.skeleton, pose, walker.actor_from_joint);
-  // The way along the circle: the integral of the speed, standing pauses left out.
+  // Distance along the circle: the integral of the speed without the pauses.
   const float walked = std::floor(seconds / 10.0f) * 7.25f + std::min(in_round, 7.25f);
   const float angle = kSpeed * walked / kRadius;
   walker.stage_from_actor = glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0.0f, 1.0f, 0.0f)) *

@@ -8,12 +8,11 @@
 
 namespace lararium::human {
 
-// One joint at the origin and nothing else: what hangs from it hangs in the world.
+// A human with a single joint at the origin, so that cloth on it hangs in the world frame.
 Human OneJointHuman();
 
-// A sheet of columns x rows quads in the plane z = 0 of the first joint, from (0, top)
-// to the right and down; each quad is cut along alternating diagonals. Nothing is
-// pinned; reach is 100 m.
+// A sheet of columns x rows quads in the plane z = 0 of the first joint, from (0, top) to the right
+// and down. Each quad is split along alternating diagonals. No particle is pinned; reach is 100 m.
 Cloth Sheet(int columns, int rows, float cell, float top);
 
 // A walker of capsules (pelvis, chest, legs, arms) in a skirt from waist to shins.
@@ -21,8 +20,8 @@ Cloth Sheet(int columns, int rows, float cell, float top);
 // 7 l_forearm, 8 r_arm, 9 r_forearm.
 Human SkirtedWalker(int columns, int rows);
 
-// The walker's pose at a time: walks at 1.3 m/s, in a circle of 2 m, and every ten
-// seconds bows, crouches and lifts its arms.
+// The walker's pose at a time: it walks at 1.3 m/s in a circle of 2 m, and every ten seconds it
+// bows, crouches or lifts its arms.
 struct WalkerPose {
   std::vector<JointTransform> pose;
   std::vector<glm::mat4> actor_from_joint;
@@ -30,8 +29,8 @@ struct WalkerPose {
 };
 void PoseWalker(const Human& human, double time, WalkerPose& walker);
 
-// The deepest, in metres, that a point of the cloth's triangles (corners, middles of
-// edges, middle) lies in a capsule; in the bind pose this is 0.
+// Largest depth in metres of points of the cloth's triangles (corners, midpoints of edges, centre)
+// inside a capsule; 0 in the bind pose.
 float DeepestPenetration(const Human& human,
                          std::span<const glm::vec3> particles,
                          std::span<const glm::mat4> actor_from_joint);

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Smooth, so that JPEG keeps it, with every channel different.
+// A smooth picture, which JPEG preserves, with different channels.
 cv::Mat Picture(int type, cv::Size size = {37, 23}) {
   cv::Mat image(size, CV_8UC3);
   for (int y = 0; y < size.height; ++y) {
@@ -60,7 +60,7 @@ cv::Mat Reference(const std::vector<std::byte>& encoded, int flags) {
   return cv::imdecode(bytes, flags | cv::IMREAD_IGNORE_ORIENTATION);
 }
 
-// The largest difference of a channel; huge where size or type differ.
+// The largest difference in any channel; huge if size or type differ.
 double Difference(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() ? cv::norm(a, b, cv::NORM_INF) : 1e9;
 }
@@ -100,7 +100,7 @@ TEST(DecodeImage, GivesThePixelsThatOpenCvGives) {
       {".jpg", {cv::IMWRITE_JPEG_PROGRESSIVE, 1}, {CV_8UC1, CV_8UC3}},
       {".bmp", {}, {CV_8UC1, CV_8UC3, CV_8UC4}},
       {".tif", {}, {CV_8UC1, CV_8UC3, CV_16UC3}},
-      {".webp", {cv::IMWRITE_WEBP_QUALITY, 101}, {CV_8UC3}},  // without loss
+      {".webp", {cv::IMWRITE_WEBP_QUALITY, 101}, {CV_8UC3}},  // lossless
   };
   for (const Kind& kind : kinds) {
     for (const int type : kind.types) {
@@ -134,7 +134,7 @@ TEST(DecodeImage, NeverGivesAPartOfAPicture) {
   const cv::Mat image = Picture(CV_8UC3);
   for (const char* ending : {".png", ".jpg", ".bmp", ".tif", ".webp"}) {
     const auto whole = Encoded(image, ending);
-    // The last bytes may say nothing of the picture: JPEG's end, PNG's last chunk.
+    // The last bytes may not affect the picture: JPEG's end marker, PNG's last chunk.
     for (size_t size = 0; size + 16 < whole.size(); ++size) {
       const std::span<const std::byte> cut(whole.data(), size);
       const auto decoded = DecodeImage(cut, Channels::kBgr, "cut.img");

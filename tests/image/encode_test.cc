@@ -32,7 +32,7 @@ Channels ChannelsOf(const cv::Mat& image) {
 
 TEST(EncodePng, LosesNothing) {
   for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4}) {
-    // Of a larger picture too, whose rows are further apart than they are long.
+    // Includes a part of a larger picture, whose rows have gaps between them.
     for (const cv::Mat& image : {Noise(type), Noise(type)(cv::Rect(3, 2, 11, 9))}) {
       for (const int compression : {1, 9}) {
         const auto png = EncodePng(image, compression);
@@ -70,7 +70,8 @@ TEST(WriteImage, WritesAsTheEndingSaysAndRefusesOthers) {
   ASSERT_TRUE(WriteImage(folder / "a.jpeg", image, 50).ok());
   EXPECT_EQ(cv::norm(cv::imread((folder / "a.PNG").string()), image, cv::NORM_INF), 0.0);
   EXPECT_EQ(cv::imread((folder / "a.jpeg").string()).size(), image.size());
-  EXPECT_THAT(WriteImage(folder / "a.gif", image).message(), HasSubstr("name a .png or .jpg"));
+  EXPECT_THAT(WriteImage(folder / "a.gif", image).message(),
+              HasSubstr("choose a name that ends in .png or .jpg"));
   EXPECT_FALSE(fs::exists(folder / "a.gif"));
   EXPECT_FALSE(WriteImage(folder / "no" / "such.png", image).ok());
   fs::remove_all(folder);

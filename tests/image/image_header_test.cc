@@ -26,7 +26,7 @@ std::string Png() {
   return "\x89PNG\r\n\x1a\n" + Text({0, 0, 0, 13}) + "IHDR" + Text({0, 0, 2, 0x80, 0, 0, 1, 0xe0});
 }
 
-// With a segment before the frame's, padding, and progressive.
+// A progressive JPEG with a segment before the frame's, and padding.
 std::string Jpeg() {
   return Text(
       {0xff, 0xd8, 0xff, 0xe0, 0, 4, 1, 2, 0xff, 0xff, 0xff, 0xc2, 0, 11, 8, 1, 0xe0, 2, 0x80});

@@ -1,4 +1,4 @@
-#include "editor/import/bml.h"
+#include "editor/import/motion/bml.h"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Lines and clips of two seconds: their stroke lasts from 0.5 to 1.5 s.
+// Lines and clips of two seconds, whose stroke lasts from 0.5 to 1.5 s.
 BmlStage World() {
   const drama::SyncTimes times = {0.0, 0.25, 0.5, 1.0, 1.5, 1.75, 2.0};
   BmlStage stage;
@@ -85,7 +85,7 @@ TEST(Bml, PointsOfOthersGiveTimes) {
     <head id="nod" lexeme="NOD" ready="b1:s:relax"/>)",
                                       "id=\"b1\"");
   EXPECT_THAT(imported.warnings, IsEmpty());
-  // "Greetings," is 10 of the 19 letters that are counted, of a stroke from 0.5 to 1.5 s.
+  // "Greetings," has 10 of the 19 letters counted in a stroke from 0.5 to 1.5 s.
   const double half = 4.0 + 0.5 + 10.0 / 20.0;
   EXPECT_NEAR(At(imported, "other"), half + 0.5 - 1.0, 0.03);
   EXPECT_NEAR(At(imported, "late"), At(imported, "other") + 2.0, 0.002);
@@ -134,8 +134,8 @@ TEST(Bml, WhatIsNotSupportedIsToldWithItsPlace) {
 <constraint><before ref="x:end"><sync ref="d:start"/></before></constraint>)");
   for (const char* warning :
        {"a.xml:2: gesture 'x': 'keeper' has no clip 'beat'", "a.xml:3: dance 'd': is not supported",
-        "a.xml:4: speech 's': no line says 'Nobody says this'",
-        "gaze 'g': there is nobody and nothing called 'nobody'",
+        "a.xml:4: speech 's': no line has the text 'Nobody says this'",
+        "gaze 'g': there is no actor or object called 'nobody'",
         "locomotion 'l': 'the moon' is no object", "posture 'p': sitting needs a seat",
         "posture 'p': poses of parts", "faceFacs 'f': action unit 12 is shown as 'joy'",
         "faceFacs 'f99': there is no expression", "gesture 'loop1': waits for a point",
@@ -159,8 +159,8 @@ TEST(Bml, HostileFilesAreRefused) {
     const auto imported = ImportBml(text, "a.xml", World());
     return imported.ok() ? "" : imported.message();
   };
-  EXPECT_THAT(refusal(""), HasSubstr("is no XML"));
-  EXPECT_THAT(refusal("<bml>\n<gaze"), HasSubstr("a.xml:2: is no XML"));
+  EXPECT_THAT(refusal(""), HasSubstr("is not valid XML"));
+  EXPECT_THAT(refusal("<bml>\n<gaze"), HasSubstr("a.xml:2: is not valid XML"));
   EXPECT_THAT(refusal("<scene/>"), HasSubstr("has no <bml>"));
   std::string bomb = "<!DOCTYPE bml [<!ENTITY a \"ha\">";
   for (char c = 'b'; c <= 'z'; ++c) {
@@ -180,7 +180,7 @@ TEST(Bml, HostileFilesAreRefused) {
   for (int i = 0; i < 100'000; ++i) {
     deep += "<a>";
   }
-  EXPECT_THAT(refusal(deep), HasSubstr("is no XML"));
+  EXPECT_THAT(refusal(deep), HasSubstr("is not valid XML"));
   EXPECT_THAT(refusal("<bml>" + std::string(kMaxBmlBytes, ' ') + "</bml>"), HasSubstr("4 MiB"));
 }
 

@@ -1,12 +1,12 @@
-#include "editor/import/bone_map.h"
+#include "editor/import/model/bone_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "editor/import/bone_structure.h"
-#include "editor/import/plain_skeleton.h"
+#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/model/bone_structure.h"
 #include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The plain figure's bones under other names; the skirt's are left out.
+// The bones of the plain figure under other names, without the skirt.
 Rig PlainRig(const std::map<std::string, std::string>& names, bool scramble) {
   const human::Skeleton skeleton = PlainSkeleton();
   Rig rig;
@@ -117,7 +117,7 @@ TEST(MapBones, FindsABodyByItsShapeWhereNamesSayNothing) {
 TEST(MapBones, FindsItLyingAndInOtherUnits) {
   Rig rig = PlainRig({}, true);
   for (glm::vec3& p : rig.positions) {
-    p = 100.0f * glm::vec3(p.z, p.x, p.y);  // Z up
+    p = 100.0f * glm::vec3(p.z, p.x, p.y);  // Z up.
   }
   ExpectLimbs(rig, MapBones(rig), FoundBy::kStructure);
 }

@@ -1,9 +1,9 @@
-#include "editor/import/built_model.h"
+#include "editor/import/model/built_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "editor/import/plain_skeleton.h"
+#include "editor/import/cast/plain_skeleton.h"
 #include "shared/core/random.h"
 
 namespace lararium::import {
@@ -56,12 +56,12 @@ TEST(BuiltModel, IsRefusedWhereItUsesImagesThatItLacks) {
     BuiltModel model = Built();
     model.uses = {use};
     EXPECT_EQ(UnpackModel(Packed(model), "a.glb").message(),
-              "a.glb: its reader's answer makes no sense");
+              "a.glb: its reader returned invalid data");
   }
   BuiltModel model = Built();
-  model.uses.clear();  // fewer than materials
+  model.uses.clear();  // Fewer than materials.
   EXPECT_EQ(UnpackModel(Packed(model), "a.glb").message(),
-            "a.glb: its reader's answer makes no sense");
+            "a.glb: its reader returned invalid data");
 }
 
 TEST(BuiltModel, IsRefusedWhereAPieceOfItsFigureIsMissing) {

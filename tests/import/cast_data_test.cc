@@ -1,4 +1,4 @@
-// The presets, built from the real cast library: skipped where it is not fetched.
+// Builds the presets from the real cast library; skipped if it has not been fetched.
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
-#include "editor/import/cast_builder.h"
-#include "editor/import/cast_presets.h"
-#include "editor/import/cast_shape.h"
-#include "editor/import/plain_skeleton.h"
-#include "editor/import/simplify.h"
+#include "editor/import/cast/cast_builder.h"
+#include "editor/import/cast/cast_presets.h"
+#include "editor/import/cast/cast_shape.h"
+#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/model/simplify.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {
@@ -26,7 +26,7 @@ const CastLibrary* Library() {
   return library;
 }
 
-// As FitBody shapes it, undressed: garments have tests of their own.
+// The preset without clothes; garments have their own tests.
 const human::Human& Preset(const std::string& name) {
   static std::map<std::string, human::Human> built;
   if (!built.contains(name)) {
@@ -116,7 +116,7 @@ TEST_P(CastPresets, HaveEveryVisemeExpressionAndBlink) {
   }
 }
 
-// How far a face shape moves a vertex of a part, at most; metres.
+// The largest movement of a vertex of a part by a face shape, metres.
 float MostMoved(const human::Human& human, const std::string& shape, uint32_t mesh, float side) {
   float most = 0.0f;
   for (const human::FaceShape& face : human.face) {
@@ -156,8 +156,8 @@ TEST_P(CastPresets, TurnTheirEyesAboutTheMiddleOfTheBall) {
         most = std::max(most, glm::distance(eyes.positions[v], centre));
       }
     }
-    EXPECT_GT(least, 0.010f);         // the ball's hollow front: the iris lies in it
-    EXPECT_LT(most - least, 0.006f);  // the cornea stands 2 mm out of the ball
+    EXPECT_GT(least, 0.010f);         // The front of the ball is hollow and contains the iris.
+    EXPECT_LT(most - least, 0.006f);  // The cornea protrudes 2 mm from the ball.
   }
 }
 
@@ -189,7 +189,7 @@ float OutsideCapsules(const human::Human& human, const glm::vec3& p) {
   return least;
 }
 
-// Of what clothes lie on: trunk, upper arms and thighs.
+// Checks the parts under clothes: trunk, upper arms and thighs.
 TEST_P(CastPresets, HaveCapsulesThatFollowTheirSkin) {
   const human::Human& human = Preset(GetParam());
   std::set<size_t> clothed;
@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                          testing::ValuesIn(CastPresetNames()),
                          [](const auto& info) { return info.param; });
 
-// However far it has come: at the first question, and between two steps of the falling cloth.
+// Cancels at the first query, and between two steps of draping.
 TEST_P(CastPresets, AreNotBuiltWhereThatIsCancelled) {
   class CancelledAfter : public NoProgress {
    public:
@@ -238,7 +238,7 @@ TEST_P(CastPresets, AreNotBuiltWhereThatIsCancelled) {
   }
 }
 
-// Shod in sandals alone: other garments take long to cut.
+// Wears only sandals, because other garments take long to cut.
 TEST_P(CastPresets, StandOnTheSolesOfTheirSandals) {
   CastRecipe recipe = *LoadCastPreset(GetParam());
   std::erase_if(recipe.garments, [](const Json& g) { return g["name"] != "sandals"; });
@@ -252,7 +252,7 @@ TEST_P(CastPresets, StandOnTheSolesOfTheirSandals) {
     }
   }
   EXPECT_NEAR(lowest, 0.0f, 1e-5f);
-  // The joints went with the flesh.
+  // The joints moved together with the body.
   for (size_t joint = 0; joint < human->skeleton.size(); ++joint) {
     const glm::vec3 bound(glm::inverse(human->skeleton.joint_from_actor[joint])[3]);
     const glm::vec3 rest = RestPosition(human->skeleton, human->skeleton.names[joint]);

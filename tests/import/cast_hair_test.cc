@@ -1,27 +1,25 @@
-// Hair, mouths and complexion of the cast, on shapes small enough to reckon with.
+// Hair, mouths and complexion of the cast, on shapes small enough to compute by hand.
 
-#include "editor/import/cast_hair.h"
+#include "editor/import/cast/cast_hair.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
-#include "editor/import/cast_complexion.h"
-#include "editor/import/cast_hang.h"
-#include "editor/import/cast_mouth.h"
-#include "editor/import/cast_subdivide.h"
+#include "editor/import/cast/cast_complexion.h"
+#include "editor/import/cast/cast_hang.h"
+#include "editor/import/cast/cast_mouth.h"
+#include "editor/import/cast/cast_subdivide.h"
+#include "shared/core/units.h"
 #include "shared/human/skinning.h"
 #include "shared/human/spring.h"
 
 namespace lararium::import {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
-// Fills in what every vertex of a piece has.
+// Fills in the attributes of all vertices of a piece.
 void Complete(CastPiece& piece) {
   const size_t count = piece.mesh.positions.size();
   for (size_t v = piece.source.size(); v < count; ++v) {
@@ -44,7 +42,7 @@ CastPiece Octahedron() {
   return piece;
 }
 
-// Adds a sheet of columns by rows vertices.
+// Adds a sheet of columns x rows vertices.
 template <typename Place>
 void AddSheet(CastPiece& piece, uint32_t columns, uint32_t rows, const Place& place) {
   const auto first = static_cast<uint32_t>(piece.mesh.positions.size());
@@ -67,8 +65,8 @@ std::vector<bool> All(const CastPiece& piece) {
   return std::vector<bool>(piece.mesh.indices.size() / 3, true);
 }
 
-// A corner of valence 4 moves to (1 - 4b) v + b sum(neighbours), b = 3/32; an edge's middle
-// to 3/8 of its ends and 1/8 of what is opposite.
+// A corner of valence 4 moves to (1 - 4b) v + b sum(neighbours), b = 3/32; the middle of an
+// edge to 3/8 of its ends and 1/8 of the opposite vertices.
 TEST(SubdivideLoop, MovesAnOctahedronAsLoopsMasksSay) {
   CastPiece piece = Octahedron();
   SubdivideLoop(piece, All(piece));
@@ -93,10 +91,10 @@ TEST(SubdivideLoop, LeavesAFlatSheetFlatAndItsStraightEdgesStraight) {
 }
 
 TEST(SubdivideLoop, KeepsSeamsClosed) {
-  // A tube whose first and last columns are one place, with coordinates of their own.
+  // The first and last columns of the tube share their positions and have separate coordinates.
   CastPiece piece;
   AddSheet(piece, 9, 4, [](float u, float v) {
-    return glm::vec3(std::cos(2 * kPi * u), v, std::sin(2 * kPi * u));
+    return glm::vec3(std::cos(2 * kPiF * u), v, std::sin(2 * kPiF * u));
   });
   for (uint32_t r = 0; r < 4; ++r) {
     piece.source[9 * r + 8] = 9 * r;
@@ -135,7 +133,7 @@ TEST(SmoothSurfaces, CutsWhatIsCoarseAndLeavesWhatIsFineOrWouldBeTooMuch) {
   EXPECT_EQ(ConnectedSurfaces(bounded).back(), 1u);
 }
 
-// A head of 10 cm about 1.6 m, on a neck.
+// A head with a radius of 10 cm about a height of 1.6 m, on a neck.
 FittedBody Head() {
   FittedBody body;
   const auto add = [&body](const char* name, int16_t parent, const glm::vec3& place,
@@ -150,8 +148,8 @@ FittedBody Head() {
   add("skullbase", 0, {0.0f, 1.55f, 0.0f}, neck);
   for (int i = 0; i < 40; ++i) {
     for (int k = 0; k < 20; ++k) {
-      const float a = 2 * kPi * i / 40.0f;
-      const float b = kPi * k / 19.0f;
+      const float a = 2 * kPiF * i / 40.0f;
+      const float b = kPiF * k / 19.0f;
       body.skin.positions.push_back(
           glm::vec3(0, 1.6f, 0) +
           0.1f * glm::vec3(std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a)));
@@ -161,12 +159,12 @@ FittedBody Head() {
   return body;
 }
 
-// A cap that lies on the head, and where asked a tail 30 cm long behind it.
+// A cap on the head, optionally with a tail 30 cm long behind it.
 CastPiece Hair(bool tail) {
   CastPiece hair;
   hair.mesh.name = "tail";
   AddSheet(hair, 9, 6, [](float u, float v) {
-    const float a = kPi * u;
+    const float a = kPiF * u;
     const float b = 0.2f + 1.2f * v;
     return glm::vec3(0, 1.6f, 0) +
            0.104f * glm::vec3(std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a));
@@ -199,7 +197,7 @@ TEST(HangHair, LaysOneChainAlongATailAndLeavesTheCap) {
   EXPECT_TRUE(human.Validate("tailed").ok());
   ASSERT_EQ(human.springs.size(), 1u);
   const std::vector<uint32_t>& joints = human.springs[0].joints;
-  EXPECT_EQ(joints.size(), 5u);  // of 6 cm each
+  EXPECT_EQ(joints.size(), 5u);  // Each is 6 cm long.
   EXPECT_EQ(human.skeleton.parents[joints[0]], 1);
   float before = 1.7f;
   for (const uint32_t joint : joints) {
@@ -242,7 +240,7 @@ struct Nodding {
   explicit Nodding(human::Human person)
       : human(std::move(person)), model(human), state(model), joints(human.skeleton.size()) {}
 
-  // The head's turn about x: positive lifts the face.
+  // `pitch` rotates the head about x; positive lifts the face.
   void Step(float pitch) {
     pose = human.skeleton.rest;
     pose[1].rotation = glm::angleAxis(pitch, glm::vec3(1, 0, 0));
@@ -273,7 +271,7 @@ TEST(HangHair, FallsAsTheHeadBowsAndStaysOutsideIt) {
       EXPECT_GT(glm::distance(p, middle), 0.1f) << frame;
     }
   }
-  // As stiff hair would stand behind the bowed head; the last joint hangs lower by far.
+  // Stiff hair would stand behind the bowed head; the last joint hangs much lower.
   const glm::mat4& skull = person.joints[1];
   const glm::mat4 bound = person.human.skeleton.joint_from_actor[1];
   const glm::vec3 rest_tip(glm::inverse(
@@ -295,7 +293,8 @@ TEST(HangHair, HangsQuietRightAfterATeleport) {
   }
 }
 
-// A skirt that cloth carries, a belt round it and a cord's end, neither of them cloth.
+// A skirt of simulated cloth, with a belt around it and the end of a cord, which are not
+// simulated.
 Garment Belted() {
   CastPiece piece;
   piece.mesh.name = "tunic";
@@ -346,15 +345,16 @@ TEST(CoverOver, IsWhatThePictureCoversAtTheHit) {
   const glm::vec3 up(0, 1, 0);
   EXPECT_EQ(CoverOver({-0.5f, 0, 0}, up, hair, halves), 0.0f);
   EXPECT_EQ(CoverOver({0.5f, 0, 0}, up, hair, halves), 1.0f);
-  EXPECT_EQ(CoverOver({-0.5f, 0, 0}, up, hair, {}), 1.0f);          // no picture: all of it
-  EXPECT_EQ(CoverOver({0.5f, -0.05f, 0}, up, hair, halves), 0.0f);  // too far off
+  // Without a picture everything is covered.
+  EXPECT_EQ(CoverOver({-0.5f, 0, 0}, up, hair, {}), 1.0f);
+  EXPECT_EQ(CoverOver({0.5f, -0.05f, 0}, up, hair, halves), 0.0f);  // Too far away.
   EXPECT_EQ(CoverOver({0.5f, 0, 0}, -up, hair, halves), 0.0f);
 }
 
 TEST(ShadeMouth, DarkensTheMoreTheFartherInAndOnlyTheMouth) {
   std::vector<CastPiece> pieces(3);
   pieces[0].mesh.name = "skin";
-  // The lip's outer and inner side, the throat, and a nose.
+  // The outer and inner side of the lip, the throat, and a nose.
   pieces[0].mesh.positions = {
       {0, 1.50f, -0.105f}, {0, 1.495f, -0.102f}, {0, 1.50f, -0.06f}, {0, 1.55f, -0.12f}};
   pieces[0].mesh.normals = {{0, 0, -1}, {0, 0, 1}, {0, 0, -1}, {0, 0, -1}};

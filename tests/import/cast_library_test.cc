@@ -1,10 +1,10 @@
-#include "editor/import/cast_library.h"
+#include "editor/import/cast/cast_library.h"
 
 #include <gtest/gtest.h>
 
-#include "editor/import/cast_builder.h"
-#include "editor/import/cast_rig.h"
-#include "editor/import/cast_shape.h"
+#include "editor/import/cast/cast_builder.h"
+#include "editor/import/cast/cast_rig.h"
+#include "editor/import/cast/cast_shape.h"
 #include "tests/import/tiny_cast_library.h"
 #include "tests/support/test_files.h"
 
@@ -24,7 +24,7 @@ bool Mentions(const std::string& message, const std::string& part) {
 }
 
 TEST(CastMesh, DecodesQuadsAndTrianglesWithAndWithoutNormals) {
-  // Type 43: quad, material, texture and normal of each corner; type 0: a triangle.
+  // Type 43 has a quad, material, texture and normal for each corner; type 0 is a triangle.
   const auto mesh = Read(R"({"vertices": [0,0,0, 1,0,0, 1,1,0, 0,1,0],
       "uvs": [[0,0, 1,0, 1,1, 0,1]], "materials": [{"DbgName": "a"}, {"DbgName": "b"}],
       "faces": [43, 0,1,2,3, 1, 0,1,2,3, 9,9,9,9, 0, 2,1,0]})");
@@ -160,7 +160,7 @@ TEST(CastRig, KeepsTheStrongestInfluences) {
   EXPECT_EQ(std::count(kept.joints.begin(), kept.joints.end(), 5), 0);
 }
 
-// The share of the target of that name; 0 where it has none.
+// The share of the target with this name; 0 if there is none.
 float ShareOf(const CastLibrary& library, const CastRecipe& recipe, const char* name) {
   const auto shares = TargetShares(library, recipe);
   EXPECT_TRUE(shares.ok());

@@ -1,4 +1,4 @@
-#include "editor/import/cast_parts.h"
+#include "editor/import/cast/cast_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
-#include "editor/import/cast_paint.h"
-#include "editor/import/levels_of_detail.h"
+#include "editor/import/cast/cast_paint.h"
+#include "editor/import/model/levels_of_detail.h"
 #include "tests/support/png.h"
 
 namespace lararium::import {
 namespace {
 
-// A unit sphere of rings; its seam's vertices are doubled, with the same source.
+// A unit sphere of rings; the vertices of its seam are doubled and share a source.
 CastPiece Sphere(uint32_t rings, uint32_t columns) {
   CastPiece piece;
   for (uint32_t r = 0; r <= rings; ++r) {
@@ -94,7 +94,7 @@ TEST(LevelsOfDetail, AreCoarserOneAfterTheOtherAndTheirErrorIsTrue) {
     EXPECT_GE(level.error, error);
     triangles = level.indices.size();
     error = level.error;
-    // A chord's middle lies that far inside the sphere.
+    // The middle of a chord is inside the sphere by this distance.
     float deepest = 0.0f;
     for (size_t i = 0; i < level.indices.size(); i += 3) {
       const glm::vec3 middle =
@@ -133,7 +133,7 @@ TEST(LevelsOfDetail, OfAThingAreOffByAShareOfTheirEdgesAtLeast) {
   stage::Prop prop;
   stage::PropMesh& mesh = prop.parts.emplace_back().meshes.emplace_back();
   mesh.positions = sphere.positions;
-  // Flat: only light between vertices is wrong.
+  // In a flat mesh only the light between vertices has an error.
   for (glm::vec3& p : mesh.positions) {
     p.y = 0.0f;
   }
@@ -164,7 +164,7 @@ TEST(LevelsOfDetail, OfAFewTrianglesAreNone) {
   EXPECT_TRUE(empty.coarser.empty());
 }
 
-// What a triangle list looks like, whatever its vertices are called.
+// The corner positions of a list of triangles, independent of vertex numbers.
 std::vector<glm::vec3> Corners(const human::SkinnedMesh& mesh,
                                const std::vector<uint32_t>& indices) {
   std::vector<glm::vec3> corners;
@@ -264,7 +264,7 @@ TEST(CastPaint, DyesWhatIsCoveredAndKeepsTheCover) {
 
 TEST(CastPaint, BringsTheSkinToItsTintAndOnlyPaintsHairsWhereTheyGrow) {
   const cv::Mat image(64, 64, CV_8UC3, cv::Scalar(150, 180, 220));
-  // Two triangles: all of the picture; hair on the vertices at the left.
+  // Two triangles cover the whole image; hair is on the vertices at the left.
   const std::vector<glm::vec2> uvs = {{0, 0}, {0.1, 0}, {0, 1}, {0.1, 1}, {1, 0}, {1, 1}};
   const std::vector<uint32_t> indices = {0, 1, 2, 1, 3, 2, 1, 4, 3, 4, 5, 3};
   SkinPaint paint;

@@ -1,4 +1,4 @@
-#include "editor/import/cast_recipe.h"
+#include "editor/import/cast/cast_recipe.h"
 
 #include <gtest/gtest.h>
 

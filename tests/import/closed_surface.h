@@ -7,8 +7,7 @@
 
 namespace lararium::import {
 
-// The number of edges that do not join exactly two triangles, once in each
-// direction.
+// Counts the edges that do not join exactly two triangles, one in each direction.
 inline size_t CountOpenEdges(std::span<const uint32_t> indices) {
   std::map<std::pair<uint32_t, uint32_t>, std::pair<int, int>> uses;
   for (size_t i = 0; i < indices.size(); ++i) {

@@ -1,4 +1,4 @@
-// Garments cut over bodies of the real cast library: skipped where it is not fetched.
+// Garments for bodies of the real cast library; skipped if it has not been fetched.
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "editor/import/cast_builder.h"
-#include "editor/import/cast_presets.h"
-#include "editor/import/garment/draped.h"
-#include "editor/import/garment/garment.h"
+#include "editor/import/cast/cast_builder.h"
+#include "editor/import/cast/cast_presets.h"
+#include "editor/import/wardrobe/draped.h"
+#include "editor/import/wardrobe/garment.h"
 #include "shared/human/cloth.h"
 #include "tests/support/test_files.h"
 
@@ -73,7 +73,7 @@ std::vector<JointTurn> With(const FittedBody& body, std::vector<JointTurn> more)
   return turns;
 }
 
-// How the person may stand, arms before them or beside them.
+// Standing poses with arms beside and in front of the body.
 std::vector<std::vector<JointTurn>> ArmPoses(const FittedBody& body) {
   const glm::vec3 x(1, 0, 0);
   return {StandingTurns(body, 1.0f), StandingTurns(body, 0.0f), StandingTurns(body, 0.5f),
@@ -81,9 +81,9 @@ std::vector<std::vector<JointTurn>> ArmPoses(const FittedBody& body) {
           With(body, {{"l_shoulder", About(0.8f, x)}, {"r_shoulder", About(0.8f, x)}})};
 }
 
-// Deepest that drawn skin which lies under a garment while standing comes through it.
-// Beside an opening skin is neither under it nor not; skirt and sleeves are simulated.
-// hidden: what any garment covers.
+// The largest distance by which drawn skin that is under a garment while standing protrudes
+// through it. Near openings skin is not tested; skirt and sleeves are simulated. `hidden` marks
+// skin under any garment.
 float Poke(const FittedBody& body,
            const Garment& garment,
            const std::vector<bool>& hidden,
@@ -160,7 +160,7 @@ TEST_F(Garments, AreWholePartsOfAHuman) {
     }
     human.meshes.push_back(garment.mesh);
   }
-  // What lies below a toga and a palla need not move.
+  // Cloth below a toga and a palla need not move.
   EXPECT_GE(human.cloths.size(), 2u);
   const Status status = human.Validate("garments");
   EXPECT_TRUE(status.ok()) << status.message();
@@ -204,7 +204,7 @@ TEST_F(Garments, SkinNeverComesThroughATunic) {
 struct Dressed {
   FittedBody body;
   std::vector<Garment> garments;
-  std::vector<bool> hidden;  // by any of them
+  std::vector<bool> hidden;  // Hidden by any of them.
 };
 
 Dressed Preset(const std::string& name) {
@@ -228,7 +228,7 @@ Dressed Preset(const std::string& name) {
   return dressed;
 }
 
-// Arms up, a long stride, on a stool.
+// Arms up, a long stride, seated on a stool.
 std::vector<std::vector<JointTurn>> KeyPoses(const FittedBody& body) {
   const glm::vec3 x(1, 0, 0);
   const glm::vec3 z(0, 0, 1);
@@ -250,7 +250,7 @@ TEST_P(Presets, SkinNeverComesThroughWhatTheyWear) {
   const Dressed dressed = Preset(GetParam());
   const std::vector<std::vector<JointTurn>> poses = KeyPoses(dressed.body);
   for (const Garment& garment : dressed.garments) {
-    // The arm below a mantle carries it along when it rises, but not all of it.
+    // The arm under a mantle lifts only a part of it.
     const float bar = garment.mesh.name == "toga" ? 0.02f : 0.01f;
     for (size_t i = 0; garment.cloth && i < poses.size(); ++i) {
       EXPECT_LT(Poke(dressed.body, garment, dressed.hidden, PoseBody(dressed.body, poses[i])), bar)
@@ -259,7 +259,7 @@ TEST_P(Presets, SkinNeverComesThroughWhatTheyWear) {
   }
 }
 
-// Deepest that a free particle is in the body, beyond what it is as bound.
+// The largest depth of a free particle in the body, beyond its depth in the bind pose.
 float Depth(const human::Human& human,
             std::span<const glm::mat4> actor_from_joint,
             const human::ClothState& state) {
@@ -288,7 +288,7 @@ float Depth(const human::Human& human,
   return deepest;
 }
 
-// Somebody turns round in half a second, sits down, and gets up again.
+// A person turns round in half a second, sits down, and gets up again.
 TEST_P(Presets, ClothFollowsTurningAndSittingOutsideOfTheBody) {
   Dressed dressed = Preset(GetParam());
   human::Human human;
@@ -371,7 +371,7 @@ TEST_F(Garments, TheSkirtIsSimulatedAndHeldAtTheBelt) {
     highest_free = std::max(highest_free, skirt ? cloth.positions[p].y : 0.0f);
   }
   EXPECT_GT(held, 10u);
-  EXPECT_LT(highest_free, 0.75f * body.height);  // girdled under the bust
+  EXPECT_LT(highest_free, 0.75f * body.height);  // Belted below the bust.
 
   human::Human human;
   human.skeleton = body.skeleton;

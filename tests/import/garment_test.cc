@@ -1,24 +1,24 @@
-// The workshop that garments are cut in: sheets, the field about a body, draping, the
-// weave, and what a recipe may say.
+// Tools for cutting garments: sheets, distance fields, draping, weaves, and the parsing of
+// patterns.
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "editor/import/garment/body_field.h"
-#include "editor/import/garment/drape.h"
-#include "editor/import/garment/garment_pattern.h"
-#include "editor/import/garment/posed_body.h"
-#include "editor/import/garment/sheet.h"
-#include "editor/import/garment/weave.h"
+#include "editor/import/wardrobe/body_field.h"
+#include "editor/import/wardrobe/drape.h"
+#include "editor/import/wardrobe/garment_pattern.h"
+#include "editor/import/wardrobe/posed_body.h"
+#include "editor/import/wardrobe/sheet.h"
+#include "editor/import/wardrobe/weave.h"
 
 namespace lararium::import {
 namespace {
 
 constexpr float kRadius = 0.2f;
 
-// A ball about the origin: rings of latitude, outward anticlockwise.
+// A ball about the origin: rings of latitude, counter-clockwise from outside.
 struct Ball {
   std::vector<glm::vec3> positions;
   std::vector<Triangle> triangles;
@@ -64,7 +64,7 @@ BodyField FieldOfBall() {
   return field;
 }
 
-// A square of cloth, level, its middle above the origin.
+// A level square of cloth with its middle above the origin.
 Sheet Napkin(size_t side, float spacing, float height) {
   Sheet sheet;
   GridPanel grid;

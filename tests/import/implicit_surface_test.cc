@@ -1,4 +1,4 @@
-#include "editor/import/implicit_surface.h"
+#include "editor/import/cast/implicit_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "editor/import/joint_names.h"
+#include "editor/import/model/joint_names.h"
 
 #include <gtest/gtest.h>
 

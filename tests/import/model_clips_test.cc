@@ -1,4 +1,4 @@
-#include "editor/import/model_clips.h"
+#include "editor/import/model/model_clips.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "editor/import/model_placement.h"
-#include "editor/import/plain_skeleton.h"
+#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/model/model_placement.h"
 #include "shared/core/file.h"
 #include "tests/import/glb_figure.h"
 #include "tests/support/test_files.h"
@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The plain skeleton in a file whose clips turn the left elbow.
+// The plain skeleton in a file whose clips rotate the left elbow.
 class ModelClips : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -26,7 +26,7 @@ class ModelClips : public ::testing::Test {
     figure_.json["animations"] = Json::array();
   }
 
-  // Radians about the Z axis at each of the times.
+  // Adds a clip with these angles about the Z axis, in radians, at each of the times.
   void Add(const char* name, const std::vector<float>& times, const std::vector<float>& angles) {
     std::vector<float> rotations;
     for (const float angle : angles) {

@@ -1,4 +1,4 @@
-#include "editor/import/model_expressions.h"
+#include "editor/import/model/model_expressions.h"
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ TEST(ComposeFace, OpensTheMouthByTheJawWhereNothingElseDoes) {
   ASSERT_NE(aa, nullptr);
   ASSERT_EQ(aa->turns.size(), 1u);
   EXPECT_EQ(aa->turns[0].joint, 7u);
-  // What is in front of the joint goes down.
+  // Vertices in front of the joint move down.
   EXPECT_LT((aa->turns[0].rotation * glm::vec3(0, 0, -1)).y, -0.1f);
 }
 

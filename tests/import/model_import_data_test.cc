@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "editor/import/clip_import.h"
-#include "editor/import/model_gltf.h"
-#include "editor/import/model_import.h"
-#include "editor/import/plain_figure.h"
+#include "editor/import/cast/plain_figure.h"
+#include "editor/import/model/model_gltf.h"
+#include "editor/import/model/model_import.h"
+#include "editor/import/motion/clip_import.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
 #include "shared/human/skinning.h"
@@ -95,7 +95,7 @@ TEST(LightingFigure, KeepsTheJarInTheHand) {
   const auto jar = std::find_if(human->meshes.begin(), human->meshes.end(),
                                 [](const auto& mesh) { return mesh.name == "amphora"; });
   ASSERT_NE(jar, human->meshes.end());
-  // Rigid: distances within it stay the same while the arms rise.
+  // Rigid parts keep their internal distances while the arms rise.
   const auto raised = Skin(*human, *jar, human->clips[0], 1.0);
   const size_t last = raised.size() - 1;
   EXPECT_NEAR(glm::distance(raised[0], raised[last]),
@@ -107,7 +107,7 @@ TEST(MaquetteOccluder, IsReadInMetresYUp) {
   LARARIUM_REQUIRE_DATA(folder, "maquette");
   const auto mesh = ImportMesh(folder / "occluder.glb");
   ASSERT_TRUE(mesh.ok()) << mesh.message();
-  // Floor at 0; the counter's front is the plane y = 0.9 of the data's Z-up world,
+  // The floor is at 0. The front of the counter is the plane y = 0.9 of the data's Z-up world,
   // z = -0.9 here, and reaches from x = -1.25 to 2.2.
   float lowest = 100.0f;
   bool front = false;
@@ -144,9 +144,9 @@ TEST(DamagedModels, NeverCrashTheImporter) {
   }
 }
 
-// ---- The figure of the lighting set under other names, axes and units -----------------
+// ---- The figure of the lighting set under other names, axes and units ----
 
-// The figure with its nodes renamed; a new root turns and scales the whole.
+// The figure with renamed nodes and a new root that rotates and scales it.
 Result<std::vector<std::byte>> Variant(const std::filesystem::path& file,
                                        const std::function<std::string(const std::string&)>& name,
                                        const Json& root) {
@@ -199,7 +199,7 @@ TEST(LightingFigure, IsTheSameUnderAnyNamesAxesAndUnits) {
   }
 }
 
-// ---- Debian's assimp-testmodels ---------------------------------------------------------
+// ---- Debian's assimp-testmodels ----
 
 #define REQUIRE_MODELS(variable)                                     \
   const std::filesystem::path variable = "/usr/share/assimp/models"; \
@@ -210,7 +210,7 @@ TEST(LightingFigure, IsTheSameUnderAnyNamesAxesAndUnits) {
 
 struct ModelClaim {
   const char* file;
-  // Of ImportPerson and of ImportMotion: part of the error, or empty where it loads.
+  // Expected part of the error of ImportPerson and of ImportMotion; empty if it loads.
   const char* person;
   const char* motion;
 };
@@ -235,7 +235,7 @@ constexpr ModelClaim kAnimatedModels[] = {
     {"glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf", kNoSkeleton,
      kNoSkeleton},
     {"glTF2/RecursiveNodes/RecursiveNodes.gltf", "their own ancestors", "their own ancestors"},
-    {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "nowhere in space", kNoSkeleton},
+    {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "no valid position", kNoSkeleton},
     {"glTF2/MissingBin/BoxTextured.gltf", "could not open", "could not open"},
     {"glTF2/draco/2CylinderEngine.gltf", "KHR_draco_mesh_compression", "KHR_draco"},
     {"X/anim_test.x", "is not in the scene", "is not in the scene"},
@@ -265,8 +265,8 @@ TEST(AssimpModels, AnimatedOnesLoadOrSayWhyNot) {
   }
 }
 
-// Whatever the package holds, in every format: a figure that keeps its promises or one
-// line that names the file.
+// For every file of the package in every format, the result is a valid figure or one line that
+// names the file.
 TEST(AssimpModels, AllAreAnswered) {
   REQUIRE_MODELS(models);
   size_t loaded = 0, refused = 0;
@@ -288,7 +288,7 @@ TEST(AssimpModels, AllAreAnswered) {
   EXPECT_GE(refused, 400u);
 }
 
-// The lowest point of a figure in a pose, metres.
+// Height of the lowest point of a figure in a pose, metres.
 float Lowest(const human::Human& human, const human::Clip& clip, double time) {
   float lowest = std::numeric_limits<float>::max();
   for (const human::SkinnedMesh& mesh : human.meshes) {
@@ -309,7 +309,7 @@ TEST(CapturedClips, PutThePlainFiguresFeetOnTheFloor) {
     const auto imported = ImportClip(models / file, figure.skeleton, options);
     ASSERT_TRUE(imported.ok()) << imported.message();
     EXPECT_NEAR(imported->clip.duration, 20.0f, 0.1f);
-    EXPECT_EQ(imported->clip.stride, 0.0f);  // they jump and box, and turn
+    EXPECT_EQ(imported->clip.stride, 0.0f);  // They jump, box and turn.
     std::vector<float> lowest;
     for (double time = 1.0; time < 20.0; time += 0.5) {
       lowest.push_back(Lowest(figure, imported->clip, time));

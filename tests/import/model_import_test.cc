@@ -1,4 +1,4 @@
-#include "editor/import/model_import.h"
+#include "editor/import/model/model_import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 #include <string>
 #include <thread>
 
-#include "editor/import/model_gltf.h"
-#include "editor/import/model_isolation.h"
-#include "editor/import/model_textures.h"
-#include "editor/import/plain_skeleton.h"
+#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/model/model_gltf.h"
+#include "editor/import/model/model_isolation.h"
+#include "editor/import/model/model_textures.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
 #include "tests/import/glb_figure.h"
@@ -93,7 +93,7 @@ TEST_F(ModelImport, RefusesImpossibleOptions) {
   EXPECT_FALSE(ImportHuman(Write("square.obj", kSquare), options).ok());
 }
 
-// Whatever the axes, the unit and the place of the file, the figure stands in the actor's.
+// For any axes, unit and position of the file, the figure stands in the frame of the actor.
 TEST_F(ModelImport, StandsInTheActorFrame) {
   const human::Skeleton skeleton = PlainSkeleton();
   const auto turned = [](float angle, const glm::vec3& axis, float scale) {
@@ -166,13 +166,13 @@ TEST_F(ModelImport, KeepsTheFourLargestWeights) {
                                       {"type", "VEC4"}});
   attributes["JOINTS_1"] = figure.json["accessors"].size() - 1;
   const auto human = ImportHuman(Write("figure.glb", figure));
-  ASSERT_TRUE(human.ok()) << human.message();  // Human::Validate: sums are 1
+  ASSERT_TRUE(human.ok()) << human.message();  // Human::Validate checks that the sums are 1.
   const glm::vec4& weights = human->meshes[0].weights.back();
   EXPECT_NEAR(weights.x, 1.0f / 1.9f, 1e-4f);
   EXPECT_NEAR(weights.w, 0.2f / 1.9f, 1e-4f);
 }
 
-// ---- Surfaces ----------------------------------------------------------------------
+// ---- Surfaces ----
 
 void AddTexture(test::GlbFigure& figure, const std::vector<std::byte>& image) {
   Json& json = figure.json;
@@ -205,7 +205,7 @@ TEST_F(ModelImport, ReadsTexturesAndMakesThemSmall) {
 
 TEST_F(ModelImport, LeavesOutATextureThatIsABomb) {
   std::vector<std::byte> bomb = Png(8, 8, 3);
-  for (const size_t at : {size_t{18}, size_t{22}}) {  // width and height: 8 becomes 60 008
+  for (const size_t at : {size_t{18}, size_t{22}}) {  // Width and height: 8 becomes 60 008.
     bomb[at] = std::byte{0xea};
     bomb[at + 1] = std::byte{0x68};
   }
@@ -234,7 +234,7 @@ TEST_F(ModelImport, FindsTexturesBesideTheModelAndNowhereElse) {
   }
 }
 
-// ---- VRM ---------------------------------------------------------------------------
+// ---- VRM ----
 
 test::GlbFigure FigureWithTargets(const std::vector<std::string>& names) {
   test::GlbFigure figure = test::MakeGlbFigure(PlainSkeleton());
@@ -242,7 +242,7 @@ test::GlbFigure FigureWithTargets(const std::vector<std::string>& names) {
   const size_t count = figure.json["accessors"][0]["count"];
   for (size_t t = 0; t < names.size(); ++t) {
     std::vector<float> deltas(3 * count, 0.0f);
-    deltas[3 * t + 1] = 0.01f;  // vertex t rises
+    deltas[3 * t + 1] = 0.01f;  // Vertex t rises.
     primitive["targets"].push_back({{"POSITION", figure.AddFloats(deltas, 3)}});
   }
   figure.json["meshes"][0]["extras"]["targetNames"] = names;
@@ -274,13 +274,13 @@ TEST_F(ModelImport, ReadsMorphTargetsSparsely) {
 TEST_F(ModelImport, ReadsVrmOfBothVersions) {
   const human::Skeleton skeleton = PlainSkeleton();
   const auto node = [&](const char* joint) { return JointIndex(skeleton, joint); };
-  const size_t bearer = skeleton.size();  // of the mesh
+  const size_t bearer = skeleton.size();  // The node that has the mesh.
   const size_t chain[] = {node("l_elbow"), node("l_wrist"), node("l_middle1")};
   for (const bool old : {true, false}) {
     test::GlbFigure figure = FigureWithTargets({"first", "second"});
     Json& json = figure.json;
     for (Json& n : json["nodes"]) {
-      n["name"] = "x";  // the file alone tells
+      n["name"] = "x";  // Only the VRM data identify the bones.
     }
     if (old) {
       Json bones = Json::array();
@@ -345,7 +345,7 @@ TEST_F(ModelImport, ReadsVrmOfBothVersions) {
   }
 }
 
-// ---- Hostile files -----------------------------------------------------------------
+// ---- Hostile files ----
 
 struct Hostile {
   const char* name;

@@ -1,12 +1,12 @@
-#include "editor/import/model_placement.h"
+#include "editor/import/model/model_placement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "editor/import/model_matrix.h"
-#include "editor/import/plain_skeleton.h"
+#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/model/model_matrix.h"
 
 namespace lararium::import {
 namespace {
@@ -30,7 +30,7 @@ class ModelPlacement : public ::testing::Test {
     rig_.map = MapBones(rig_.bones);
   }
 
-  // A vertex at each joint.
+  // A part with a vertex at each joint.
   Part Body() const {
     Part part;
     part.positions = rig_.bones.positions;
@@ -103,7 +103,7 @@ TEST_F(ModelPlacement, StandsOnFeetWhateverHangsLower) {
   cloak.positions.push_back(rig_.bones.positions[0] - glm::vec3(0.0f, 1.5f, 0.0f));
   cloak.influences.push_back({Influence{Node("vl5"), 1.0f}});
   EXPECT_NEAR(LowestJoint(Place({cloak})), 0.0f, 1e-5f);
-  cloak.influences.back() = {Influence{Node("l_ankle"), 1.0f}};  // the same as a foot
+  cloak.influences.back() = {Influence{Node("l_ankle"), 1.0f}};  // Now bound to a foot.
   EXPECT_GT(LowestJoint(Place({cloak})), 0.3f);
 }
 

@@ -1,4 +1,4 @@
-#include "editor/import/model_surfaces.h"
+#include "editor/import/model/model_surfaces.h"
 
 #include <assimp/material.h>
 #include <gmock/gmock.h>
@@ -12,11 +12,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// A scene of materials alone, and a part for each of those that are used.
+// A scene with only materials, and a part for each used material.
 class ReadSurfacesTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    scene_.mMaterials = new aiMaterial*[kMost];  // the scene deletes them
+    scene_.mMaterials = new aiMaterial*[kMost];  // The scene deletes them.
     model_.scene = &scene_;
     model_.file = "folder/figure.fbx";
   }
@@ -70,7 +70,7 @@ TEST_F(ReadSurfacesTest, ReadsOnlyTheMaterialsThatPartsUse) {
   Use(2);
   Use(0);
   Use(2);
-  Use(99);  // there is none
+  Use(99);  // Does not exist.
   const ModelSurfaces surfaces = Read();
   ASSERT_EQ(surfaces.materials.size(), 2u);
   EXPECT_EQ(surfaces.materials[1].name, "third");
@@ -109,7 +109,7 @@ TEST_F(ReadSurfacesTest, SaysOnceThatAnImageIsMissing) {
 TEST_F(ReadSurfacesTest, TakesAnEmbeddedImageOnceAndUntouched) {
   auto* texture = new aiTexture;
   texture->pcData = new aiTexel[2]{};
-  texture->mWidth = 8;  // bytes of an encoded image
+  texture->mWidth = 8;  // Number of bytes of an encoded image.
   texture->mFilename = "skin.png";
   scene_.mTextures = new aiTexture*[1];
   scene_.mTextures[0] = texture;

@@ -32,8 +32,8 @@ TEST_P(ObjectModels, AreWholeAndKnowTheirUse) {
   EXPECT_LT((*model)->upper().y, 2.2f);
 }
 
-// The part of the volume of a closed surface that one triangle sees from the origin,
-// six times; the sum is negative where the surface is inside out.
+// Six times the signed volume between the origin and a triangle; the sum is negative if the
+// surface is inside out.
 float SignedVolume(const stage::PropMesh& mesh) {
   float sum = 0.0f;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -76,8 +76,8 @@ TEST_P(ObjectModels, HaveNormalsOfTheirTriangles) {
   EXPECT_LE(wrong, count / 50);
 }
 
-// The point of a triangle nearest to p (Ericson, "Real-Time Collision Detection",
-// 5.1.5, by clamping to the edges).
+// The point of a triangle nearest to p (Ericson, "Real-Time Collision Detection", 5.1.5, by
+// clamping to the edges).
 glm::vec3 NearestOf(const glm::vec3& p,
                     const glm::vec3& a,
                     const glm::vec3& b,
@@ -101,7 +101,7 @@ glm::vec3 NearestOf(const glm::vec3& p,
   return nearest;
 }
 
-// From a point of the part's frame to its surface.
+// Distance from a point in the frame of the part to its surface.
 float DistanceTo(const stage::PropPart& part, const glm::vec3& point) {
   float nearest = std::numeric_limits<float>::infinity();
   for (const stage::PropMesh& mesh : part.meshes) {
@@ -116,7 +116,7 @@ float DistanceTo(const stage::PropPart& part, const glm::vec3& point) {
   return nearest;
 }
 
-// A palm lies on what it holds: a hand's thickness from it at most.
+// A palm touches what it holds, within the thickness of a hand.
 TEST_P(ObjectModels, AreHeldWhereTheyAre) {
   const auto prop = BuildObjectModel(GetParam());
   ASSERT_TRUE(prop.ok());
@@ -124,7 +124,7 @@ TEST_P(ObjectModels, AreHeldWhereTheyAre) {
   ASSERT_TRUE(use.ok()) << use.message();
   for (const stage::Grip& grip : use->grips) {
     if (grip.hand_pose == human::HandPose::kFlat && GetParam() == "brazier") {
-      continue;  // hands that are warmed stay away
+      continue;  // Hands that warm themselves keep their distance.
     }
     const stage::PropPart& part = prop->parts[std::max(grip.part, 0)];
     EXPECT_LT(DistanceTo(part, grip.part_from_hand.position), 0.035f) << grip.name;

@@ -1,16 +1,16 @@
-// What the presets of the cast do with their bodies, measured as they are drawn: feet
-// that slide, hands off their grips, eyes off their targets, hips off their seats.
-// Prints one table. Skipped where the cast library is not fetched.
+// Measures the body motion of the presets as drawn: sliding feet, hands away from their grips,
+// eyes away from their targets, hips away from their seats. Prints one table. Skipped if the
+// cast library has not been fetched.
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "editor/import/cast_builder.h"
-#include "editor/import/cast_presets.h"
+#include "editor/import/cast/cast_builder.h"
+#include "editor/import/cast/cast_presets.h"
 #include "editor/import/objects/object_models.h"
-#include "shared/human/performance.h"
+#include "shared/human/animator.h"
 #include "shared/human/turns.h"
 #include "shared/stage/stage.h"
 #include "tests/support/test_files.h"
@@ -21,7 +21,7 @@ namespace {
 using stage::Pose;
 using stage::TaskReport;
 
-// Undressed: clothes move no joints.
+// Without clothes, because they move no joints.
 std::shared_ptr<const human::Human> Preset(const std::string& name) {
   static const auto library = CastLibrary::Open(test::CastLibraryDir());
   if (!library.ok()) {
@@ -34,11 +34,11 @@ std::shared_ptr<const human::Human> Preset(const std::string& name) {
   return human.ok() ? std::make_shared<const human::Human>(*std::move(human)) : nullptr;
 }
 
-// One person on a stage of objects, watched tick by tick.
+// One person on a stage with objects, measured tick by tick.
 class Watched {
  public:
   explicit Watched(std::shared_ptr<const human::Human> human)
-      : actor_(*stage_.Add("somebody", human)), performer_(stage_.Find(actor_)->model) {
+      : actor_(*stage_.Add("somebody", human)), animator_(stage_.Find(actor_)->model) {
     stage_.Place(actor_, {0.0f, 0.0f, 0.0f}, 0.0f);
     stage_.Show(actor_, true);
   }
@@ -52,12 +52,12 @@ class Watched {
   stage::Tasks& tasks() { return stage_.tasks(); }
   stage::ActorId actor() const { return actor_; }
   const stage::ActorState& State() { return stage_.Find(actor_)->state; }
-  const human::SittingModel& sitting() const { return performer_.model().sitting; }
+  const human::SittingModel& sitting() const { return animator_.model().sitting; }
 
   void Tick() {
     stage_.Advance();
     stage_.Perform();
-    performer_.Pose(State().performance);
+    animator_.Pose(State().performance);
     WatchHands();
     WatchFeet();
   }
@@ -69,7 +69,7 @@ class Watched {
     EXPECT_EQ(tasks().report(*task).state, TaskReport::State::kDone)
         << tasks().report(*task).message;
   }
-  // Since the last call, millimetres.
+  // The largest values since the last call, millimetres.
   float Missed() { return 1e3f * std::exchange(missed_, 0.0f); }
   int held() const { return held_; }
   float Slid() { return 1e3f * std::exchange(slid_, 0.0f); }
@@ -78,20 +78,20 @@ class Watched {
     return 0.5f *
            (At(sitting().body.legs[0].hip).position + At(sitting().body.legs[1].hip).position);
   }
-  // The worse eye, degrees.
+  // Error of the worse eye, degrees.
   float GazeError(const glm::vec3& target) {
-    const human::Body& body = sitting().body;
+    const human::BodyRig& body = sitting().body;
     const glm::vec3 at = human::TurnY(-State().heading) * (target - State().position);
     float worst = 0.0f;
     for (const human::JointIndex eye : body.eyes) {
       const human::JointFrame frame = At(eye);
-      const glm::vec3 sight = frame.rotation *
-                              glm::conjugate(body.rest[static_cast<size_t>(eye)].rotation) *
-                              glm::vec3(0.0f, 0.0f, -1.0f);
-      const float cosine = glm::dot(sight, glm::normalize(at - frame.position));
+      const glm::vec3 observation = frame.rotation *
+                                    glm::conjugate(body.rest[static_cast<size_t>(eye)].rotation) *
+                                    glm::vec3(0.0f, 0.0f, -1.0f);
+      const float cosine = glm::dot(observation, glm::normalize(at - frame.position));
       worst = std::max(worst, std::acos(std::clamp(cosine, -1.0f, 1.0f)));
     }
-    return worst * 180.0f / human::kPi;
+    return worst * 180.0f / kPiF;
   }
   void LookAt(const glm::vec3& point) {
     stage::Attention::Choice choice;
@@ -102,22 +102,22 @@ class Watched {
 
  private:
   human::JointFrame At(human::JointIndex joint) const {
-    return human::ActorFromJoint(performer_.human().skeleton, performer_.pose(), joint);
+    return human::ActorFromJoint(animator_.human().skeleton, animator_.pose(), joint);
   }
-  // Hands that are all at their grips.
+  // Measures hands that have reached their grips.
   void WatchHands() {
     for (const int side : {human::kRight, human::kLeft}) {
       const human::ReachGoal goal =
           human::Goal(State().performance.reaches[static_cast<size_t>(side)]);
       if (goal.weight >= 1.0f) {
         const human::GripFrame palm = human::ActorFromPalm(
-            performer_.model().reach, performer_.human().skeleton, performer_.pose(), side);
+            animator_.model().reach, animator_.human().skeleton, animator_.pose(), side);
         ++held_;
         missed_ = std::max(missed_, glm::distance(palm.position, goal.actor_from_grip.position));
       }
     }
   }
-  // Of a flat foot, from where it came to stand.
+  // Measures the movement of a flat foot from where it was planted.
   void WatchFeet() {
     for (size_t side = 0; side < 2; ++side) {
       const human::Locomotion::Foot& foot = State().performance.locomotion.feet[side];
@@ -136,14 +136,14 @@ class Watched {
 
   stage::Stage stage_;
   stage::ActorId actor_;
-  human::Performer performer_;
+  human::Animator animator_;
   float missed_ = 0.0f, slid_ = 0.0f;
   int held_ = 0;
   std::array<bool, 2> stands_ = {false, false};
   std::array<glm::vec3, 2> stood_ = {};
 
  public:
-  bool feet_hang = false;  // too small for the seat
+  bool feet_hang = false;  // The person is too small for the seat.
 };
 
 class PeopleInMotion : public testing::TestWithParam<std::string> {};
@@ -160,7 +160,7 @@ TEST_P(PeopleInMotion, KeepTheirFeetHandsEyesAndSeats) {
   {
     Watched one(human);
     for (const glm::vec2 goal : {glm::vec2(0, -5), glm::vec2(4, -3), glm::vec2(-3, -1),
-                                 glm::vec2(-2, 3), glm::vec2(2, 3)}) {  // 23 m
+                                 glm::vec2(-2, 3), glm::vec2(2, 3)}) {  // A path of 23 m.
       one.Finish(one.tasks().Walk(one.actor(), goal, {}, 0.0f));
     }
     const float slid = one.Slid();

@@ -1,4 +1,4 @@
-#include "editor/import/plain_figure.h"
+#include "editor/import/cast/plain_figure.h"
 
 #include <gtest/gtest.h>
 
@@ -7,21 +7,21 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "editor/import/plain_motion.h"
-#include "editor/import/plain_skeleton.h"
+#include "editor/import/cast/plain_motion.h"
+#include "editor/import/cast/plain_skeleton.h"
 #include "shared/human/skinning.h"
 #include "tests/import/closed_surface.h"
 
 namespace lararium::import {
 namespace {
 
-// Built once: it takes about a second.
+// Built once, because it takes about a second.
 const human::Human& Figure() {
   static const human::Human figure = BuildPlainFigure();
   return figure;
 }
 
-// Skeleton and clips alone come at once.
+// Skeleton and clips alone take no time.
 const human::Skeleton& FigureSkeleton() {
   static const human::Skeleton skeleton = PlainSkeleton();
   return skeleton;
@@ -81,7 +81,7 @@ TEST(PlainFigure, IsAsTallAsAskedAndStandsOnTheFloor) {
 }
 
 TEST(PlainFigure, HasHumanProportions) {
-  // Shares of the height after Winter, "Biomechanics and Motor Control of Human
+  // Shares of the height according to Winter, "Biomechanics and Motor Control of Human
   // Movement", figure 4.1.
   const auto at = [&](const char* joint) {
     return glm::vec3(
@@ -117,7 +117,7 @@ TEST(PlainFigure, NormalsAgreeWithTriangles) {
 }
 
 TEST(PlainFigure, NoVertexFollowsJointsThatAreFarApart) {
-  // Joints of one vertex lie on one path of at most five links of the skeleton.
+  // The joints of a vertex are on a path of at most five links of the skeleton.
   const human::Skeleton& skeleton = FigureSkeleton();
   const auto distance = [&](size_t a, size_t b) {
     int steps = 0;
@@ -167,7 +167,7 @@ TEST(PlainWalk, EndsWhereItBegins) {
 
 TEST(PlainWalk, MovesAtAHumanPace) {
   const human::Clip& walk = ClipNamed("walk");
-  EXPECT_GT(walk.stride / walk.duration, 1.0f);  // metres a second
+  EXPECT_GT(walk.stride / walk.duration, 1.0f);  // Metres per second.
   EXPECT_LT(walk.stride / walk.duration, 1.5f);
 }
 
@@ -186,8 +186,8 @@ TEST(PlainWalk, KeepsTheLowestFootOnTheFloor) {
 TEST(PlainWalk, FeetDoNotSlide) {
   const human::Clip& walk = ClipNamed("walk");
   const human::Skeleton& skeleton = FigureSkeleton();
-  // The ball of the right foot while it is on the floor, in stage coordinates: the
-  // actor moves forwards (-z) by the stride in each pass.
+  // The ball of the right foot while it is on the floor, in stage coordinates: the actor moves
+  // forwards (-z) by the stride in each cycle.
   const size_t ball = skeleton.Find("r_midtarsal").value();
   float first = 0.0f, least = 10.0f, most = -10.0f;
   for (double share = 0.10; share < 0.58; share += 0.01) {
@@ -202,8 +202,8 @@ TEST(PlainWalk, FeetDoNotSlide) {
 }
 
 TEST(PlainWalk, TheKneeFollowsThePublishedCurve) {
-  // Perry & Burnfield 2010: 5 at contact, 15-20 loaded, 5-10 before the heel
-  // rises, 60 at the height of the swing; within what planting the feet costs.
+  // Perry & Burnfield 2010: 5 at contact, 15-20 loaded, 5-10 before the heel rises, 60 at the
+  // height of the swing. The tolerance allows for the correction that plants the feet.
   const human::Clip& walk = ClipNamed("walk");
   const size_t hip = FigureSkeleton().Find("r_hip").value();
   const size_t knee = FigureSkeleton().Find("r_knee").value();

@@ -1,4 +1,4 @@
-#include "editor/import/retarget.h"
+#include "editor/import/motion/retarget.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "editor/import/clip_track.h"
-#include "editor/import/plain_figure.h"
-#include "editor/import/plain_skeleton.h"
-#include "editor/import/root_motion.h"
+#include "editor/import/cast/plain_figure.h"
+#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/model/clip_track.h"
+#include "editor/import/model/root_motion.h"
 #include "shared/human/turns.h"
 
 namespace lararium::import {
@@ -29,7 +29,7 @@ const Clip& Walk() {
                        [](const Clip& clip) { return clip.name == "walk"; });
 }
 
-// So many passes of a clip, moving on as its stride says, in some direction.
+// Repeats a clip `passes` times and moves on by its stride in the direction of `heading`.
 Clip Travelling(const Clip& clip, size_t joints, int passes, float heading) {
   Clip result = clip;
   result.keys.clear();
@@ -51,7 +51,7 @@ Clip Travelling(const Clip& clip, size_t joints, int passes, float heading) {
   return result;
 }
 
-// The skeleton with all its measures scaled, and one joint's limb turned at rest.
+// The skeleton scaled by a factor, with one limb rotated at rest.
 Skeleton Scaled(Skeleton skeleton, float scale) {
   for (size_t i = 0; i < skeleton.size(); ++i) {
     skeleton.rest[i].translation *= scale;
@@ -61,7 +61,7 @@ Skeleton Scaled(Skeleton skeleton, float scale) {
   return skeleton;
 }
 
-// Arms spread, as if bound so: frames stay parallel to the actor's.
+// Bound with spread arms; frames stay parallel to the actor's.
 Skeleton WithSpreadArms(Skeleton skeleton) {
   for (const auto& [side, sign] : {std::pair{"r_", 1.0f}, std::pair{"l_", -1.0f}}) {
     const size_t shoulder = JointIndex(skeleton, std::string(side) + "shoulder");
@@ -92,7 +92,7 @@ std::vector<glm::vec3> Positions(const Skeleton& skeleton, const Clip& clip, siz
 }
 
 // The sole under the ball of a foot.
-PointTrack Sole(const FootTrack& foot, const human::Body::Leg& leg) {
+PointTrack Sole(const FootTrack& foot, const human::BodyRig::Leg& leg) {
   PointTrack sole;
   for (size_t key = 0; key < foot.ankle.size(); ++key) {
     const glm::vec3 rest = human::TurnY(leg.toe_out) * glm::vec3(0.0f, 0.0f, leg.ball.z) -
@@ -102,12 +102,13 @@ PointTrack Sole(const FootTrack& foot, const human::Body::Leg& leg) {
   return sole;
 }
 
-// The furthest that the sole of a foot strays on the floor while that of the source stands.
+// The largest movement of the sole on the floor while that of the source stands.
 float WorstSlide(const Skeleton& source,
                  const Clip& source_clip,
                  const Skeleton& skeleton,
                  const Clip& clip) {
-  const human::Body source_body = human::MakeBody(source), body = human::MakeBody(skeleton);
+  const human::BodyRig source_body = human::MakeBodyRig(source),
+                       body = human::MakeBodyRig(skeleton);
   const BodyTrack source_track = TrackBody(source, source_body, source_clip);
   const BodyTrack track = TrackBody(skeleton, body, clip);
   float worst = 0.0f;
@@ -137,7 +138,7 @@ TEST(Retarget, ToTheSameSkeletonIsTheSameMotion) {
     const auto own = Positions(skeleton, source, key), got = Positions(skeleton, *result, key);
     for (const char* joint : {"r_wrist", "l_ankle", "skullbase", "r_knee"}) {
       const size_t j = JointIndex(skeleton, joint);
-      // Nothing tells how high a standing ankle is but the motion itself.
+      // The height of a standing ankle is only known from the motion itself.
       EXPECT_NEAR(glm::distance(own[j], got[j]), 0.0f, 0.03f) << joint << " at key " << key;
     }
   }
@@ -154,7 +155,7 @@ TEST(Retarget, ToATallerFigureTakesLongerSteps) {
   const auto first = Positions(taller, *result, 0);
   const size_t root = JointIndex(taller, "humanoid_root");
   const auto last = Positions(taller, *result, result->KeyCount(taller.size()) - 1);
-  EXPECT_LT(glm::distance(first[root], last[root]), 0.05f);  // the stride is out of the keys
+  EXPECT_LT(glm::distance(first[root], last[root]), 0.05f);  // The stride is removed from the keys.
 }
 
 TEST(Retarget, TurnsAWalkInAnyDirectionTowardsMinusZ) {
@@ -173,7 +174,7 @@ TEST(Retarget, TurnsAWalkInAnyDirectionTowardsMinusZ) {
 TEST(Retarget, HoldsFeetThatStand) {
   const Skeleton& skeleton = Plain().skeleton;
   Skeleton other = Scaled(skeleton, 0.8f);
-  // Longer shins than thighs: what the source's angles do would slide.
+  // With shins longer than thighs, copying the angles of the source would make the feet slide.
   for (const char* ankle : {"r_ankle", "l_ankle"}) {
     other.rest[JointIndex(other, ankle)].translation *= 1.15f;
   }

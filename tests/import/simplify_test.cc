@@ -1,4 +1,4 @@
-#include "editor/import/simplify.h"
+#include "editor/import/model/simplify.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ struct Triangles {
   std::vector<uint32_t> indices;
 };
 
-// A square of side metres in cells x cells squares of two triangles, bent upwards in the middle
+// A square of `side` metres with cells x cells squares of two triangles, raised in the middle
 // by `rise`.
 Triangles Grid(int cells, float side, float rise) {
   Triangles grid;
@@ -54,7 +54,7 @@ TEST(CoarserLevels, OfAPlaneKeepItAndAreOffByNothing) {
   ASSERT_FALSE(levels.empty());
   for (const human::LevelOfDetail& level : levels) {
     EXPECT_NEAR(level.error, 0.0f, 1e-4f);
-    // All of it is there; the coarsest may fold over within it.
+    // The complete area is covered; the coarsest level may fold over within it.
     EXPECT_GT(Area(grid, level.indices), 0.999f);
     EXPECT_LT(Area(grid, level.indices), 1.2f);
   }
@@ -76,7 +76,7 @@ TEST(CoarserLevels, OfAHillAreOffByMoreAndMore) {
   }
 }
 
-// Tetrahedra that do not touch, as many along each side.
+// Separate tetrahedra, with `along` of them along each side.
 Triangles Pieces(int along) {
   Triangles pieces;
   for (int i = 0; i < along * along * along; ++i) {
@@ -110,7 +110,7 @@ TEST(CoarserLevels, TakeSharesOfTheWhole) {
   const std::vector<human::LevelOfDetail> levels =
       CoarserLevels(grid.positions, grid.indices, 8 * grid.indices.size());
   ASSERT_FALSE(levels.empty());
-  // An eighth of the whole is all that there is: it is a level by itself.
+  // An eighth of `whole` is the complete grid, which becomes a level.
   EXPECT_EQ(levels.front().indices.size(), grid.indices.size());
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// A cast library of a few vertices: every bone that the skeleton needs, each about one
-// vertex of its own, a body of two quads and a few targets.
+// A cast library of a few vertices: every bone that the skeleton needs, each at its own vertex,
+// a body of two quads and a few targets.
 
 #include <filesystem>
 #include <fstream>
@@ -53,7 +53,7 @@ class TinyCastLibrary {
   Json& rig() { return rig_; }
   size_t target_bytes() const { return targets_.size() * vertex_count() * 3 * sizeof(int16_t); }
 
-  // surplus: bytes too many in the file of the targets.
+  // `surplus` is the number of extra bytes in the file of the targets.
   void Write(int surplus = 0) const {
     WriteFile("public/data/models/human_full_size.json", base_.dump());
     WriteFile("src/json/rigs/default.json", rig_.dump());

@@ -4,12 +4,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "shared/core/units.h"
 #include "tests/light/sh_test_support.h"
 
 namespace lararium::light {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Visibility past balls, seen from the origin, projected by casting rays.
 std::vector<double> CastVisibility(const std::vector<Ball>& balls, size_t count, int rays) {
@@ -71,7 +70,7 @@ TEST_P(Exponential, OfNothingIsOne) {
   }
 }
 
-// Against analytic projection: a ball comes out as it should unless it is huge.
+// Compares with the analytic projection: a single ball is right unless it is huge.
 TEST_P(Exponential, OfOneBallIsItsVisibility) {
   const auto count = static_cast<size_t>(GetParam());
   const glm::vec3 direction = glm::normalize(glm::vec3(0.5f, -0.3f, 0.8f));
@@ -90,8 +89,8 @@ TEST_P(Exponential, OfOneBallIsItsVisibility) {
   }
 }
 
-// Ren et al. 2006 add logs as if blockers were independent within the band limit;
-// where they overlap or crowd there is an error.
+// Ren et al. 2006 add logs as if blockers were independent within the band limit, so there is an
+// error where balls overlap or crowd.
 TEST_P(Exponential, OfManyBallsIsCloseToCastRays) {
   const auto count = static_cast<size_t>(GetParam());
   const struct {
@@ -120,7 +119,7 @@ TEST_P(Exponential, OfManyBallsIsCloseToCastRays) {
   }
 }
 
-// Logs without bound, as many balls at the skin make them, leave it dark, not bright.
+// Many balls at the skin give very large logs; the result must be dark, not bright.
 TEST_P(Exponential, OfACrowdOfBallsThatTouchIsDark) {
   Random random(33);
   for (const int number : {5, 20, 60}) {

@@ -20,7 +20,7 @@ TEST(CameraResponse, SrgbIsTheStandard) {
 TEST(CameraResponse, AShoulderIsFittedAgain) {
   for (const float knee : {0.4f, 0.6f, 0.8f, 1.0f}) {
     const FittedKnee fitted = FitKnee(ShoulderResponse(knee));
-    // Nearly linear ones are told apart least.
+    // Nearly linear responses are the hardest to distinguish.
     EXPECT_NEAR(fitted.knee, knee, knee == 1.0f ? 0.05f : 0.011f);
     EXPECT_LT(fitted.residual, 2e-3f);
   }
@@ -49,7 +49,7 @@ TEST(CameraResponse, RefusesCurvesThatFallAndWrongSizes) {
 TEST(CameraResponse, WhatFollowsTheStandardIsSeenAsItIs) {
   const CameraResponse srgb = SrgbResponse();
   for (const float x : {0.0f, 0.001f, 0.02f, 0.18f, 0.5f, 0.97f, 1.0f, 7.0f}) {
-    // Between two bytes the curve is taken for a straight line.
+    // Between two bytes the curve is assumed to be linear.
     EXPECT_NEAR(srgb.Seen(glm::vec3(x)).g, std::min(x, 1.0f), 2e-5f) << x;
   }
 }
@@ -57,7 +57,7 @@ TEST(CameraResponse, WhatFollowsTheStandardIsSeenAsItIs) {
 TEST(CameraResponse, EachChannelIsSeenByItsOwnCurve) {
   CameraResponse response = SrgbResponse();
   for (float& value : response.linear[2]) {
-    value *= 2.0f;  // half as sensitive
+    value *= 2.0f;  // half the sensitivity
   }
   const glm::vec3 seen = response.Seen(glm::vec3(0.3f));
   EXPECT_NEAR(seen.r, 0.3f, 2e-5f);
@@ -74,7 +74,7 @@ TEST(CameraResponse, ShouldersAreSeenAsTheirFormula) {
 
 TEST(CameraResponse, ExposuresThatGiveOneByteAreSeenAlike) {
   CameraResponse response = SrgbResponse();
-  // A black level: the first thirty bytes are no light.
+  // A black level: the first thirty bytes mean no light.
   std::fill_n(response.linear[0].begin(), 30, 0.0f);
   EXPECT_TRUE(response.Validate("camera").ok());
   EXPECT_NEAR(response.Seen(glm::vec3(0.0f)).r, SrgbResponse().linear[0][29], 1e-6f);

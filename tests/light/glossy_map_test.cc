@@ -87,10 +87,10 @@ TEST(GlossyMap, RefusesFilesThatAreNone) {
   const auto problem = [](const std::vector<std::byte>& bytes) {
     return ParseGlossyMap(bytes, "probe.gloss").message();
   };
-  EXPECT_THAT(problem({}), HasSubstr("no map of reflections"));
+  EXPECT_THAT(problem({}), HasSubstr("not a reflection map"));
   std::vector<std::byte> bytes = good;
   bytes[0] = std::byte{'X'};
-  EXPECT_THAT(problem(bytes), HasSubstr("no map of reflections"));
+  EXPECT_THAT(problem(bytes), HasSubstr("not a reflection map"));
   bytes = good;
   bytes[4] = std::byte{9};
   EXPECT_THAT(problem(bytes), HasSubstr("version 9"));

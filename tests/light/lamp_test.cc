@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 
+#include "shared/core/units.h"
 #include "shared/light/probe_light.h"
 #include "shared/light/quadrature.h"
 #include "tests/light/sh_test_support.h"
@@ -14,9 +14,7 @@
 namespace lararium::light {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// Radiance at receivers that nothing shades unless the test says so.
+// Radiance at receivers, unshadowed unless the test adds shadows.
 struct Receivers {
   Receivers(const std::vector<glm::vec3>& positions, int count)
       : points(positions),
@@ -88,7 +86,7 @@ TEST(Lamp, TheLightOfReceiversIsTheDiscThatTheySee) {
 }
 
 TEST(Lamp, IrradianceOfTiltedSurfacesFollowsTheCosine) {
-  // The cosine's harmonics up to degree 3 are off by 0.094 at most: at its edge.
+  // The error of the cosine's harmonics up to degree 3 is at most 0.094, at its edge.
   Receivers receivers({kLamp.position + glm::vec3(0.0f, 2.0f, 0.0f)}, 16);
   receivers.Light(kLamp);
   const Sun seen = SeenFrom(kLamp, kLamp.position + glm::vec3(0.0f, 2.0f, 0.0f));
@@ -124,12 +122,13 @@ TEST(Lamp, ABallBetweenHidesItAndOneBehindDoesNot) {
   };
   const glm::vec3 middle = kLamp.position + glm::vec3(0.0f, 0.0f, 1.0f);
   EXPECT_NEAR(share({middle, 0.2f}), 0.0f, 1e-5f);
-  // The lamp looks 0.1 m wide where the ball is: a ball half as large hides a quarter.
+  // At the ball's distance the lamp's disc has a radius of 0.1 m: a ball of half that radius hides
+  // a quarter.
   EXPECT_NEAR(share({middle, 0.05f}), 0.75f, 1e-3f);
   EXPECT_EQ(share({middle + glm::vec3(0.5f, 0.0f, 0.0f), 0.2f}), 1.0f);
   EXPECT_EQ(share({kLamp.position - glm::vec3(0.0f, 0.0f, 0.6f), 0.3f}), 1.0f);
   EXPECT_EQ(share({point + glm::vec3(0.0f, 0.0f, 0.3f), 0.2f}), 1.0f);
-  // What touches the lamp holds it.
+  // A ball that touches the lamp holds it.
   EXPECT_EQ(share({kLamp.position + glm::vec3(0.0f, 0.0f, 0.3f), 0.25f}), 1.0f);
 }
 
@@ -141,7 +140,7 @@ TEST(Lamp, HalfOfItIsHiddenByABallWhoseRimIsAtItsMiddle) {
   EXPECT_NEAR(shaded.At(0)[0].r / lit.At(0)[0].r, 0.5f, 0.02f);
 }
 
-// A wall half a metre beyond the lamp, as it sees it: x = 1.5.
+// A wall half a metre beyond the lamp, in the lamp's map: x = 1.5.
 std::shared_ptr<const LampWalls> WallBeside(const Lamp& lamp) {
   auto walls = std::make_shared<LampWalls>();
   for (int row = 0; row < LampWalls::kSize; ++row) {
@@ -172,7 +171,7 @@ TEST(LampWalls, KeepLightFromWhatIsBehindThemAndFromNothingElse) {
   EXPECT_GT(behind, 50);
 }
 
-// However flat the light falls on it.
+// Tests all angles of the light, also grazing ones.
 TEST(LampWalls, DoNotShadeThemselves) {
   const auto walls = WallBeside(kLamp);
   for (float away = 0.0f; away < 20.0f; away += 0.37f) {
@@ -186,7 +185,7 @@ TEST(LampWalls, DoNotShadeThemselves) {
 TEST(Lamp, OwnVisibilityDimsIt) {
   Receivers receivers({{0, 0, 0}}, 16);
   const float y00 = EvaluateShBasis(glm::vec3(0, 0, 1))[0];
-  receivers.own_log.at(0, 0) = std::log(0.25f) / y00;  // a quarter from everywhere
+  receivers.own_log.at(0, 0) = std::log(0.25f) / y00;  // a quarter in all directions
   Receivers open({{0, 0, 0}}, 16);
   receivers.Light(kLamp);
   open.Light(kLamp);

@@ -1,4 +1,4 @@
-// The frame's work on light allocates nothing once its buffers stand.
+// The light computation of a frame allocates nothing once its buffers exist.
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ struct Frame {
 TEST(LightAllocation, AFrameAllocatesNothing) {
   for (const int count : {9, 16, 25}) {
     Frame frame(count);
-    frame.Run();  // tables are made by who asks first
+    frame.Run();  // The first call creates the tables.
     test::AllocationCounter counter;
     frame.Run();
     EXPECT_EQ(counter.Stop(), 0) << count;

@@ -10,20 +10,20 @@
 namespace lararium::light {
 namespace {
 
-ProbeLight Even(float radiance) {
+ProbeLight EvenProbe(float radiance) {
   ProbeLight light;
   light.sky[0] = glm::vec3(radiance);
   return light;
 }
 
 ProbeLight Sunny(const glm::vec3& direction, float irradiance) {
-  ProbeLight light = Even(1.0f);
+  ProbeLight light = EvenProbe(1.0f);
   light.sun = Sun{glm::normalize(direction), glm::vec3(irradiance), 0.005f};
   return light;
 }
 
 TEST(ProbeBlend, AtAProbeItIsThatProbe) {
-  const PlacedProbe probes[] = {{{0, 1, 0}, 12.0, Even(1.0f)}, {{4, 1, 0}, 12.0, Even(3.0f)}};
+  const PlacedProbe probes[] = {{{0, 1, 0}, 12.0, EvenProbe(1.0f)}, {{4, 1, 0}, 12.0, EvenProbe(3.0f)}};
   EXPECT_NEAR(Blend(probes, {0, 1, 0}, 12.0).sky[0].r, 1.0f, 1e-5f);
   EXPECT_NEAR(Blend(probes, {4, 1, 0}, 12.0).sky[0].r, 3.0f, 1e-5f);
   EXPECT_FLOAT_EQ(Blend(probes, {2, 1, 0}, 12.0).sky[0].r, 2.0f);
@@ -33,7 +33,7 @@ TEST(ProbeBlend, AtAProbeItIsThatProbe) {
 
 TEST(ProbeBlend, DoesNotJumpFarOrNear) {
   const PlacedProbe probes[] = {
-      {{0, 0, 0}, 12.0, Even(1.0f)}, {{3, 0, 0}, 12.0, Even(3.0f)}, {{0, 0, 2}, 12.0, Even(5.0f)}};
+      {{0, 0, 0}, 12.0, EvenProbe(1.0f)}, {{3, 0, 0}, 12.0, EvenProbe(3.0f)}, {{0, 0, 2}, 12.0, EvenProbe(5.0f)}};
   float before = Blend(probes, {-1, 0, 0}, 12.0).sky[0].r;
   for (int i = 1; i <= 600; ++i) {
     const float now = Blend(probes, {-1.0f + 0.01f * i, 0, 0}, 12.0).sky[0].r;
@@ -44,7 +44,7 @@ TEST(ProbeBlend, DoesNotJumpFarOrNear) {
 
 TEST(ProbeBlend, BetweenHoursAlsoAcrossMidnight) {
   const PlacedProbe probes[] = {
-      {{0, 0, 0}, 10.0, Even(1.0f)}, {{0, 0, 0}, 14.0, Even(3.0f)}, {{0, 0, 0}, 22.0, Even(0.0f)}};
+      {{0, 0, 0}, 10.0, EvenProbe(1.0f)}, {{0, 0, 0}, 14.0, EvenProbe(3.0f)}, {{0, 0, 0}, 22.0, EvenProbe(0.0f)}};
   EXPECT_FLOAT_EQ(Blend(probes, {5, 0, 0}, 11.0).sky[0].r, 1.5f);
   EXPECT_FLOAT_EQ(Blend(probes, {5, 0, 0}, 18.0).sky[0].r, 1.5f);
   EXPECT_FLOAT_EQ(Blend(probes, {5, 0, 0}, 4.0).sky[0].r, 0.5f);  // 6 of the 12 hours to 10
@@ -63,10 +63,10 @@ TEST(ProbeBlend, TheSunTravelsAlongItsArc) {
 }
 
 TEST(ProbeBlend, ASunInOneAloneFades) {
-  const ProbeLight mixed = Mix(Sunny({0, 1, 0}, 4.0f), Even(1.0f), 0.75f);
+  const ProbeLight mixed = Mix(Sunny({0, 1, 0}, 4.0f), EvenProbe(1.0f), 0.75f);
   ASSERT_TRUE(mixed.sun);
   EXPECT_FLOAT_EQ(mixed.sun->irradiance.r, 1.0f);
-  EXPECT_FALSE(Mix(Even(1.0f), Even(2.0f), 0.5f).sun);
+  EXPECT_FALSE(Mix(EvenProbe(1.0f), EvenProbe(2.0f), 0.5f).sun);
 }
 
 TEST(ProbeBlend, WeightsAddUpToOne) {

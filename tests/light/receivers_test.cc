@@ -10,7 +10,7 @@
 namespace lararium::light {
 namespace {
 
-constexpr size_t kReceivers = 37;  // not a multiple of a register
+constexpr size_t kReceiverCount = 37;  // no multiple of the register size
 
 std::vector<glm::vec3> RandomPoints(Random& random, size_t count) {
   std::vector<glm::vec3> points;
@@ -28,7 +28,7 @@ std::vector<Ball> RandomBalls(Random& random, size_t count) {
   return balls;
 }
 
-// The log of one ball as the table and the basis define it, without registers.
+// The log of one ball from the table and the basis, without registers.
 std::vector<float> LogOf(const Ball& ball, const glm::vec3& receiver, int count) {
   const BlockerTable& table = BlockerTable::ForCount(count);
   const glm::vec3 d = ball.centre - receiver;
@@ -43,18 +43,18 @@ std::vector<float> LogOf(const Ball& ball, const glm::vec3& receiver, int count)
   return log;
 }
 
-class Receivers : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Counts, Receivers, testing::Values(9, 16, 25));
+class ReceiverSet : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Counts, ReceiverSet, testing::Values(9, 16, 25));
 
-TEST_P(Receivers, LogsAddUpBallByBall) {
+TEST_P(ReceiverSet, LogsAddUpBallByBall) {
   Random random(41);
-  const std::vector<glm::vec3> points = RandomPoints(random, kReceivers);
+  const std::vector<glm::vec3> points = RandomPoints(random, kReceiverCount);
   std::vector<Ball> balls = RandomBalls(random, 12);
-  ShRows log(GetParam(), kReceivers);
+  ShRows log(GetParam(), kReceiverCount);
   const PointArrays at(points);
   const BallArrays arrays(balls);
-  AddLogVisibility(arrays.spheres(), at.points(), {0, kReceivers}, log);
-  for (size_t i = 0; i < kReceivers; ++i) {
+  AddLogVisibility(arrays.spheres(), at.points(), {0, kReceiverCount}, log);
+  for (size_t i = 0; i < kReceiverCount; ++i) {
     std::vector<float> expected(static_cast<size_t>(GetParam()));
     for (const Ball& ball : balls) {
       const std::vector<float> one = LogOf(ball, points[i], GetParam());
@@ -66,84 +66,85 @@ TEST_P(Receivers, LogsAddUpBallByBall) {
   }
 }
 
-TEST_P(Receivers, RangesGiveTheSameAsAllAtOnce) {
+TEST_P(ReceiverSet, RangesGiveTheSameAsAllAtOnce) {
   Random random(42);
-  const PointArrays at(RandomPoints(random, kReceivers));
+  const PointArrays at(RandomPoints(random, kReceiverCount));
   const BallArrays balls(RandomBalls(random, 5));
-  ShRows whole(GetParam(), kReceivers), parts(GetParam(), kReceivers);
-  AddLogVisibility(balls.spheres(), at.points(), {0, kReceivers}, whole);
-  AddLogVisibility(balls.spheres(), at.points(), {16, kReceivers}, parts);
+  ShRows whole(GetParam(), kReceiverCount), parts(GetParam(), kReceiverCount);
+  AddLogVisibility(balls.spheres(), at.points(), {0, kReceiverCount}, whole);
+  AddLogVisibility(balls.spheres(), at.points(), {16, kReceiverCount}, parts);
   AddLogVisibility(balls.spheres(), at.points(), {0, 16}, parts);
   for (int k = 0; k < GetParam(); ++k) {
-    for (size_t i = 0; i < kReceivers; ++i) {
+    for (size_t i = 0; i < kReceiverCount; ++i) {
       EXPECT_EQ(whole.at(k, i), parts.at(k, i));
     }
   }
 }
 
-// Everything turned together: what is seen turns along.
-TEST_P(Receivers, TurnWithTheScene) {
+// If the whole scene is rotated, the result rotates with it.
+TEST_P(ReceiverSet, TurnWithTheScene) {
   Random random(43);
-  std::vector<glm::vec3> points = RandomPoints(random, kReceivers);
+  std::vector<glm::vec3> points = RandomPoints(random, kReceiverCount);
   std::vector<Ball> balls = RandomBalls(random, 6);
   const glm::quat turn = RandomRotation(random);
-  ShRows log(GetParam(), kReceivers), turned(GetParam(), kReceivers),
-      direct(GetParam(), kReceivers);
-  AddLogVisibility(BallArrays(balls).spheres(), PointArrays(points).points(), {0, kReceivers}, log);
-  const TurnArrays turns(std::vector<glm::quat>(kReceivers, turn));
-  TurnRows(log, turns.turns(), TurnDirection::kForth, {0, kReceivers}, turned);
+  ShRows log(GetParam(), kReceiverCount), turned(GetParam(), kReceiverCount),
+      direct(GetParam(), kReceiverCount);
+  AddLogVisibility(BallArrays(balls).spheres(), PointArrays(points).points(), {0, kReceiverCount},
+                   log);
+  const TurnArrays turns(std::vector<glm::quat>(kReceiverCount, turn));
+  TurnRows(log, turns.turns(), TurnDirection::kForth, {0, kReceiverCount}, turned);
   for (glm::vec3& point : points) {
     point = turn * point;
   }
   for (Ball& ball : balls) {
     ball.centre = turn * ball.centre;
   }
-  AddLogVisibility(BallArrays(balls).spheres(), PointArrays(points).points(), {0, kReceivers},
+  AddLogVisibility(BallArrays(balls).spheres(), PointArrays(points).points(), {0, kReceiverCount},
                    direct);
   for (int k = 0; k < GetParam(); ++k) {
-    for (size_t i = 0; i < kReceivers; ++i) {
+    for (size_t i = 0; i < kReceiverCount; ++i) {
       EXPECT_NEAR(turned.at(k, i), direct.at(k, i), 2e-3);
     }
   }
 }
 
-// Each receiver in a frame of its own: the log in stage axes, turned back.
-TEST_P(Receivers, SeeInTheirOwnFrames) {
+// Each receiver has its own frame; the expected value is the log in stage axes, rotated back.
+TEST_P(ReceiverSet, SeeInTheirOwnFrames) {
   Random random(46);
-  const PointArrays at(RandomPoints(random, kReceivers));
+  const PointArrays at(RandomPoints(random, kReceiverCount));
   const BallArrays balls(RandomBalls(random, 6));
   std::vector<glm::quat> own;
-  std::generate_n(std::back_inserter(own), kReceivers, [&] { return RandomRotation(random); });
+  std::generate_n(std::back_inserter(own), kReceiverCount, [&] { return RandomRotation(random); });
   const TurnArrays turns(own);
-  ShRows log(GetParam(), kReceivers), turned(GetParam(), kReceivers),
-      direct(GetParam(), kReceivers);
-  AddLogVisibility(balls.spheres(), at.points(), {0, kReceivers}, log);
-  TurnRows(log, turns.turns(), TurnDirection::kBack, {0, kReceivers}, turned);
-  AddLogVisibility(balls.spheres(), at.points(), turns.turns(), {0, kReceivers}, direct);
+  ShRows log(GetParam(), kReceiverCount), turned(GetParam(), kReceiverCount),
+      direct(GetParam(), kReceiverCount);
+  AddLogVisibility(balls.spheres(), at.points(), {0, kReceiverCount}, log);
+  TurnRows(log, turns.turns(), TurnDirection::kBack, {0, kReceiverCount}, turned);
+  AddLogVisibility(balls.spheres(), at.points(), turns.turns(), {0, kReceiverCount}, direct);
   for (int k = 0; k < GetParam(); ++k) {
-    for (size_t i = 0; i < kReceivers; ++i) {
+    for (size_t i = 0; i < kReceiverCount; ++i) {
       EXPECT_NEAR(turned.at(k, i), direct.at(k, i), 2e-5);
     }
   }
 }
 
-TEST_P(Receivers, ShadowedLightIsVisibilityTimesLight) {
+TEST_P(ReceiverSet, ShadowedLightIsVisibilityTimesLight) {
   Random random(44);
   const int count = GetParam();
   ShRgb light = RandomCoefficients(random);
   for (size_t k = static_cast<size_t>(count); k < kShCount; ++k) {
     light[k] = glm::vec3(0.0f);
   }
-  const PointArrays at(RandomPoints(random, kReceivers));
+  const PointArrays at(RandomPoints(random, kReceiverCount));
   const BallArrays balls(RandomBalls(random, 6));
-  ShRows log(count, kReceivers), visibility(count, kReceivers);
-  ShRowsRgb shadowed = {ShRows(count, kReceivers), ShRows(count, kReceivers),
-                        ShRows(count, kReceivers)};
-  AddLogVisibility(balls.spheres(), at.points(), {0, kReceivers}, log);
-  ExpRows(log, {0, kReceivers}, visibility);
-  ShadowLight(LightMatrix(light, count), log, {0, kReceivers}, shadowed);
+  ShRows log(count, kReceiverCount), visibility(count, kReceiverCount);
+  ShRowsRgb shadowed = {ShRows(count, kReceiverCount), ShRows(count, kReceiverCount),
+                        ShRows(count, kReceiverCount)};
+  AddLogVisibility(balls.spheres(), at.points(), {0, kReceiverCount}, log);
+  ExpRows(log, {0, kReceiverCount}, visibility);
+  ShadowLight(LightMatrix(light, count), log, {0, kReceiverCount}, shadowed);
   const auto size = static_cast<size_t>(count);
-  for (size_t i = 0; i < kReceivers; ++i) {
+  for (size_t i = 0; i < kReceiverCount; ++i) {
     for (int channel = 0; channel < 3; ++channel) {
       std::vector<float> l(size), v(size), product(size);
       for (size_t k = 0; k < size; ++k) {
@@ -159,20 +160,20 @@ TEST_P(Receivers, ShadowedLightIsVisibilityTimesLight) {
   }
 }
 
-TEST_P(Receivers, UnshadowedLightIsTheLight) {
+TEST_P(ReceiverSet, UnshadowedLightIsTheLight) {
   Random random(45);
   const ShRgb light = RandomCoefficients(random);
-  ShRows log(GetParam(), kReceivers);
-  ShRowsRgb lit = {ShRows(GetParam(), kReceivers), ShRows(GetParam(), kReceivers),
-                   ShRows(GetParam(), kReceivers)};
-  ShadowLight(LightMatrix(light, GetParam()), log, {0, kReceivers}, lit);
+  ShRows log(GetParam(), kReceiverCount);
+  ShRowsRgb lit = {ShRows(GetParam(), kReceiverCount), ShRows(GetParam(), kReceiverCount),
+                   ShRows(GetParam(), kReceiverCount)};
+  ShadowLight(LightMatrix(light, GetParam()), log, {0, kReceiverCount}, lit);
   for (int k = 0; k < GetParam(); ++k) {
     EXPECT_NEAR(lit[2].at(k, 7), light[static_cast<size_t>(k)].b, 2e-5);
   }
 }
 
-// What a ball hides of the sky is about q / 4; the fade takes at most kLeastShare / 4.
-TEST_P(Receivers, WhatDistantBallsLoseIsBoundedAndComesGradually) {
+// A ball hides about q / 4 of the sky; the fade removes at most kLeastShare / 4.
+TEST_P(ReceiverSet, WhatDistantBallsLoseIsBoundedAndComesGradually) {
   const PointArrays at({glm::vec3(0.0f)});
   const glm::vec3 direction = glm::normalize(glm::vec3(1.0f, 2.0f, -0.5f));
   double before = 0.0;
@@ -191,7 +192,7 @@ TEST_P(Receivers, WhatDistantBallsLoseIsBoundedAndComesGradually) {
   }
 }
 
-TEST_P(Receivers, BallsThatAreNotFiniteHideNothing) {
+TEST_P(ReceiverSet, BallsThatAreNotFiniteHideNothing) {
   const PointArrays at({glm::vec3(0.0f)});
   ShRows expected(GetParam(), 1), log(GetParam(), 1);
   const Ball good = {{0.0f, 1.0f, 0.0f}, 0.3f};
@@ -208,7 +209,7 @@ TEST_P(Receivers, BallsThatAreNotFiniteHideNothing) {
   }
 }
 
-TEST_P(Receivers, InsideABallNothingLeaps) {
+TEST_P(ReceiverSet, InsideABallNothingLeaps) {
   double before = -1.0;
   for (int i = 0; i <= 200; ++i) {
     const PointArrays at({glm::vec3(0.0f, 0.01f * static_cast<float>(i), 0.0f)});

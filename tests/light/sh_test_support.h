@@ -49,7 +49,7 @@ struct Ball {
   float radius;
 };
 
-// Balls or points as the functions take them.
+// Balls or points in the format of the functions.
 struct BallArrays {
   std::vector<float> x, y, z, radius;
 

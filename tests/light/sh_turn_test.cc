@@ -7,7 +7,7 @@
 namespace lararium::light {
 namespace {
 
-// Some that leave Z where it is, or turn it over, or nearly so.
+// Rotations that include those which keep Z, reverse it, or nearly do.
 std::vector<glm::quat> SomeTurns() {
   Random random(47);
   std::vector<glm::quat> turns = {

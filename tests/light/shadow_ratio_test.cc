@@ -4,12 +4,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "shared/core/units.h"
 #include "tests/light/sh_test_support.h"
 
 namespace lararium::light {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 const glm::vec3 kUp(0.0f, 1.0f, 0.0f);
 
 struct Ratios {
@@ -27,9 +26,9 @@ ShRgb EvenSky() {
 class ShadowRatioOf : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Counts, ShadowRatioOf, testing::Values(9, 16, 25));
 
-// A ball above a floor under an even sky hides sin^2(a) cos(t), with a its angular radius
-// and t the angle from the normal to its centre, if it is wholly above the horizon
-// (Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-43).
+// A ball above a floor under a uniform sky hides sin^2(a) cos(t), where a is its angular radius and
+// t is the angle from the normal to its centre, if it is completely above the horizon (Howell, "A
+// Catalog of Radiation Heat Transfer Configuration Factors", B-43).
 TEST_P(ShadowRatioOf, OfABallAboveAFloorIsTheFormFactor) {
   std::vector<glm::vec3> points;
   std::vector<double> expected;
@@ -55,7 +54,7 @@ TEST_P(ShadowRatioOf, OfABallAboveAFloorIsTheFormFactor) {
               std::sqrt(squared));
 }
 
-// In light that is band-limited and positive, against sums over many directions.
+// Band-limited positive light, compared with sums over many directions.
 TEST_P(ShadowRatioOf, InColouredLightEqualsQuadrature) {
   Random random(71);
   ShRgb light = {};

@@ -5,15 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <vector>
 
+#include "shared/core/units.h"
 #include "tests/light/sh_test_support.h"
 
 namespace lararium::light {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Calls visit(direction, solid angle) for equal-angle cells that tile the sphere.
 void ForEachDirection(int rows, const std::function<void(const glm::vec3&, double)>& visit) {
@@ -28,8 +26,8 @@ void ForEachDirection(int rows, const std::function<void(const glm::vec3&, doubl
   }
 }
 
-// The image of a function of direction, in the convention that the header states,
-// written out independently of the implementation.
+// Renders a function of direction into an image by the convention in the header, independently of
+// the implementation.
 std::vector<glm::vec3> Paint(int width,
                              int height,
                              const std::function<glm::vec3(const glm::vec3&)>& radiance) {
@@ -137,7 +135,7 @@ TEST(Projection, RecoversEveryBandLimitedFunction) {
 TEST(Irradiance, OfBandLimitedLightEqualsTheIntegral) {
   Random random(8);
   ShRgb radiance = RandomCoefficients(random);
-  radiance[0] += 40.0f;  // keeps the irradiance positive
+  radiance[0] += 40.0f;  // Keeps the irradiance positive.
   for (int trial = 0; trial < 5; ++trial) {
     const glm::vec3 normal = RandomDirection(random);
     glm::dvec3 integral(0.0);

@@ -9,8 +9,8 @@
 namespace lararium::light {
 namespace {
 
-// Transfer vectors of a skin: clamped cosine about a normal, a cap of the sky hidden,
-// times an albedo, by quadrature. [vertex][3][count]
+// Transfer vectors of skin by quadrature: clamped cosine about a normal, with a cap of the sky
+// hidden, times an albedo. [vertex][3][count]
 std::vector<float> SkinTransfer(Random& random, size_t vertices, int count) {
   std::vector<float> vectors;
   const std::vector<glm::vec3> directions = EvenDirections(600);
@@ -90,7 +90,7 @@ TEST_P(TransferOf, BytesLoseOnePerCent) {
   EXPECT_LT(error, 0.012);
 }
 
-// Where all channels have one shape, the ratios keep it.
+// If all channels have the same shape, the ratios keep it.
 TEST_P(TransferOf, RowsLoseHalfAPerCentMoreWhereOneAlbedoTintsAll) {
   Random random(62);
   const std::vector<float> vectors = SkinTransfer(random, 200, GetParam());
@@ -102,8 +102,8 @@ TEST_P(TransferOf, RowsLoseHalfAPerCentMoreWhereOneAlbedoTintsAll) {
   EXPECT_LT(error, 0.017);
 }
 
-// White light from outside, and light that a red, a green and a blue wall send on, each by its own
-// lobe: each is a tenth as bright.
+// White light from outside, plus light from a red, a green and a blue wall, each with its own lobe
+// and a tenth as bright.
 TEST_P(TransferOf, RowsKeepWhatWallsNearbyTint) {
   Random random(65);
   const auto count = static_cast<size_t>(GetParam());
@@ -114,7 +114,7 @@ TEST_P(TransferOf, RowsKeepWhatWallsNearbyTint) {
       EvaluateShBasis(RandomDirection(random), basis);
       for (size_t k = 0; k < count; ++k) {
         const float band = std::floor(std::sqrt(static_cast<float>(k)));
-        basis[k] *= size / (1.0f + band * band);  // falls off as a clamped cosine's does
+        basis[k] *= size / (1.0f + band * band);  // same decay as a clamped cosine
       }
       return basis;
     };
@@ -131,7 +131,7 @@ TEST_P(TransferOf, RowsKeepWhatWallsNearbyTint) {
       RelativeError([&](size_t v, std::span<float> decoded) { transfer.Decode(0, v, decoded); },
                     vectors, 3 * count);
   std::printf("  %d coefficients: relative error %.4f\n", GetParam(), error);
-  EXPECT_LT(error, 0.04);  // it is 0.054 to 0.056 where only the mean is kept
+  EXPECT_LT(error, 0.04);  // The mean alone gives 0.054 to 0.056.
 }
 
 TEST(Transfer, BlackVerticesStayBlack) {
@@ -181,7 +181,7 @@ LitMesh MakeMesh(int count, size_t vertices, size_t poses, size_t receivers) {
   return mesh;
 }
 
-// The sum as the header writes it, in doubles.
+// The sum in the header, computed in doubles.
 glm::dvec3 Expected(const LitMesh& mesh, size_t v) {
   const VertexReceivers& receivers = mesh.receivers[v];
   const int count = mesh.transfer.count();

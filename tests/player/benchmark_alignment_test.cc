@@ -1,4 +1,4 @@
-#include "player/benchmark_alignment.h"
+#include "player/benchmark/benchmark_alignment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
-// The benchmark's errors against those of the reference evaluator, a program of
-// its own.
+// Compares the benchmark's errors with those of the reference evaluator, a separate program.
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "player/benchmark_evaluation.h"
+#include "player/benchmark/benchmark_evaluation.h"
 #include "shared/core/json.h"
 #include "shared/vision/poses_file.h"
 #include "tests/player/benchmark_world.h"
@@ -22,7 +21,7 @@ void WritePoints(const std::filesystem::path& file, const std::vector<Eigen::Vec
   ASSERT_TRUE(SaveJson(file, list).ok());
 }
 
-// A lens with distortion, noisy poses, three of them wrong, two missing.
+// A lens with distortion and noisy poses, of which three are wrong and two are missing.
 TEST(BenchmarkDataTest, AgreesWithTheReferenceEvaluator) {
   LARARIUM_REQUIRE_DATA(tool, "../tools/evaluate_poses.py");
   test::BenchmarkWorld world = test::MakeBenchmarkWorld(40, 0.004, 5);

@@ -1,4 +1,4 @@
-#include "player/benchmark_evaluation.h"
+#include "player/benchmark/benchmark_evaluation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 using geometry::Rigid3;
 using ::testing::Optional;
 
-// A sequence that is tracked exactly, frame by frame, until a test changes it.
+// A sequence in which every frame is tracked exactly, until a test changes it.
 class BenchmarkEvaluationTest : public ::testing::Test {
  protected:
   void Make(int frames, double noise = 0.0) {
@@ -60,8 +60,8 @@ TEST(BenchmarkCalibrationTest, IsTheMeanGapBetweenConfidenceAndShareOfCorrectFra
   Calibration calibration;
   EXPECT_EQ(calibration.Error(), 0.0);
   for (int i = 0; i < 10; ++i) {
-    calibration.Add(0.85, i < 8);  // 0.05 off
-    calibration.Add(0.35, i < 1);  // 0.25 off
+    calibration.Add(0.85, i < 8);  // error 0.05
+    calibration.Add(0.35, i < 1);  // error 0.25
   }
   EXPECT_NEAR(calibration.Error(), 0.15, 1e-12);
   Calibration other;
@@ -144,7 +144,7 @@ TEST_F(BenchmarkEvaluationTest, PosesWithTheNoiseOfTheirCovarianceHaveANormalise
   Make(600);
   sequence_.points.resize(20);
   Eigen::Matrix<double, 6, 6> root = Eigen::Matrix<double, 6, 6>::Identity();
-  root(4, 0) = 2.0;  // translation goes with rotation, as when the points lie far away
+  root(4, 0) = 2.0;  // translation correlates with rotation, which is typical of distant points
   root *= 1e-4;
   Random random(11);
   for (FrameAnswer& answer : answers_) {
@@ -170,7 +170,7 @@ TEST_F(BenchmarkEvaluationTest, PosesWithTheNoiseOfTheirCovarianceHaveANormalise
 }
 
 TEST_F(BenchmarkEvaluationTest, PosesOfTheFrameBeforeLagByOneFrame) {
-  // Sideways at a speed that rises and falls.
+  // The camera moves sideways at a speed that rises and falls.
   Make(60);
   for (int i = 0; i < 60; ++i) {
     Rigid3 pose;
@@ -194,7 +194,7 @@ TEST_F(BenchmarkEvaluationTest, JitterIsTheStrayingOfAStillCamera) {
     Rigid3 pose;
     pose.translation.z() = 4.0;
     sequence_.images[i].camera_from_world = pose;
-    // 0.1 px at the principal axis, along y only.
+    // The error is 0.1 px at the principal axis, along y only.
     const Rigid3 turn{geometry::RotationFromVector({0.1 / 500.0 * random.Normal(), 0.0, 0.0}),
                       Eigen::Vector3d::Zero()};
     answers_[i].camera_from_map = test::CameraFromMap(turn * pose, world_.world_from_map);

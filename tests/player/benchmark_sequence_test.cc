@@ -1,4 +1,4 @@
-#include "player/benchmark_sequence.h"
+#include "player/benchmark/benchmark_sequence.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,19 +66,19 @@ TEST_F(BenchmarkSequenceTest, TheFolderMayBeTheSequenceItself) {
 }
 
 TEST_F(BenchmarkSequenceTest, ErrorsNameTheFileAndWhatToDo) {
-  EXPECT_THAT(Error(), HasSubstr("holds no sequence"));
+  EXPECT_THAT(Error(), HasSubstr("contains no sequence"));
   Write("one/ground_truth.json", kTruth);
   EXPECT_THAT(Error(), HasSubstr("put points.json or points.txt there"));
   Write("points.txt", "1 2 3\n1 2\n");
   EXPECT_THAT(Error(), HasSubstr("points.txt:2: expected x y z"));
   Write("points.txt", "");
-  EXPECT_THAT(Error(), HasSubstr("holds no point"));
+  EXPECT_THAT(Error(), HasSubstr("contains no points"));
   Write("points.txt", "1 2 3");
   EXPECT_TRUE(LoadBenchmarkSequences(folder_.path()).ok());
   Write("two/ground_truth.json", R"({"images": [{"file": "x"}]})");
   EXPECT_THAT(Error(), HasSubstr("two/ground_truth.json: images[0]"));
   Write("two/ground_truth.json", R"({"images": []})");
-  EXPECT_THAT(Error(), HasSubstr("holds no image"));
+  EXPECT_THAT(Error(), HasSubstr("lists no images"));
 }
 
 TEST_F(BenchmarkSequenceTest, ImagesOutsideTheFolderAreRefused) {

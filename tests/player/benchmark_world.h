@@ -1,12 +1,12 @@
 #pragma once
 
-// Cameras on a path through points, as the truth has them and as a map with its
-// own frame, scale and noise does.
+// Cameras on a path through points: their true poses, and poses in a map with a frame, scale and
+// noise of its own.
 
 #include <vector>
 
-#include "player/benchmark_alignment.h"
-#include "player/benchmark_sequence.h"
+#include "player/benchmark/benchmark_alignment.h"
+#include "player/benchmark/benchmark_sequence.h"
 #include "shared/core/random.h"
 #include "shared/geometry/transform.h"
 
@@ -20,13 +20,14 @@ struct BenchmarkWorld {
   std::vector<player::PosePair> pairs;
 };
 
-// The pose of the map that a pose of the world corresponds to.
+// Converts a pose of the world to the corresponding pose of the map.
 inline geometry::Rigid3 CameraFromMap(const geometry::Rigid3& camera_from_world,
                                       const geometry::Similarity3& world_from_map) {
   return geometry::CameraFromB(camera_from_world, world_from_map);
 }
 
-// noise: of the camera centres, metres, and a hundredth of it in radians.
+// noise: standard deviation of camera centres in metres; a hundredth of it in radians for
+// rotations.
 inline BenchmarkWorld MakeBenchmarkWorld(int cameras, double noise, uint64_t seed) {
   BenchmarkWorld world;
   Random random(seed);

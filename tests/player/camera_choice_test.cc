@@ -1,4 +1,4 @@
-#include "player/camera_choice.h"
+#include "player/app/camera_choice.h"
 
 #include <gtest/gtest.h>
 

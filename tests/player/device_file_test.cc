@@ -1,4 +1,4 @@
-#include "player/device_file.h"
+#include "player/app/device_file.h"
 
 #include <gtest/gtest.h>
 

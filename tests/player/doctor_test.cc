@@ -1,4 +1,4 @@
-#include "player/doctor.h"
+#include "player/app/doctor.h"
 
 #include <gmock/gmock.h>
 

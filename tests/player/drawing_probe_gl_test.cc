@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "player/drawing_probe.h"
+#include "player/app/drawing_probe.h"
 #include "shared/render/quality.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/test_people.h"
@@ -11,7 +11,7 @@
 namespace lararium::player {
 namespace {
 
-// A ball in a place of two keyframes, of which only the second has a picture.
+// A ball in a place with two keyframes. Only the second one has an image.
 show::ShowContent SmallContent() {
   show::ShowContent content = test::SmallContent();
   content.drama = "";

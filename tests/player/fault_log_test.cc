@@ -1,4 +1,4 @@
-#include "player/fault_log.h"
+#include "player/kiosk/fault_log.h"
 
 #include <gmock/gmock.h>
 
@@ -6,8 +6,8 @@
 #include <fstream>
 #include <thread>
 
-#include "player/kiosk.h"
-#include "player/recent_warnings.h"
+#include "player/kiosk/kiosk.h"
+#include "player/kiosk/recent_warnings.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::player {
@@ -21,7 +21,7 @@ class FaultLogTest : public ::testing::Test {
  protected:
   void SetUp() override { ear_->set_level(spdlog::level::info); }
 
-  // So many seconds of images.
+  // Passes images of a number of seconds to the log.
   void Watch(double seconds, TrackReason reason) {
     for (int i = 0; i < seconds * 30; ++i) {
       vision::TrackedFrame tracked;

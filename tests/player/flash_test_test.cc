@@ -1,4 +1,4 @@
-#include "player/flash_test.h"
+#include "player/app/flash_test.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace lararium::player {
 namespace {
 
-// A display that is drawn at 60 Hz, and a camera at 30 Hz that sees it so late, with noise.
+// A display drawn at 60 Hz, and a camera at 30 Hz that sees it with a delay and noise.
 std::optional<FlashResult> Measure(double latency,
                                    double noise,
                                    double seconds,

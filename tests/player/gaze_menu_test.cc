@@ -1,4 +1,4 @@
-#include "player/gaze_menu.h"
+#include "player/app/gaze_menu.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ std::vector<MenuItem> Items() {
           {std::nullopt, "close", false, true}};
 }
 
-// A head that has turned to look at a point of the plane one metre ahead of where it began.
+// The pose of a head that looks at a point of the plane one metre in front of its first direction.
 geometry::Rigid3 LookingAt(const Eigen::Vector2d& plane) {
   const Eigen::Vector3d towards = plane.homogeneous().normalized();
   return {Eigen::Quaterniond::FromTwoVectors(towards, Eigen::Vector3d::UnitZ()),
@@ -35,7 +35,7 @@ class GazeMenuTest : public ::testing::Test {
     }
   }
 
-  // Looks somewhere for a while; what was chosen meanwhile.
+  // Looks at a point for some seconds. Returns the actions that were chosen.
   std::vector<Action> Hold(const Eigen::Vector2d& plane, double seconds) {
     return Watch(LookingAt(plane), seconds);
   }
@@ -52,7 +52,7 @@ class GazeMenuTest : public ::testing::Test {
 
   GazeMenu menu_;
   double now_ = 100.0;
-  std::vector<Eigen::Vector2d> middles_;  // of the items
+  std::vector<Eigen::Vector2d> middles_;  // middles of all items
 };
 
 using Actions = std::vector<Action>;

@@ -1,4 +1,4 @@
-#include "player/headset.h"
+#include "player/openxr/headset.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ Result<Headset> Parse(std::string_view text) {
 
 std::string Problem(std::string_view text) { return Parse(text).status().message(); }
 
-// Where an eye sees a point of the head's space, on its plane z = 1.
+// The position of a point (head axes) on the plane z = 1 of an eye.
 Eigen::Vector2d SeenBy(const Headset& headset, Eye eye, const Eigen::Vector3d& in_head) {
   const Eigen::Vector3d in_eye = headset.head_from_eye[eye].Inverse() * in_head;
   return in_eye.hnormalized();
@@ -69,7 +69,7 @@ TEST(Headset, EachEyeFindsThePictureWhereItsPlaneIs) {
           .value();
   for (const Eye eye : {kLeft, kRight}) {
     for (const Eigen::Vector2d& seen : {Eigen::Vector2d(0.0, 0.0), {0.4, -0.3}, {-0.5, 0.2}}) {
-      const Eigen::Vector3d on_plane = 2.0 * seen.homogeneous();  // in the camera's axes
+      const Eigen::Vector3d on_plane = 2.0 * seen.homogeneous();  // camera axes
       const Eigen::Vector2d before_eye = SeenBy(headset, eye, headset.head_from_camera * on_plane);
       const Eigen::Vector3d found = headset.CameraFromEyePlane(eye) * before_eye.homogeneous();
       EXPECT_LT((found.hnormalized() - seen).norm(), 1e-6);

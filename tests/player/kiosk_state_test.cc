@@ -1,4 +1,4 @@
-#include "player/kiosk_state.h"
+#include "player/kiosk/kiosk_state.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "player/kiosk.h"
+#include "player/kiosk/kiosk.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 
 class KioskTest : public ::testing::Test {
  protected:
-  // Frames from now_ on, for so many seconds: of somebody who looks about, or of a headset that
-  // lies there.
+  // Passes frames of a number of seconds to the kiosk. moving: the visitor looks around; otherwise
+  // the headset lies on its stand.
   void Play(Kiosk& kiosk, double seconds, bool moving) {
     for (const double end = now_ + seconds; now_ < end; now_ += 1.0 / 30.0) {
       staged_.time += 1.0 / 30.0;

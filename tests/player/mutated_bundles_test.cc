@@ -1,4 +1,4 @@
-// Bundles with anything in them: each is refused clearly or is a show that runs.
+// Tests mutated bundles: each is either rejected with a clear error or can be played.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -22,7 +22,7 @@
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/random.h"
-#include "shared/render/graphics_context.h"
+#include "shared/render/gl/graphics_context.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
 #include "shared/stage/mesh_file.h"
@@ -70,7 +70,7 @@ render::CaptionFont AlphabetOfBoxes() {
   return test::BoxFont(letters);
 }
 
-// A place that a tracker looks for, with keyframes and their images.
+// A place that can be tracked, with keyframes and their images.
 vision::SceneDatabase Map() {
   test::SyntheticWorld world = test::MakeSyntheticWorld({.points = 60, .cameras = 3});
   world.camera = world.camera.Resized(kWidth, kHeight);
@@ -102,7 +102,7 @@ stage::Prop Cup() {
   return prop;
 }
 
-// A show with a little of everything that there is.
+// A show that uses a little of every feature.
 bundle::ShowManifest Manifest() {
   bundle::ShowManifest manifest;
   manifest.title = "Small";
@@ -173,7 +173,7 @@ end
        R"( "text": {"it": "Una coppa"}}}, "people": {"one": {"certainty": "attested"}}}})"}};
 }
 
-// The manifest's text of these members, with what they hash to.
+// The text of a manifest with members and their hashes.
 std::string ManifestText(const std::vector<NamedBytes>& members) {
   bundle::ShowManifest manifest = Manifest();
   for (const NamedBytes& member : members) {
@@ -191,11 +191,11 @@ std::string Archive(const std::string& manifest, const std::vector<NamedBytes>& 
   return test::MakeZip(entries);
 }
 
-// ---- what is done to a show ----
+// ---- playing a show ----
 
 struct Took {
   double wall = 0.0;       // seconds
-  double processor = 0.0;  // likewise, of all threads
+  double processor = 0.0;  // seconds, sum over all threads
 };
 
 class Stopwatch {
@@ -233,7 +233,7 @@ Status TrackOne(const show::ShowContent& content, const geometry::Frame& frame) 
   return Status();
 }
 
-// Half a second of the show, heard, and seen twice.
+// Plays half a second of the show with sound, and draws two frames.
 Status Play(show::ShowContent content, const render::RenderTarget& target, Log& log) {
   const cv::Mat bgr = Speckled(kWidth, kHeight, CV_8UC3);
   cv::Mat grey;
@@ -262,7 +262,7 @@ Status Play(show::ShowContent content, const render::RenderTarget& target, Log& 
   return Status();
 }
 
-// As the player does.
+// Loads and plays a bundle in the same way as the player.
 Status LoadAndPlay(const std::filesystem::path& path,
                    const render::RenderTarget& target,
                    Log& log) {
@@ -273,7 +273,7 @@ Status LoadAndPlay(const std::filesystem::path& path,
 
 // ---- mutations ----
 
-// Flips, sets, cuts, repeats or inserts bytes.
+// Flips, sets, removes, repeats or inserts bytes.
 void MutateBytes(std::string& bytes, Random& random) {
   const int changes = 1 + static_cast<int>(random.Below(4));
   for (int i = 0; i < changes && !bytes.empty(); ++i) {
@@ -286,7 +286,7 @@ void MutateBytes(std::string& bytes, Random& random) {
       case 1:
         bytes[at] = static_cast<char>(random.Below(256));
         break;
-      case 2:  // what sizes and counts are most afraid of
+      case 2:  // dangerous values of sizes and counts
         bytes.replace(at, run, run, random.Below(2) == 0 ? '\xff' : '\0');
         break;
       case 3:
@@ -301,7 +301,7 @@ void MutateBytes(std::string& bytes, Random& random) {
   }
 }
 
-// Words where they lie aligned, as counts, offsets, indices and numbers do in our files.
+// Changes aligned words, because counts, offsets, indices and numbers are aligned in our files.
 void MutateWords(std::string& bytes, Random& random) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr std::array<float, 8> kNumbers = {std::numeric_limits<float>::quiet_NaN(),
@@ -330,14 +330,14 @@ void MutateWords(std::string& bytes, Random& random) {
       case 2:
         word += random.Below(2) == 0 ? 1 : ~0u;
         break;
-      default:  // half of it
+      default:  // changes half of the word
         word = random.Below(2) == 0 ? word | 0xffff0000 : word & 0xffff0000;
     }
     std::memcpy(&bytes[at], &word, 4);
   }
 }
 
-// All values within a JSON, itself first.
+// Collects all values of a JSON document, the document itself first.
 void Collect(Json& json, std::vector<Json*>& values) {
   values.push_back(&json);
   if (json.is_structured()) {
@@ -347,7 +347,7 @@ void Collect(Json& json, std::vector<Json*>& values) {
   }
 }
 
-// What JSON can write and this library does not.
+// Stands for the number 1e999, which is valid JSON but cannot be written by our library.
 constexpr const char* kTooLarge = "@1e999@";
 
 Json OddValue(const Json& before, const std::vector<Json*>& values, Random& random) {
@@ -374,7 +374,7 @@ Json OddValue(const Json& before, const std::vector<Json*>& values, Random& rand
       return Json::array();
     case 10:
       return Json::object();
-    default:  // something else that is in it
+    default:  // a copy of another value of the document
       return *values[random.Below(static_cast<uint32_t>(values.size()))];
   }
 }
@@ -431,7 +431,7 @@ void MutateJson(std::string& text, Random& random) {
   }
 }
 
-// By what it is, or as bytes.
+// Mutates a member according to its kind, or as bytes.
 void Mutate(NamedBytes& member, Random& random) {
   const bool by_kind = random.Below(4) > 0;
   if (by_kind && member.name.ends_with(".json")) {
@@ -451,7 +451,7 @@ double PeakMebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// Names the bundle and says something of it, in words, beside names.
+// True if an error names the bundle and describes the problem in words.
 bool IsClear(const std::string& message) {
   const size_t file = message.find("a.larshow");
   if (file == std::string::npos) {
@@ -463,7 +463,7 @@ bool IsClear(const std::string& message) {
       return false;
     }
   }
-  // Where it is: "a.larshow: cup.larprop: ".
+  // Removes the location, for example "a.larshow: cup.larprop: ".
   std::string said = message.substr(file);
   for (size_t end = said.find(": "); end != std::string::npos; end = said.find(": ")) {
     if (said.find(' ') < end) {
@@ -495,25 +495,25 @@ TEST(MutatedBundles, AreRefusedClearlyOrRun) {
   ASSERT_TRUE(good.ok()) << good.message();
   int refused = 0, ran = 0;
   Took longest;
-  std::map<std::string, std::pair<int, int>> by_part;  // refused, ran
+  std::map<std::string, std::pair<int, int>> by_part;  // number rejected, number played
   for (int number = 0; number < LARARIUM_MUTATIONS; ++number) {
     Random random(static_cast<uint64_t>(number) + 1);
     std::string part;
     std::string bytes;
     switch (number % 4) {
-      case 0:  // as a thief or a bad disk would: the file
+      case 0:  // mutates the file, like a bad disk
         part = "the file";
         bytes = file;
         MutateBytes(bytes, random);
         break;
-      case 1: {  // as a bad author would: the manifest, with its members as they are
+      case 1: {  // mutates the manifest and keeps its members, like a malicious author
         part = "manifest.json";
         NamedBytes changed = {part, manifest};
         Mutate(changed, random);
         bytes = Archive(changed.bytes, members);
         break;
       }
-      default: {  // and what it lists
+      default: {  // mutates a member and updates the manifest
         std::vector<NamedBytes> changed = members;
         NamedBytes& member = changed[random.Below(static_cast<uint32_t>(changed.size()))];
         part = member.name;

@@ -1,14 +1,15 @@
-// An OpenXR runtime without a headset, which the OpenXR loader opens as any other: its head turns
-// by a script, its images are textures of the program's own context, and it writes down what
-// becomes of them. Not of all of OpenXR: what the player uses, strictly in its order.
+// An OpenXR runtime without a headset for tests. The OpenXR loader opens it like any other. Its
+// head moves according to a script, its images are textures in the program's own context, and it
+// logs the submitted layers. It implements only the functions that the player uses, and checks
+// their order.
 //
-// LARARIUM_NULL_XR: words, apart by blanks. log=FILE: where calls are written. exit=N, lose=N: the
-// runtime ends the session, or is lost, at the frame N. away: no headset is connected. turn=A: the
-// head turns by A radians a second about the vertical, to the left. blends=MODES: how layers are
-// blended with what is real, of the letters o (opaque), a (alpha), + (additive); o unless said.
-// passes: what is real can be shown by a layer (XR_FB_passthrough). press=PATH@N, several times: an
-// input of its simple controllers is held from the frame N on, for three frames. aside: another
-// program has the focus. timeless=N: from the frame N on it converts no time.
+// The environment variable LARARIUM_NULL_XR has words separated by blanks. log=FILE: calls are
+// written to this file. exit=N, lose=N: the runtime ends the session, or is lost, at frame N. away:
+// no headset is connected. turn=A: the head turns to the left about the vertical by A radians per
+// second. blends=MODES: offered blend modes, letters o (opaque), a (alpha), + (additive); default
+// o. passes: a layer can show the real world (XR_FB_passthrough). press=PATH@N, repeatable: an
+// input of the simple controllers is held for three frames from frame N on. aside: another program
+// has the focus. timeless=N: from frame N on, times cannot be converted.
 
 #include <epoxy/gl.h>
 
@@ -31,8 +32,8 @@
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
 
-// What the loader and a runtime say to each other (OpenXR loader specification, "Runtime interface
-// negotiation"); Debian's package has no header of it.
+// The interface between loader and runtime (OpenXR loader specification, "Runtime interface
+// negotiation"). Debian's package does not contain its header.
 struct LoaderInfo {
   int type;  // 1
   uint32_t version;
@@ -56,7 +57,7 @@ namespace {
 constexpr XrTime kPeriod = 11'111'111;  // 90 Hz
 constexpr float kHalfEyes = 0.032f;     // metres
 constexpr uint32_t kImages = 3;
-// Spaces are known by their handles.
+// Spaces are identified by their handles.
 const auto kSession = reinterpret_cast<XrSession>(uintptr_t{1});
 const auto kRoom = reinterpret_cast<XrSpace>(uintptr_t{2});
 const auto kHead = reinterpret_cast<XrSpace>(uintptr_t{3});
@@ -81,13 +82,13 @@ struct Runtime {
   std::string blends = "o";
   bool passes = false;
   std::vector<std::pair<std::string, long>> presses;  // path, frame
-  std::vector<std::string> paths;                     // XrPath: the number of one, from 1
-  // Of each action, from 1: which inputs it is bound to.
+  std::vector<std::string> paths;                     // XrPath is the index plus 1
+  // The inputs that each action is bound to; an action's handle is its index plus 1.
   std::vector<std::vector<std::string>> actions;
   bool aside = false;
   bool attached = false;
   bool focused = false;
-  std::vector<bool> held;  // by action, at the last sync
+  std::vector<bool> held;  // state of each action at the last sync
   std::deque<XrSessionState> events;
   long frames = 0;
   bool running = false;
@@ -147,15 +148,15 @@ void ReadScript(Runtime& runtime, bool writes) {
   }
 }
 
-// What the script makes of the head.
+// The pose of the head according to the script.
 XrPosef HeadAt(XrTime time) {
   const double half = 0.5 * g_runtime->turn * static_cast<double>(time - g_runtime->began) * 1e-9;
   return {{0.0f, static_cast<float>(std::sin(half)), 0.0f, static_cast<float>(std::cos(half))},
           {0.0f, 1.6f, 0.0f}};
 }
 
-// A pixel of a layer: the red, green, blue and alpha of a texture that shares its place, as shares
-// of its size from the lower left corner.
+// Reads red, green, blue and alpha of a texture at a position, given as shares of its size from the
+// lower left corner.
 std::string PixelOf(const Swapchain& chain, double x, double y) {
   const uint32_t shown = (chain.next + kImages - 1) % kImages;
   GLuint framebuffer = 0;
@@ -219,7 +220,7 @@ XrResult EnumerateInstanceExtensionProperties(const char* /*layer*/,
   const char* names[] = {XR_KHR_OPENGL_ENABLE_EXTENSION_NAME,
                          XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME,
                          XR_FB_PASSTHROUGH_EXTENSION_NAME};
-  // Asked before there is an instance.
+  // This function is called before there is an instance.
   Runtime scripted;
   ReadScript(scripted, false);
   *count = scripted.passes ? 3 : 2;
@@ -367,7 +368,7 @@ XrResult LocateViews(XrSession /*session*/,
     return XR_ERROR_VALIDATION_FAILURE;
   }
   state->viewStateFlags = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
-  // About the vertical only.
+  // Rotates about the vertical only.
   const XrPosef head =
       locate->space == kRoom ? HeadAt(locate->displayTime) : XrPosef{{0.0f, 0.0f, 0.0f, 1.0f}, {}};
   const float cosine = 1.0f - 2.0f * head.orientation.y * head.orientation.y;
@@ -498,7 +499,7 @@ XrResult CreateAction(XrActionSet /*set*/, const XrActionCreateInfo* create, XrA
   return XR_SUCCESS;
 }
 
-// It knows no controllers but simple ones.
+// Only simple controllers are supported.
 XrResult SuggestBindings(XrInstance /*instance*/,
                          const XrInteractionProfileSuggestedBinding* suggested) {
   if (g_runtime->attached) {

@@ -1,4 +1,4 @@
-// Against a runtime without a headset: tests/player/null_openxr_runtime.cc.
+// Uses a runtime without a headset: tests/player/null_openxr_runtime.cc.
 
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "player/openxr_headset.h"
-#include "player/visitor_actions.h"
-#include "shared/render/window.h"
+#include "player/kiosk/visitor_actions.h"
+#include "player/openxr/openxr_headset.h"
+#include "shared/render/gl/window.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::player {
@@ -28,12 +28,12 @@ using ::testing::HasSubstr;
 
 constexpr geometry::CameraModel kPinhole{64, 48, 50.0, 50.0, 31.5, 23.5};
 
-// A layer as the runtime was given it.
+// A quad layer as the runtime has logged it.
 struct Quad {
   std::string eye;
   std::string space;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double yaw = 0.0;  // to the left, radians
+  double yaw = 0.0;  // radians, positive to the left
   double width = 0.0;
   double height = 0.0;
   std::string upper;
@@ -81,7 +81,7 @@ class OpenXrTest : public ::testing::Test {
     return opened.status();
   }
 
-  // So many frames, or until the end; whether there is more.
+  // Runs a number of frames, or until the session ends. Returns false if it has ended.
   bool Run(int frames) {
     bool more = true;
     for (int i = 0; more && i < frames; ++i) {
@@ -92,7 +92,8 @@ class OpenXrTest : public ::testing::Test {
     return more;
   }
 
-  // Red above, opaque, and below as told: red, green, blue, alpha.
+  // A picture whose upper half is opaque red and whose lower half has the given red, green, blue
+  // and alpha.
   static render::RenderTarget TwoHalves(const std::array<float, 4>& lower) {
     auto target = render::RenderTarget::Create(kPinhole.width, kPinhole.height);
     EXPECT_TRUE(target.ok()) << target.message();
@@ -140,14 +141,14 @@ class OpenXrTest : public ::testing::Test {
   std::optional<render::Window> window_;
   Headset headset_;
   std::shared_ptr<Log> log_;
-  std::unique_ptr<OpenXrHeadset> xr_;  // ends before its context
+  std::unique_ptr<OpenXrHeadset> xr_;  // declared last, so destroyed before its context
 };
 
 TEST_F(OpenXrTest, FollowsTheSessionThroughItsStates) {
   ASSERT_TRUE(Open("exit=6").ok());
   EXPECT_FALSE(Run(100)) << "the runtime ends the session";
   EXPECT_EQ(Lines("frame ").size(), 6u);
-  // IDLE, READY, ..., STOPPING, IDLE, EXITING, with what the program does in between.
+  // The states IDLE, READY, ..., STOPPING, IDLE, EXITING, and the calls of the program in between.
   std::vector<std::string> calls;
   for (const std::string& line : Lines()) {
     if (line.rfind("state", 0) == 0 || line.rfind("begin", 0) == 0 || line.rfind("end", 0) == 0) {
@@ -205,7 +206,8 @@ TEST_F(OpenXrTest, HangsThePictureAsFarAwayAndAsLargeAsTheCameraSawIt) {
   const Quad quad = LastQuad();
   EXPECT_EQ(quad.eye, "both");
   EXPECT_EQ(quad.space, "room");
-  // The head is 1.6 m high, the camera 0.05 above and 0.1 before it; upwards and backwards count.
+  // The head is at a height of 1.6 m, the camera 0.05 m above and 0.1 m in front of it. OpenXR's
+  // axes point up and backward.
   EXPECT_LT((quad.position - Eigen::Vector3d(0.0, 1.65, -2.1)).norm(), 1e-4);
   EXPECT_NEAR(quad.width, 2.0 * 64 / 50, 1e-4);
   EXPECT_NEAR(quad.height, 2.0 * 48 / 50, 1e-4);
@@ -234,7 +236,7 @@ TEST_F(OpenXrTest, ThePictureStaysInTheRoomWhileTheHeadTurns) {
   const SteadyClock::time_point second = SteadyClock::now() - std::chrono::milliseconds(60);
   Show(second);
   Run(2);
-  // It hangs where the head was when the image was taken, not where it is.
+  // The layer is at the pose of the head when the image was taken, not at the current pose.
   const double passed = std::chrono::duration<double>(second - first).count();
   EXPECT_NEAR(LastQuad().yaw - before.yaw, passed, 2e-3);
 }
@@ -253,16 +255,16 @@ TEST_F(OpenXrTest, InStereoEachEyeHasItsPictureAndTheRuntimesEyes) {
   EXPECT_EQ(ParseQuad(quads[1])->eye, "right");
 }
 
-// What an eye is shown over what is real, as the runtime was given it.
+// The projection layer of an eye over the real world, as the runtime has logged it.
 struct Projected {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double yaw = 0.0;                                      // to the left, radians
-  double left = 0.0, right = 0.0, up = 0.0, down = 0.0;  // of the field of view, radians
+  double yaw = 0.0;                                      // radians, positive to the left
+  double left = 0.0, right = 0.0, up = 0.0, down = 0.0;  // angles of the field of view, radians
   std::string upper;
   std::string lower;
 };
 
-// Both eyes' of a line.
+// Parses the layers of both eyes from a line of the log.
 std::vector<Projected> ParseProjection(const std::string& line) {
   std::vector<Projected> eyes;
   for (size_t at = line.find('|'); at != std::string::npos; at = line.find('|', at + 1)) {
@@ -279,7 +281,7 @@ std::vector<Projected> ParseProjection(const std::string& line) {
   return eyes;
 }
 
-// A headset whose runtime shows what is real.
+// A headset whose runtime shows the real world.
 class OpenXrSeeThroughTest : public OpenXrTest {
  protected:
   void SetUp() override {
@@ -346,7 +348,7 @@ TEST_F(OpenXrSeeThroughTest, AHeadsetOfGlassOnlyAddsLight) {
 
 TEST_F(OpenXrSeeThroughTest, AHeadsetThatShowsNothingRealIsOneErrorThatSaysWhatToDo) {
   EXPECT_EQ(Open("blends=o").message(),
-            "OpenXR: the headset does not show what is real by itself; set \"see_through\" of the "
+            "OpenXR: the headset cannot show the real world itself; set \"see_through\" of the "
             "device file's \"headset\" to \"camera\"");
 }
 
@@ -354,13 +356,13 @@ TEST_F(OpenXrSeeThroughTest, EachEyesPictureIsHandedOverForTheViewItWasDrawnFor)
   ASSERT_TRUE(Open("blends=a turn=1").ok());
   Run(12);
   ShowToBoth();
-  Run(4);  // without a newer picture the head turns on
+  Run(4);  // the head turns further without a newer picture
   const std::vector<Projected> eyes = ParseProjection(Lines("projection").back());
   ASSERT_EQ(eyes.size(), 2u);
   for (const Eye eye : {kLeft, kRight}) {
     const EyeView& view = *views_[eye];
     const geometry::Rigid3& pose = view.room_from_eye;
-    // Our axes are turned half about x.
+    // Our axes are those of OpenXR, turned by 180 degrees about x.
     EXPECT_NEAR(eyes[eye].position.x(), pose.translation.x(), 1e-4);
     EXPECT_NEAR(eyes[eye].position.y(), -pose.translation.y(), 1e-4);
     EXPECT_NEAR(eyes[eye].position.z(), -pose.translation.z(), 1e-4);
@@ -368,7 +370,7 @@ TEST_F(OpenXrSeeThroughTest, EachEyesPictureIsHandedOverForTheViewItWasDrawnFor)
     EXPECT_NEAR(eyes[eye].right, std::atan(0.5 * kPinhole.width / view.camera.fx), 1e-4);
     EXPECT_NEAR(eyes[eye].up, std::atan(0.5 * kPinhole.height / view.camera.fy), 1e-4);
     EXPECT_NEAR(eyes[eye].left, -eyes[eye].right, 1e-6);
-    // All that the eye can see is in it.
+    // The picture covers the whole field of view of the eye.
     EXPECT_GE(eyes[eye].right, 0.8 - 1e-4);
     EXPECT_GE(eyes[eye].up, 0.8 - 1e-4);
   }
@@ -386,7 +388,7 @@ TEST_F(OpenXrSeeThroughTest, EyesAreForeseenAndTheCameraIsKnownBackInTime) {
   const auto yaw = [](const geometry::Rigid3& pose) {
     return -2.0 * std::atan2(pose.rotation.y(), pose.rotation.w());
   };
-  // Two and three periods of the display ahead, and what drawing took.
+  // The prediction is two to three periods of the display ahead, plus the time of drawing.
   const double ahead = yaw(views_[kLeft]->room_from_eye) - yaw(*camera);
   EXPECT_GT(ahead, 0.05);
   EXPECT_LT(ahead, 0.05 + 0.05);
@@ -438,7 +440,7 @@ TEST_F(OpenXrTest, ALostRuntimeIsOneErrorThatSaysWhatToDo) {
 
 TEST_F(OpenXrTest, SaysThatThereIsNoRuntime) {
   const Status status = Open("", "/nowhere/runtime.json");
-  EXPECT_THAT(status.message(), HasSubstr("OpenXR: there is no runtime that can be used; install"));
+  EXPECT_THAT(status.message(), HasSubstr("OpenXR: there is no usable runtime; install"));
 }
 
 TEST_F(OpenXrTest, SaysThatNoHeadsetIsConnected) {

@@ -1,4 +1,4 @@
-#include "player/options.h"
+#include "player/app/options.h"
 
 #include <gtest/gtest.h>
 

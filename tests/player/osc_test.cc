@@ -1,4 +1,4 @@
-#include "player/osc.h"
+#include "player/app/osc.h"
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// A message as liblo writes it.
+// A message encoded by liblo.
 template <typename... Arguments>
 std::vector<std::byte> Packet(const char* address, const char* types, Arguments... arguments) {
   lo_message message = lo_message_new();
@@ -84,10 +84,10 @@ TEST(Osc, WhatIsNotAsOscSaysIsRefusedAsAWhole) {
   EXPECT_THAT(Refusal(Packet("/a", "s", std::string(500, 'a').c_str())), HasSubstr("400 bytes"));
   EXPECT_THAT(Refusal(Packet("/a", "f", std::numeric_limits<double>::infinity())),
               HasSubstr("not finite"));
-  EXPECT_THAT(Refusal(Packet("/a", "c", 'x')), HasSubstr("a type that is not taken"));
+  EXPECT_THAT(Refusal(Packet("/a", "c", 'x')), HasSubstr("an unsupported type"));
   std::vector<std::byte> cut = Packet("/a", "ii", 1, 2);
   cut.resize(cut.size() - 4);
-  EXPECT_THAT(Refusal(cut), HasSubstr("not as its types say"));
+  EXPECT_THAT(Refusal(cut), HasSubstr("do not match its types"));
   std::vector<std::byte> bundle = Bundle({Packet("/a", ""), Packet("/b", "")});
   bundle.pop_back();
   EXPECT_THAT(Refusal(bundle), HasSubstr("ends early"));
@@ -148,7 +148,7 @@ TEST(OscListener, HearsThisMachineAndRefusesNoise) {
   EXPECT_THAT(heard, ElementsAre("/door/open,1"));
   EXPECT_THAT((*listener)->Take(), IsEmpty());
   EXPECT_THAT(OscListener::Open({INADDR_LOOPBACK, (*listener)->port()}, *log).message(),
-              HasSubstr("cannot be listened to"));
+              HasSubstr("cannot be opened"));
   close(sender);
 }
 

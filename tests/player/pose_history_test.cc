@@ -1,4 +1,4 @@
-#include "player/pose_history.h"
+#include "player/openxr/pose_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "player/power_sensors.h"
+#include "player/kiosk/power_sensors.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace lararium::player {
 namespace {
 
-// A double of /sys.
+// A fake /sys.
 class PowerSensorsTest : public ::testing::Test {
  protected:
   void Put(const std::string& path, const std::string& text) {

@@ -1,4 +1,4 @@
-#include "player/sandbox.h"
+#include "player/kiosk/sandbox.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -20,7 +20,8 @@
 namespace lararium::player {
 namespace {
 
-// What a function returns in a process that has entered a sandbox; -1: it did not end by itself.
+// Runs a function in a process that has entered a sandbox. Returns its result; -1: the process was
+// killed.
 int InsideOf(const std::function<Status()>& enter, const std::function<int()>& function) {
   const pid_t process = ::fork();
   if (process == 0) {
@@ -112,7 +113,7 @@ TEST(Sandbox, NobodyIsLetInWhereNoPageIsAskedFor) {
   ::close(listening);
 }
 
-// A socket that listens on a port of this machine, and what connects to it.
+// A socket that listens on a port of this machine, and a socket that connects to it.
 class PageSandbox : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -1,12 +1,12 @@
 // lararium_soak SHOW.larshow VIDEO [--seconds N] [--out FILE.json]
 //
-// Plays a show in a loop as the player does, on a recording, as fine as the machine is quick
-// enough for, and injects faults at the seams where the world comes in: the camera, its clock,
-// the sound device, the script, the log's disk, the state's folder.
-// Says of each how often it was injected, how often it was noticed (the log has a line that tells
-// of it within five seconds, and no image without the place was given a pose), logged (another line
-// tells likewise of its end, and there are few in all) and recovered from (what failed works again,
-// and people are seen, within three seconds). Fails where one of them lacks, or memory grew.
+// Plays a show on a recording in a loop, in the same way as the player and at the quality that the
+// machine can draw. Meanwhile it injects faults into the camera, its clock, the sound device, the
+// script, the disk of the log and the folder of the state. For each fault it prints how often it
+// was injected; noticed (within five seconds the log has a line about it, and no image without the
+// place got a pose); logged (a line reports its end as well, and there are few lines in total); and
+// recovered from (within three seconds the failed part works again and people are visible). It
+// fails if one of these numbers is too small, or if memory grew.
 
 #include <fcntl.h>
 #include <spdlog/sinks/base_sink.h>
@@ -32,9 +32,9 @@
 #include <utility>
 #include <vector>
 
-#include "player/fault_log.h"
-#include "player/heap.h"
-#include "player/kiosk.h"
+#include "player/app/heap.h"
+#include "player/kiosk/fault_log.h"
+#include "player/kiosk/kiosk.h"
 #include "shared/audio/sound_player.h"
 #include "shared/bundle/bundle.h"
 #include "shared/capture/looped_source.h"
@@ -43,7 +43,7 @@
 #include "shared/core/median.h"
 #include "shared/core/memory.h"
 #include "shared/core/random.h"
-#include "shared/render/graphics_context.h"
+#include "shared/render/gl/graphics_context.h"
 #include "shared/render/quality.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/quality_controller.h"
@@ -59,16 +59,17 @@ namespace fs = std::filesystem;
 
 constexpr double kGoodSeconds = 7.0;
 constexpr double kFaultSeconds = 4.0;
-// After a fault has ended, until what failed must work again.
+// Seconds after the end of a fault until the failed part must work again.
 constexpr double kMostRecovery = 3.0;
-// After a fault has begun, and after it has ended, until the log must have told of it.
+// Seconds after the beginning and after the end of a fault until the log must have a line about it.
 constexpr double kMostToTell = 5.0;
-// Where the machine is slower than that, both are as long as so many images take: what the camera
-// gives in a second.
+// On slow machines both limits are at least the time of this number of images, which the camera
+// gives in one second.
 constexpr int kFewImages = 30;
-// Of a fault and what follows until the next one, in the log.
+// Limit of lines in the log from the beginning of a fault until the next one.
 constexpr size_t kMostLines = 16;
-// Of the drama's time from the images', while their clock leaps: two images.
+// Limit of the difference between the drama's time and that of images while their clock jumps: two
+// images.
 constexpr double kMostTimeError = 2.0 / 30.0;
 constexpr double kMostGrowth = 0.02;
 constexpr double kMemoryInterval = 10.0;  // seconds
@@ -91,8 +92,8 @@ constexpr size_t kFaults = static_cast<size_t>(Fault::kNone);
 
 struct FaultKind {
   const char* name;
-  const char* begins;  // in the log; alternatives are separated by '|'
-  const char* ends;    // likewise; nullptr: it is over at once
+  const char* begins;  // text in the log at its beginning; alternatives are separated by '|'
+  const char* ends;    // text in the log at its end; nullptr: the fault ends immediately
   bool blinds = false;
 };
 constexpr std::array<FaultKind, kFaults> kKinds = {{
@@ -116,11 +117,12 @@ const FaultKind& KindOf(Fault fault) { return kKinds[static_cast<size_t>(fault)]
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-// Which fault there is now: one after the other, with good times between. One thread moves it on.
+// The current fault. Faults follow one another, with times without a fault in between. Only one
+// thread may call MoveOn.
 class Schedule {
  public:
   Fault Now() const { return now_; }
-  // Whether another time has begun.
+  // Updates the current fault. Returns true if it has changed.
   bool MoveOn() {
     const double cycle = kGoodSeconds + kFaultSeconds;
     const double time = Seconds(Clock::now() - start_);
@@ -135,10 +137,10 @@ class Schedule {
   std::atomic<Fault> now_ = Fault::kNone;
 };
 
-// Hears all that the log is told.
+// Collects all messages of the log.
 class LogEar final : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  // Whether one of the texts ("a|b") was said between two moments.
+  // True if one of the texts ("a|b") was logged between two moments.
   bool Heard(std::string_view texts, Clock::time_point from, Clock::time_point until) {
     const std::lock_guard lock(mutex_);
     while (true) {
@@ -175,13 +177,13 @@ class LogEar final : public spdlog::sinks::base_sink<std::mutex> {
   std::deque<std::pair<Clock::time_point, std::string>> lines_;
 };
 
-// What is true of an image, whatever its camera's clock says.
+// The true time and fault of an image, independent of its camera's clock.
 struct Truth {
-  double time = 0.0;  // when it was taken, seconds
+  double time = 0.0;  // capture time, seconds
   Fault fault = Fault::kNone;
 };
 
-// Photographs of other places; none where the data folder is not there.
+// Photographs of other places; empty if the data folder does not exist.
 std::vector<cv::Mat> ForeignImages(cv::Size size) {
   constexpr size_t kOfEach = 4;
   std::vector<cv::Mat> images;
@@ -204,7 +206,7 @@ std::vector<cv::Mat> ForeignImages(cv::Size size) {
   return images;
 }
 
-// The image's tiles in another order, turned over.
+// Rearranges and flips the tiles of an image.
 void Shuffle(const cv::Mat& image, cv::Mat& shuffled) {
   const int w = image.cols / 8, h = image.rows / 8;
   for (int tile = 0; tile < 64; ++tile) {
@@ -215,7 +217,7 @@ void Shuffle(const cv::Mat& image, cv::Mat& shuffled) {
   }
 }
 
-// A camera that plays a recording, and everything that happens to cameras.
+// A camera that plays a recording and has the faults of real cameras.
 class FaultyCamera final : public capture::FrameSource {
  public:
   FaultyCamera(std::shared_ptr<capture::FrameSource> recording,
@@ -251,7 +253,7 @@ class FaultyCamera final : public capture::FrameSource {
   std::string FrameName(int64_t index) const override { return recording_->FrameName(index); }
 
  private:
-  // A camera gives images at its rate.
+  // Waits until the next image is due.
   void Wait() {
     next_ += std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(1.0 / frames_per_second()));
@@ -282,14 +284,14 @@ class FaultyCamera final : public capture::FrameSource {
   Clock::time_point next_ = Clock::now();
 };
 
-// What the pipeline reads: the steady camera, and the truth of each of its images.
+// The source for the pipeline. It wraps the steady camera and stores the truth of each image.
 class KnownSource final : public capture::FrameSource {
  public:
   KnownSource(std::unique_ptr<capture::FrameSource> steady, Truth& truth)
       : steady_(std::move(steady)), truth_(truth), truths_(kKept) {}
 
   Result<std::optional<geometry::Frame>> Next() override {
-    truth_ = {NAN, Fault::kUnplugged};  // unless the camera says another
+    truth_ = {NAN, Fault::kUnplugged};  // the camera overwrites it if it gives an image
     Result<std::optional<geometry::Frame>> frame = steady_->Next();
     if (frame.ok() && frame->has_value()) {
       const std::lock_guard lock(mutex_);
@@ -297,7 +299,7 @@ class KnownSource final : public capture::FrameSource {
     }
     return frame;
   }
-  // Of one of the last images.
+  // The truth of one of the last images.
   Truth Of(int64_t index) const {
     const std::lock_guard lock(mutex_);
     return truths_[static_cast<size_t>(index) % kKept];
@@ -313,17 +315,17 @@ class KnownSource final : public capture::FrameSource {
  private:
   static constexpr size_t kKept = 1000;
   std::unique_ptr<capture::FrameSource> steady_;
-  Truth& truth_;  // of the thread that reads
+  Truth& truth_;  // belongs to the reading thread
   mutable std::mutex mutex_;
   std::vector<Truth> truths_;
 };
 
-// What came through the sound device since it was opened last.
+// Statistics of the sound device since it was last opened.
 struct Played {
   std::atomic<int> openings = 0;
   std::atomic<int> blocks = 0;
   std::atomic<int> audible = 0;  // blocks that are not silence
-  std::atomic<int> wrong = 0;    // samples that are no numbers, ever
+  std::atomic<int> wrong = 0;    // samples that are not finite, since the start of the program
 };
 
 // A sound device that can be pulled out.
@@ -356,7 +358,7 @@ class FaultySound final : public audio::AudioOut {
   Played& played_;
 };
 
-// The files that the player writes, and their disk. Gone with it.
+// The folder for files that the player writes, and faults of its disk. The destructor removes it.
 class Disk {
  public:
   Disk() : folder_(fs::temp_directory_path() / ("lararium_soak." + std::to_string(getpid()))) {
@@ -372,10 +374,10 @@ class Disk {
   fs::path log() const { return folder_ / "log.txt"; }
   fs::path state() const { return folder_ / "state"; }
 
-  // The log's open file, whoever has it, writes to a disk that is full.
+  // Redirects every open descriptor of the log to a full disk.
   void FillLog() const { Redirect(log(), "/dev/full"); }
   void FreeLog() const { Redirect("/dev/full", log()); }
-  // In the folder's place there is a file: whoever asks, nothing can be written.
+  // Replaces the folder by a file, so that nothing can be written (not even by root).
   void TakeState() const {
     fs::rename(state(), folder_ / "away");
     std::ofstream(state()) << "not a folder";
@@ -417,8 +419,8 @@ struct Outcome {
   int noticed = 0;
   int logged = 0;
   int recovered = 0;
-  double longest = 0.0;   // seconds until it was recovered from
-  size_t most_lines = 0;  // in the log
+  double longest = 0.0;   // longest time of recovery, seconds
+  size_t most_lines = 0;  // largest number of lines in the log
 };
 
 struct Options {
@@ -428,7 +430,7 @@ struct Options {
   std::string out;
 };
 
-// What the judge looks at.
+// Everything that the judge observes.
 struct Scene {
   const Schedule& schedule;
   const KnownSource& source;
@@ -437,12 +439,12 @@ struct Scene {
   LogEar& ear;
 };
 
-// What happened, fault by fault.
+// Decides for each fault whether it was noticed, logged and recovered from.
 class Judge {
  public:
   explicit Judge(const Scene& scene) : scene_(scene) {}
 
-  // A fault has just begun.
+  // Call this when a fault has just begun.
   void Begin() {
     Settle();
     fault_ = scene_.schedule.Now();
@@ -454,7 +456,7 @@ class Judge {
     time_error_ = 0.0;
     posed_blind_ = false;
   }
-  // It has just ended.
+  // Call this when the fault has just ended.
   void End() {
     ended_ = Clock::now();
     end_told_until_ = *ended_ + kToTell;
@@ -463,14 +465,15 @@ class Judge {
     ended_on_disk_ = fs::file_time_type::clock::now();
     end_text_ = "soak: the end of fault " + std::to_string(++ends_);
   }
-  // What the log says at the end, and its file must have.
+  // The line that is logged at the end of a fault and must then be in the log's file.
   const std::string& end_text() const { return end_text_; }
 
   void Frame(const show::StagedFrame& staged) {
     const Truth truth = scene_.source.Of(staged.tracked.frame.index);
     const bool tracked = staged.tracked.camera_from_map.has_value();
     CountImage();
-    // Never people in a place that no image shows: they have gone half a second after the hold.
+    // People must not be visible in a place that no image shows. They have faded out half a second
+    // after the hold time.
     if (!tracked && staged.lost_seconds > 1.0 && staged.opacity > 0.0f) {
       ++ghosts_;
     }
@@ -487,7 +490,7 @@ class Judge {
       recovered_in_time_ = *recovered_ <= kMostRecovery || images_since_end_ <= kFewImages;
     }
   }
-  // The last fault may not have been waited for.
+  // Evaluates the last fault, unless it is too recent to judge.
   void Settle() {
     if (fault_ == Fault::kNone || !ended_ || Seconds(Clock::now() - *ended_) < kMostToTell) {
       return;
@@ -528,7 +531,7 @@ class Judge {
     }
   }
 
-  // How far the drama's time is from the images', which began together before the fault.
+  // Measures how far the drama's time has moved from that of images since before the fault.
   void FollowTime(const Truth& truth, double drama_time) {
     const bool back = last_drama_time_ > drama_time;
     last_drama_time_ = drama_time;
@@ -543,7 +546,7 @@ class Judge {
     time_error_ = std::max(time_error_, error);
     worst_time_error_ = std::max(worst_time_error_, error);
   }
-  // For the next visitor.
+  // True if the show was restarted for a new visitor.
   bool BegunAnew() const { return scene_.ear.Heard("a visitor came", begun_, Clock::now()); }
 
   bool WorksAgain(const show::StagedFrame& staged) const {
@@ -568,8 +571,8 @@ class Judge {
   Scene scene_;
   Fault fault_ = Fault::kNone;
   Clock::time_point begun_;
-  Clock::time_point told_until_;  // when the log must have told of its beginning
-  int images_ = 0;                // since then
+  Clock::time_point told_until_;  // deadline for the log's line about the beginning
+  int images_ = 0;                // number of images since the beginning
   std::optional<Clock::time_point> ended_;
   Clock::time_point end_told_until_;
   int images_since_end_ = 0;
@@ -578,7 +581,7 @@ class Judge {
   fs::file_time_type ended_on_disk_;
   std::string end_text_;
   int ends_ = 0;
-  std::optional<double> recovered_;  // after so many seconds
+  std::optional<double> recovered_;  // seconds from the end of the fault to recovery
   bool recovered_in_time_ = false;
   bool posed_blind_ = false;
   double reference_ = 0.0;
@@ -589,7 +592,7 @@ class Judge {
   int ghosts_ = 0;
 };
 
-// What the schedule asks for that no double does by itself.
+// Injects and removes the faults that the fake devices do not produce themselves.
 void Inject(const Schedule& schedule,
             Fault before,
             const Disk& disk,
@@ -618,8 +621,8 @@ void Inject(const Schedule& schedule,
   log.info("soak: {}", KindOf(now).name);
 }
 
-// Medians of a minute each, from when it is warm and at the end: what is taken for a moment, by
-// places that are looked for again, does not count.
+// Medians of memory over one minute, after warming up and at the end. The median ignores memory
+// that is used only briefly, for example for relocalisation.
 std::pair<double, double> WarmAndLast(const std::vector<double>& memory, double warm_seconds) {
   constexpr size_t kMinute = 6;
   const size_t warm =
@@ -648,7 +651,7 @@ end
 )";
 }
 
-// As the player has it.
+// Loads a show in the same way as the player.
 Result<show::ShowContent> Load(const std::string& file) {
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(file));
   LARARIUM_ASSIGN_OR_RETURN(
@@ -659,7 +662,7 @@ Result<show::ShowContent> Load(const std::string& file) {
   return content;
 }
 
-// Prints the table; whether all is well.
+// Prints the table. Returns true if all faults were handled.
 bool Report(const std::array<Outcome, kFaults>& outcomes, Json& rows) {
   bool good = true;
   std::printf(
@@ -705,7 +708,7 @@ Result<bool> Soak(const Options& options) {
   drama.past = drama::Past::kForgotten;
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<show::Show> show,
                             show::Show::Create(std::move(content), drama, *log));
-  show->SetLostLadder({});
+  show->SetTrackingLossFader({});
   show->SetPictureSize(kWidth, kHeight);
   LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
                             render::CreateOffscreenContext());
@@ -761,12 +764,12 @@ Result<bool> Soak(const Options& options) {
   player::Kiosk kiosk(disk.state(), {}, *log);
   Judge judge({schedule, source, played, disk, *ear});
 
-  const std::span<const render::Quality> ladder = render::QualityLadder();
+  const std::span<const render::Quality> fader = render::QualityLadder();
   show::QualityController quality(
-      show::QualityOptions::ForCamera(ladder.size(), recording->frames_per_second()),
-      ladder.size() - 1);
-  renderer->SetQuality(ladder.back());
-  show->SetQuality(ladder.back());
+      show::QualityOptions::ForCamera(fader.size(), recording->frames_per_second()),
+      fader.size() - 1);
+  renderer->SetQuality(fader.back());
+  show->SetQuality(fader.back());
   show::ShowStatistics statistics;
   std::vector<double> memory = {show::ResidentMebibytes()};
   const Clock::time_point begin = Clock::now();
@@ -794,8 +797,8 @@ Result<bool> Soak(const Options& options) {
           std::chrono::duration<double, std::milli>(Clock::now() - drawing).count();
       if (staged->camera_from_stage &&
           quality.AddFrame(elapsed, std::max(draw_ms, staged->stage_ms))) {
-        renderer->SetQuality(ladder[quality.level()]);
-        show->SetQuality(ladder[quality.level()]);
+        renderer->SetQuality(fader[quality.level()]);
+        show->SetQuality(fader[quality.level()]);
       }
       if (sound != nullptr) {
         sound->Show(staged->sound);

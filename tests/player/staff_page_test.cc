@@ -1,4 +1,4 @@
-#include "player/staff_page.h"
+#include "player/staff/staff_page.h"
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
@@ -15,8 +15,8 @@
 #include <optional>
 #include <thread>
 
-#include "player/staff_link.h"
-#include "player/staff_texts.h"
+#include "player/staff/staff_link.h"
+#include "player/staff/staff_texts.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::player {
@@ -28,7 +28,8 @@ using ::testing::StartsWith;
 
 constexpr char kPin[] = "ianua-1738";
 
-// What a server says to some bytes, until it closes or is silent for two seconds.
+// Sends bytes to a server and returns its reply, until it closes the connection or is silent for
+// two seconds.
 std::string Ask(uint16_t port, const std::string& bytes) {
   const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const timeval patience = {2, 0};
@@ -56,7 +57,7 @@ std::string BodyOf(const std::string& reply) {
   return at == std::string::npos ? "" : reply.substr(at + 4);
 }
 
-// Until something holds, for three seconds at most.
+// Waits until a condition holds, at most three seconds. Returns whether it holds.
 bool Soon(const std::function<bool()>& holds) {
   for (int i = 0; i < 300; ++i) {
     if (holds()) {
@@ -67,7 +68,7 @@ bool Soon(const std::function<bool()>& holds) {
   return false;
 }
 
-// A page on a port of its own; the test is its player.
+// A staff page on a free port. The test takes the role of the player.
 class StaffPageTest : public ::testing::Test {
  protected:
   void Open(bool with_pin) {
@@ -101,7 +102,7 @@ class StaffPageTest : public ::testing::Test {
     const auto json = ParseJson(BodyOf(Get("/state.json")), "state");
     return json.ok() ? *json : Json();
   }
-  // A player that says how it is, and is heard.
+  // The player's end of the link, which has sent a state that the page has received.
   StaffLink& Player() {
     if (!player_) {
       player_.emplace(page_->link(), *log_);

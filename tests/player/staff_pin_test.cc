@@ -1,4 +1,4 @@
-#include "player/staff_pin.h"
+#include "player/staff/staff_pin.h"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "player/staff_state.h"
+#include "player/staff/staff_state.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ TEST(TrackingTally, SharesAreOfAllFramesAndOfTheLastMinute) {
   TrackingTally tally;
   EXPECT_EQ(tally.since_start(), 0.0);
   EXPECT_EQ(tally.last_minute(), 0.0);
-  for (int i = 0; i < 120 * 10; ++i) {  // two minutes, ten frames a second
+  for (int i = 0; i < 120 * 10; ++i) {  // two minutes with ten frames per second
     const double now = 1000.0 + i / 10.0;
     tally.Add(now, i >= 60 * 10, i > 100 && i < 60 * 10);
   }

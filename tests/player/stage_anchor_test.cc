@@ -1,4 +1,4 @@
-#include "player/stage_anchor.h"
+#include "player/openxr/stage_anchor.h"
 
 #include <gtest/gtest.h>
 

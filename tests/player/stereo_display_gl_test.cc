@@ -4,7 +4,7 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "player/stereo_display.h"
+#include "player/app/stereo_display.h"
 #include "tests/geometry/lens_oracle.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/test_people.h"
@@ -13,7 +13,7 @@ namespace lararium::player {
 namespace {
 
 constexpr geometry::CameraModel kCamera{320, 240, 300.0, 300.0, 159.5, 119.5};
-constexpr double kBallDistance = 2.0;  // before the camera, metres
+constexpr double kBallDistance = 2.0;  // metres from the camera
 constexpr double kEyeDistance = 0.064;
 
 Headset MakeHeadset(bool stereo, double picture_distance) {
@@ -28,7 +28,7 @@ Headset MakeHeadset(bool stereo, double picture_distance) {
   return headset;
 }
 
-// A small ball of light before a camera whose image has a dark stripe down the middle.
+// A small bright ball in front of a camera whose image has a dark vertical stripe in the middle.
 class StereoDisplayTest : public render::GlTest {
  protected:
   void SetUp() override {
@@ -54,7 +54,7 @@ class StereoDisplayTest : public render::GlTest {
     staged_.tracked.frame.bgr.colRange(156, 164).setTo(cv::Scalar(0, 0, 0));
   }
 
-  // What both eyes are shown.
+  // Returns the pictures for both eyes.
   std::array<cv::Mat, 2> Show(const Headset& headset) {
     auto display = StereoDisplay::Create(headset);
     EXPECT_TRUE(display.ok()) << display.message();
@@ -70,7 +70,7 @@ class StereoDisplayTest : public render::GlTest {
   show::StagedFrame staged_;
 };
 
-// The column of the middle of what is bright in the green that only the ball has.
+// The column of the centre of bright pixels in green, which only the ball has.
 double BallColumn(const cv::Mat& part) {
   cv::Mat green;
   cv::extractChannel(part, green, 1);
@@ -80,7 +80,7 @@ double BallColumn(const cv::Mat& part) {
   return moments.m10 / moments.m00;
 }
 
-// The column of the stripe's middle, well above the ball.
+// The column of the middle of the stripe in a row far above the ball.
 double StripeColumn(const cv::Mat& part, int row) {
   double sum = 0.0;
   double weight = 0.0;
@@ -92,7 +92,7 @@ double StripeColumn(const cv::Mat& part, int row) {
   return sum / weight;
 }
 
-// Where an eye sees what is straight before the camera, that far away.
+// The column in which an eye sees a point straight in front of the camera at a distance.
 double ColumnOfStraightAhead(const Headset& headset, Eye eye, double distance) {
   const Eigen::Vector3d in_eye =
       headset.head_from_eye[eye].Inverse() * Eigen::Vector3d(0.0, 0.0, distance);
@@ -118,7 +118,7 @@ TEST_F(StereoDisplayTest, InStereoPeopleAreSeenWhereTheyAreFromEachEye) {
     EXPECT_NEAR(BallColumn(eyes[eye]), ColumnOfStraightAhead(headset, eye, kBallDistance), 0.5);
     EXPECT_NEAR(StripeColumn(eyes[eye], 170 - 60), ColumnOfStraightAhead(headset, eye, 6.0), 0.7);
   }
-  // Nearer than the picture: crossed, by more than could be an error.
+  // The ball is nearer than the picture, so its disparity is crossed and larger than any error.
   EXPECT_GT(BallColumn(eyes[kLeft]) - StripeColumn(eyes[kLeft], 110), 1.5);
   EXPECT_LT(BallColumn(eyes[kRight]) - StripeColumn(eyes[kRight], 110), -1.5);
 }

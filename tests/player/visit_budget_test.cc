@@ -1,4 +1,4 @@
-#include "player/visit_budget.h"
+#include "player/kiosk/visit_budget.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "player/visit_statistics.h"
+#include "player/kiosk/visit_statistics.h"
 
 #include <gmock/gmock.h>
 
@@ -53,7 +53,7 @@ TEST_F(VisitStatisticsTest, AreBounded) {
   }
   EXPECT_EQ(statistics.days().size(), VisitStatistics::kMostDays);
   EXPECT_EQ(statistics.days().front().day, "2100-01-01");
-  statistics.Day("0999-01-01").visitors = 5;  // a clock that was put back
+  statistics.Day("0999-01-01").visitors = 5;  // the clock was set back
   EXPECT_EQ(statistics.days().size(), VisitStatistics::kMostDays);
   EXPECT_EQ(statistics.days().front().visitors, 5);
   ASSERT_TRUE(SaveVisitStatistics(folder_.path(), statistics).ok());
@@ -76,7 +76,7 @@ TEST_F(VisitStatisticsTest, SayNothingOfTheTimeOfDay) {
   EXPECT_FALSE(SaveVisitStatistics("/proc/nowhere", {}).ok());
 }
 
-// Frames of ten a second, with a visitor who moves in each.
+// Ten frames per second with a visitor who moves in each.
 class VisitCounterTest : public ::testing::Test {
  protected:
   void Watch(double seconds, bool moves, bool tracked = true, bool people_went = false) {

@@ -1,4 +1,4 @@
-#include "player/visitor_actions.h"
+#include "player/kiosk/visitor_actions.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace lararium::player {
 namespace {
 
-Result<Buttons> Parse(std::string_view text) {
+Result<Buttons> ParseActions(std::string_view text) {
   const Json json = ParseJson(text, "device.json").value();
   return ParseButtons(JsonView(json, "device.json: buttons"));
 }
@@ -25,26 +25,27 @@ TEST(Buttons, OfKeyboardsAndControllersDoTheSame) {
 }
 
 TEST(Buttons, OfADeviceFileReplaceThoseOfTheirActionOnly) {
-  const Buttons buttons = Parse(R"({"menu": ["pad_a", "l"], "restart": []})").value();
+  const Buttons buttons = ParseActions(R"({"menu": ["pad_a", "l"], "restart": []})").value();
   EXPECT_EQ(buttons.ActionOf("pad_a"), Action::kMenu);
   EXPECT_EQ(buttons.ActionOf(kHandMenu), std::nullopt) << "in place of the usual ones";
-  EXPECT_EQ(Parse(R"({"captions": ["hand_select"]})")->ActionOf(kHandSelect), Action::kCaptions);
+  EXPECT_EQ(ParseActions(R"({"captions": ["hand_select"]})")->ActionOf(kHandSelect),
+            Action::kCaptions);
   EXPECT_EQ(buttons.ActionOf("l"), Action::kMenu) << "no longer the language's";
   EXPECT_EQ(buttons.ActionOf("pad_start"), std::nullopt);
   EXPECT_EQ(buttons.ActionOf("home"), std::nullopt);
   EXPECT_EQ(buttons.ActionOf("pad_left"), Action::kLanguage);
-  EXPECT_EQ(Parse("{}").value(), Buttons());
+  EXPECT_EQ(ParseActions("{}").value(), Buttons());
 }
 
 TEST(Buttons, MistakesAreOneErrorThatNamesThem) {
-  const auto problem = [](std::string_view text) { return Parse(text).status().message(); };
+  const auto problem = [](std::string_view text) { return ParseActions(text).status().message(); };
   EXPECT_NE(problem(R"({"jump": ["a"]})").find("no action \"jump\""), std::string::npos);
   EXPECT_NE(problem(R"({"menu": ["pad_z"]})").find("no button \"pad_z\""), std::string::npos);
   EXPECT_NE(problem(R"({"menu": [""]})").find("no button \"\""), std::string::npos);
   EXPECT_NE(problem(R"({"menu": ["m"], "louder": ["m"]})").find("another action's"),
             std::string::npos);
-  EXPECT_FALSE(Parse(R"({"menu": "m"})").ok());
-  EXPECT_FALSE(Parse("[1]").ok());
+  EXPECT_FALSE(ParseActions(R"({"menu": "m"})").ok());
+  EXPECT_FALSE(ParseActions("[1]").ok());
 }
 
 TEST(Choices, VolumeStaysWithinItsRange) {

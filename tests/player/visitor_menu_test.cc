@@ -1,4 +1,4 @@
-#include "player/visitor_menu.h"
+#include "player/app/visitor_menu.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 
-// Writes what every show can: ASCII.
+// A font with ASCII characters only.
 render::CaptionFont Ascii() {
   render::CaptionFont font;
   for (uint32_t c = 32; c < 127; ++c) {
@@ -59,7 +59,7 @@ TEST(VisitorMenu, SpeaksTheVisitorsLanguageAndSaysWhatIsChosen) {
 
 TEST(VisitorMenu, IsInEnglishWhereTheFontLacksLetters) {
   show::ShowContent content = Content();
-  content.language = "de";  // "Schließen"
+  content.language = "de";  // needs "ß" in "Schließen"
   EXPECT_THAT(TextsOf(ItemsOf(content, {})), Contains("Close"));
   content.language = "sux";
   EXPECT_THAT(TextsOf(ItemsOf(content, {})), Contains("Close"));

@@ -1,4 +1,4 @@
-#include "player/visitor_watch.h"
+#include "player/kiosk/visitor_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@ using Event = VisitorWatch::Event;
 
 Rigid3 Still(double) { return {Eigen::Quaterniond::Identity(), {0.0, 0.0, 2.0}}; }
 
-// Somebody who looks about calmly.
+// The pose of a visitor who looks around calmly.
 Rigid3 Watching(double time) {
   return {geometry::RotationFromVector(Eigen::Vector3d(0.0, 0.3 * std::sin(0.8 * time), 0.0)),
           {0.1 * std::sin(0.5 * time), 0.0, 2.0}};
 }
 
-// What was said from begin on for so many seconds.
+// Updates watch for a number of seconds. Returns the events with their times since begin.
 std::vector<std::pair<double, Event>> Play(VisitorWatch& watch,
                                            double begin,
                                            double seconds,

@@ -1,4 +1,4 @@
-#include "player/watchdog.h"
+#include "player/kiosk/watchdog.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -29,7 +29,7 @@ WatchdogOptions Quick() {
 
 class WatchdogTest : public ::testing::Test {
  protected:
-  // Supervises in a process of its own, as the player does. What children say is in said().
+  // Runs Supervise in a process of its own. The output of the children is in said().
   int Run(const std::function<int(const ChildStart&, Heartbeat&)>& child,
           double end_after_seconds = 0.0) {
     const pid_t process = ::fork();
@@ -109,7 +109,7 @@ TEST_F(WatchdogTest, WhoSaysThatWorkIsLongHasTheTimeOfAStart) {
     Say("child");
     BeatFor(heartbeat, 0.1);
     heartbeat.BeatBeforeLongWork();
-    // Longer than silent_seconds, and the first time than start_seconds too.
+    // Sleeps longer than silent_seconds; the first time also longer than start_seconds.
     std::this_thread::sleep_for(std::chrono::milliseconds(start.number == 0 ? 2000 : 800));
     BeatFor(heartbeat, 0.1);
     return 0;

@@ -1,4 +1,4 @@
-#include "shared/render/blocker_clusters.h"
+#include "shared/render/passes/blocker_clusters.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ TEST(BlockerClusters, OneBallStandsForItself) {
   clusters.Build({&ball, 1});
   ASSERT_EQ(clusters.cluster_count(), 1);
   EXPECT_EQ(clusters.block().clusters[0].merged, ball);
-  // Beyond its reach the ball's share is what may be left out.
+  // At the edge of its reach, the ball blocks the share that is ignored.
   const float reach = clusters.reach().high.x - ball.x;
   EXPECT_NEAR(ball.w * ball.w / (reach * reach), kLeastBlockedShare, 1e-6f);
 }

@@ -2,11 +2,12 @@
 
 #include <string_view>
 
-#include "shared/render/caption_font.h"
+#include "shared/render/text/caption_font.h"
 
 namespace lararium::test {
 
-// Each of these letters, ascending, is a box of half an em, every other character nothing.
+// A font in which each of the given letters (in ascending order) is a box of half an em. It has no
+// other characters.
 inline render::CaptionFont BoxFont(std::string_view letters) {
   render::CaptionFont font;
   font.em_px = 32.0f;

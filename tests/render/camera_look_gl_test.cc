@@ -1,13 +1,13 @@
-// People as soft, smeared and noisy as the camera's image, against known input.
+// Tests the softness, motion blur and noise of people with known input.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/renderer.h"
@@ -16,8 +16,6 @@
 
 namespace lararium::render {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kSize = 240;
 
 // A grey disc (a ball under even light) of 60 pixels' radius on black.
@@ -54,8 +52,8 @@ class CameraLookTest : public GlTest {
     const double c = value / 255.0;
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
   }
-  // The variance of the edge's slope along a row or column through the middle: that of
-  // what blurs it.
+  // The variance of the edge's slope along a row or column through the middle. It equals the
+  // variance of the blur.
   static double EdgeVariance(const cv::Mat& picture, bool along_row) {
     double sum = 0.0, first = 0.0, second = 0.0;
     for (int i = kSize / 2; i + 1 < kSize; ++i) {
@@ -86,7 +84,8 @@ TEST_F(CameraLookTest, LensSoftensEdgesByItsVariance) {
   for (const float blur : {0.8f, 1.5f}) {
     scene_.look.blur_px = blur;
     const cv::Mat soft = Draw();
-    // Taps end at 2.2 deviations, and bilinear taps add up to a quarter of a pixel.
+    // Taps reach only 2.2 standard deviations, and bilinear sampling adds at most a quarter of a
+    // squared pixel.
     EXPECT_NEAR(EdgeVariance(soft, true) - before, blur * blur, 0.2 * blur * blur + 0.25) << blur;
     EXPECT_NEAR(EdgeVariance(soft, false) - before, blur * blur, 0.2 * blur * blur + 0.25) << blur;
     EXPECT_EQ(soft.at<cv::Vec3b>(kSize / 2, kSize / 2), sharp.at<cv::Vec3b>(kSize / 2, kSize / 2));
@@ -95,7 +94,7 @@ TEST_F(CameraLookTest, LensSoftensEdgesByItsVariance) {
 
 TEST_F(CameraLookTest, OwnMotionSmearsAlongItAlone) {
   const double before_row = EdgeVariance(Draw(), true);
-  // The camera turned by so many pixels about its vertical axis since.
+  // Since the last frame, the camera has turned about its vertical axis by this number of pixels.
   const double pixels = 12.0;
   geometry::Rigid3 turned = *scene_.camera_from_stage;
   turned = geometry::Rigid3{geometry::RotationFromVector({0.0, pixels / 1200.0, 0.0}),
@@ -112,7 +111,8 @@ TEST_F(CameraLookTest, OwnMotionSmearsAlongItAlone) {
   }
 }
 
-// Moving sideways smears by distance: the same in pixels as the turn above.
+// The blur of a sideways motion depends on the distance of people. Here it has as many pixels as
+// that of the turn above.
 TEST_F(CameraLookTest, MotionSidewaysSmearsByTheDistanceOfPeople) {
   const double before = EdgeVariance(Draw(), true);
   const double pixels = 12.0;
@@ -148,7 +148,7 @@ TEST_F(CameraLookTest, NoiseHasTheGivenVarianceAndIsRepeatable) {
 TEST_F(CameraLookTest, PeopleAreSeenThroughTheMeasuredResponse) {
   response_ = light::SrgbResponse();
   for (size_t byte = 0; byte < 256; ++byte) {
-    // Red as the standard has it, green with the contrast of a film, blue with a black level.
+    // Red follows the sRGB standard, green has the contrast of a film, blue has a black level.
     const double x = static_cast<double>(byte) / 255.0;
     response_.linear[1][byte] = static_cast<float>(1.5 * std::pow(x, 3.0));
     response_.linear[2][byte] = static_cast<float>(std::max(0.0, Linear(uchar(byte)) - 0.05));

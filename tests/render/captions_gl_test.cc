@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
-#include "shared/render/captions.h"
+#include "shared/render/text/captions.h"
 #include "tests/render/gl_fixture.h"
 
 namespace lararium::render {
@@ -11,7 +11,7 @@ namespace {
 
 class CaptionsTest : public GlTest {
  protected:
-  // A letter "a" that fills half an em: its outline lies 4 pixels inside of the atlas.
+  // A letter "a" that fills half an em. Its outline lies 4 pixels inside the atlas.
   static CaptionFont OneLetter() {
     CaptionFont font;
     font.em_px = 32.0f;
@@ -55,7 +55,7 @@ TEST_F(CaptionsTest, LettersAreWhiteOnADarkGroundWhereTheyWereLaidOut) {
   EXPECT_EQ(at(0.375f, -0.375f), cv::Vec3b(255, 255, 255)) << "in the letter";
   EXPECT_LT(at(0.03f, -0.03f)[0], 100) << "beside it is the ground";
   EXPECT_EQ(picture.at<cv::Vec3b>(5, 5), cv::Vec3b(255, 255, 255)) << "the picture stays";
-  // The letter's outline is half an em wide: so much of its middle row is white.
+  // The letter is half an em wide, and so is the white part of its middle row.
   int white = 0;
   const int y = static_cast<int>(row.baseline.y - 0.375f * row.em);
   for (int x = static_cast<int>(layout.grounds[0].from.x) + 2;

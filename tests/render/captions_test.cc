@@ -1,4 +1,4 @@
-#include "shared/render/captions.h"
+#include "shared/render/text/captions.h"
 
 #include <gmock/gmock.h>
 
@@ -103,7 +103,7 @@ TEST(CaptionLayout, TheSecondCaptionStandsAboveTheFirst) {
   EXPECT_TRUE(layout.rows.empty());
 }
 
-// As BoxFont(), with a space.
+// BoxFont() with a space.
 CaptionFont FontOfWords() {
   CaptionFont font = BoxFont();
   font.glyphs.insert(font.glyphs.begin(), {' ', 0.25f});
@@ -242,7 +242,7 @@ TEST(LegendLayout, ItsTextIsBrokenBetweenWordsAndStaysInTheLeftHalf) {
     EXPECT_EQ(row.text.front(), 'a');
     EXPECT_EQ(row.text.back(), 'c');
   }
-  // A word that is wider than that has a row of its own, and rows end where the text says.
+  // A word that is too wide gets a row of its own, and breaks of the text are kept.
   layout = {};
   const std::string wide(300, 'a');
   const std::string words = "abc\nab " + wide + " abc";

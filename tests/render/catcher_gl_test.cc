@@ -1,4 +1,4 @@
-// Shadows of people on real surfaces, against what is known of them.
+// Tests shadows of people on real surfaces against formulas and quadrature.
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ namespace {
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 
-double LinearFromSrgb(double c) {
+double CatcherLinearFromSrgb(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
@@ -81,16 +81,16 @@ class CatcherTest : public GlTest {
     human_.stage_from_actor[3] = glm::vec4(0.0f, 0.3f, 0.0f, 1.0f);
     scene_.humans = {&human_, 1};
   }
-  // How much of its light a pixel kept.
+  // The share of its light that a pixel kept.
   static double Kept(const cv::Mat& picture, const cv::Point& pixel, int channel = 1) {
-    return LinearFromSrgb(picture.at<cv::Vec3b>(pixel)[channel] / 255.0) /
-           LinearFromSrgb(kGrey / 255.0);
+    return CatcherLinearFromSrgb(picture.at<cv::Vec3b>(pixel)[channel] / 255.0) /
+           CatcherLinearFromSrgb(kGrey / 255.0);
   }
   cv::Point PixelOf(const Eigen::Vector3d& point) const {
     const Eigen::Vector2d pixel = *scene_.display.Project(*scene_.camera_from_stage * point);
     return {static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y()))};
   }
-  // Where the floor is seen in a pixel.
+  // The point of the floor that is visible in a pixel.
   glm::vec3 FloorAt(const cv::Point& pixel) const {
     const geometry::Rigid3 stage_from_camera = scene_.camera_from_stage->Inverse();
     const Eigen::Vector2d plane = scene_.display.PlaneFromPixel({pixel.x, pixel.y});
@@ -171,7 +171,7 @@ TEST_F(CatcherTest, OfABallUnderAnEvenSkyTheFloorKeepsWhatTheFormFactorSays) {
   EXPECT_NEAR(least, 1.0 - 0.09 / 0.49, 0.03);
 }
 
-// Differential rendering adds a lamp's irradiance over the sky's.
+// Differential rendering adds the ratio of a lamp's irradiance to the sky's.
 TEST_F(CatcherTest, ALampBrightensTheFloorByItsIrradianceOverTheSkys) {
   const light::Lamp lamp = {{0.1f, 0.7f, -0.2f}, {0.5f, 0.3f, 0.1f}, 0.05f};
   scene_.lamps = {&lamp, 1};
@@ -182,7 +182,7 @@ TEST_F(CatcherTest, ALampBrightensTheFloorByItsIrradianceOverTheSkys) {
       const light::Sun seen = light::SeenFrom(lamp, FloorAt({x, y}));
       for (int channel = 0; channel < 3; ++channel) {
         const float gain = seen.irradiance[channel] * seen.direction.y / sky[channel];
-        // What is less than 2 % of the sky's light is left out, everywhere.
+        // Everywhere, the renderer subtracts 2 % of the sky's light from that of a lamp.
         EXPECT_NEAR(Kept(picture, {x, y}, 2 - channel), 1.0 + std::max(gain - 0.02f, 0.0f), 0.025)
             << x << ", " << y;
       }
@@ -190,7 +190,7 @@ TEST_F(CatcherTest, ALampBrightensTheFloorByItsIrradianceOverTheSkys) {
   }
 }
 
-// Where the drama is at dusk and the image was taken at noon, a lamp is as faint as at noon.
+// If the drama is set at dusk but the image was taken at noon, a lamp is as faint as at noon.
 TEST_F(CatcherTest, ALampBrightensTheFloorByTheLightThatTheImageWasTakenIn) {
   const light::Lamp lamp = {{0.1f, 0.7f, -0.2f}, {0.5f, 0.3f, 0.1f}, 0.05f};
   scene_.lamps = {&lamp, 1};
@@ -220,13 +220,13 @@ TEST_F(CatcherTest, ABallHidesALampFromTheFloorBehindIt) {
   EXPECT_NEAR(Kept(shaded, beside), lit, 0.03);
   EXPECT_LT(Kept(shaded, behind), 1.0);
   EXPECT_GT(lit, 1.1);
-  // A ball that touches the lamp holds it.
+  // A ball that touches the lamp is its holder and does not hide it.
   const glm::vec4 holder(0.0f, 0.6f, 0.0f, 0.1f);
   scene_.blockers = {&holder, 1};
   EXPECT_GT(Kept(Draw(), beside), 1.08);
 }
 
-// A wall at x = 0.3: what is farther lies in its shadow, the wall's own foot does not.
+// A wall at x = 0.3. Points behind it lie in its shadow; the foot of the wall does not.
 TEST_F(CatcherTest, AWallHidesALampFromTheFloorBehindIt) {
   light::Lamp lamp = {{0.0f, 0.7f, 0.0f}, glm::vec3(0.6f), 0.05f};
   const cv::Point behind = PixelOf({0.6, 0.0, 0.0});
@@ -250,7 +250,7 @@ TEST_F(CatcherTest, AWallHidesALampFromTheFloorBehindIt) {
   EXPECT_NEAR(Kept(walled, beside), Kept(open, beside), 0.01);
 }
 
-// Many balls under light that has colours and directions, against sums over directions.
+// Many balls under coloured, directional light, compared with a sum over directions.
 TEST_F(CatcherTest, OfManyBallsInColouredLightTheFloorKeepsWhatQuadratureSays) {
   Random random(31);
   light::ShRgb light = {};
@@ -300,7 +300,7 @@ TEST_F(CatcherTest, OfManyBallsInColouredLightTheFloorKeepsWhatQuadratureSays) {
 }
 
 TEST_F(CatcherTest, ContactIsDarkAndDoesNotFloat) {
-  // A foot on the floor, from whose touching point on the shadow must begin.
+  // A foot on the floor. Its shadow must begin at the point of contact.
   const glm::vec4 foot(0.0f, 0.12f, 0.0f, 0.124f);
   scene_.blockers = {&foot, 1};
   const cv::Mat picture = Draw();
@@ -310,7 +310,7 @@ TEST_F(CatcherTest, ContactIsDarkAndDoesNotFloat) {
 }
 
 TEST_F(CatcherTest, SurfacesThatDoNotReceiveStayAsTheyAreAndHideWhatDoes) {
-  // A board on two thirds of the floor.
+  // A board that covers two thirds of the floor.
   occluders_.push_back({.mesh = renderer_->AddMesh(
                             Quad({-6.0f, 0.02f, 6.0f}, {5.9f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f})),
                         .receives_shadow = false});
@@ -328,7 +328,7 @@ TEST_F(CatcherTest, ShadowsDoNotBleedOverEdges) {
   occluders_.push_back({.mesh = renderer_->AddMesh(
                             Quad({-2.0f, 0.0f, 0.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.6f, 0.0f}))});
   scene_.occluders = occluders_;
-  // Close before the wall: it is dark, the floor behind it is not.
+  // The ball is close in front of the wall, which becomes dark; the floor behind it does not.
   const glm::vec4 ball(0.0f, 0.45f, 0.22f, 0.2f);
   scene_.blockers = {&ball, 1};
   const cv::Mat picture = Draw();
@@ -349,7 +349,7 @@ TEST_F(CatcherTest, PeopleOverAShadowStayAsTheyAre) {
             without.at<cv::Vec3b>(PixelOf({0.4, 0.0, 0.1})));
 }
 
-// The top row first; alpha as well.
+// Reads a target including alpha, top row first.
 cv::Mat ReadRgba(const RenderTarget& target) {
   cv::Mat rgba(target.height(), target.width(), CV_8UC4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer());
@@ -377,9 +377,9 @@ TEST_F(CatcherTest, SeenThroughOverWhatIsRealItIsThePictureThatHasBoth) {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const cv::Vec4b seen = alone.at<cv::Vec4b>(y, x);
-        const double over = LinearFromSrgb(seen[1] / 255.0) +
-                            (1.0 - seen[3] / 255.0) * LinearFromSrgb(kGrey / 255.0);
-        ASSERT_NEAR(over, LinearFromSrgb(both.at<cv::Vec3b>(y, x)[1] / 255.0), 0.008)
+        const double over = CatcherLinearFromSrgb(seen[1] / 255.0) +
+                            (1.0 - seen[3] / 255.0) * CatcherLinearFromSrgb(kGrey / 255.0);
+        ASSERT_NEAR(over, CatcherLinearFromSrgb(both.at<cv::Vec3b>(y, x)[1] / 255.0), 0.008)
             << x << " " << y;
         hidden += seen[3] > 250 * opacity && seen[1] > 0 ? 1 : 0;
         darkened += seen[3] > 3 && seen[1] == 0 ? 1 : 0;
@@ -395,7 +395,7 @@ TEST_F(CatcherTest, WhatIsSeenThroughHasNoBackground) {
   EXPECT_FALSE(renderer_->Draw(scene_, MakeTarget(kWidth, kHeight)).ok());
 }
 
-// Far from it, a crowd of balls is merged: it must darken like its parts.
+// Balls that are merged, because there are too many, must darken surfaces like their parts.
 TEST_F(CatcherTest, MoreBallsThanFitDarkenAlike) {
   Random random(8);
   std::vector<glm::vec4> balls;
@@ -405,7 +405,7 @@ TEST_F(CatcherTest, MoreBallsThanFitDarkenAlike) {
   }
   scene_.blockers = balls;
   const cv::Mat as_many = Draw();
-  for (size_t i = 0; i < 512; ++i) {  // each as two of the same disc together
+  for (size_t i = 0; i < 512; ++i) {  // replaces each ball by two with the same total area
     balls[i].w *= std::sqrt(0.5f);
     balls.push_back(balls[i] + glm::vec4(0.001f, 0.0f, 0.0f, 0.0f));
   }

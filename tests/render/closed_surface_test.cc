@@ -1,4 +1,4 @@
-#include "shared/render/closed_surface.h"
+#include "shared/render/passes/closed_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 namespace lararium::render {
 namespace {
 
-constexpr geometry::CameraModel kDisplay{640, 480, 600.0, 600.0, 319.5, 239.5};
+constexpr geometry::CameraModel kDetailDisplay{640, 480, 600.0, 600.0, 319.5, 239.5};
 
 const std::array kLevels = {DetailLevel{0.0f, 40'000}, DetailLevel{0.001f, 20'000},
                             DetailLevel{0.004f, 8'000}, DetailLevel{0.016f, 2'000}};
@@ -87,8 +87,8 @@ TEST(PixelsPerMetre, IsWhatTheCameraSees) {
   const geometry::Rigid3 camera_from_stage = LookAt({1, 2, 3}, {0, 1, 0}, {0, 1, 0});
   const glm::vec3 point(0.0f, 1.0f, 0.0f);
   const double distance = std::sqrt(1.0 + 1.0 + 9.0);
-  EXPECT_NEAR(PixelsPerMetre(kDisplay, camera_from_stage, point), 600.0 / distance, 1e-3);
-  EXPECT_NEAR(PixelsPerMetre(kDisplay, camera_from_stage, {1, 2, 3}), 1200.0, 1e-3);
+  EXPECT_NEAR(PixelsPerMetre(kDetailDisplay, camera_from_stage, point), 600.0 / distance, 1e-3);
+  EXPECT_NEAR(PixelsPerMetre(kDetailDisplay, camera_from_stage, {1, 2, 3}), 1200.0, 1e-3);
 }
 
 TEST(MaySee, IsTrueOfEveryBallThatReachesIntoThePicture) {
@@ -103,11 +103,11 @@ TEST(MaySee, IsTrueOfEveryBallThatReachesIntoThePicture) {
     for (int k = 0; k < 30; ++k) {
       const Eigen::Vector3d offset =
           Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
-      const auto pixel = kDisplay.Project(camera_from_stage *
-                                          (Eigen::Vector3d(centre.x, centre.y, centre.z) + offset));
-      touches |= pixel && kDisplay.Contains(*pixel);
+      const auto pixel = kDetailDisplay.Project(
+          camera_from_stage * (Eigen::Vector3d(centre.x, centre.y, centre.z) + offset));
+      touches |= pixel && kDetailDisplay.Contains(*pixel);
     }
-    const bool may_see = MaySee(kDisplay, camera_from_stage, centre, 1.0f);
+    const bool may_see = MaySee(kDetailDisplay, camera_from_stage, centre, 1.0f);
     EXPECT_TRUE(may_see || !touches) << "seed 7, ball " << i;
     seen += may_see ? 1 : 0;
     hidden += may_see ? 0 : 1;

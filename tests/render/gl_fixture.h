@@ -8,19 +8,20 @@
 #include <string>
 #include <string_view>
 
-#include "shared/render/graphics_context.h"
-#include "shared/render/render_target.h"
+#include "shared/render/gl/graphics_context.h"
+#include "shared/render/gl/render_target.h"
 
 namespace lararium::render {
 
-// LARARIUM_GRAPHICS=gles: tests that draw do so in OpenGL ES 3.0 (lararium_gles_test).
+// If the environment has LARARIUM_GRAPHICS=gles, tests draw with OpenGL ES 3.0
+// (lararium_gles_test).
 inline GraphicsApi TestedGraphics() {
   const char* name = std::getenv("LARARIUM_GRAPHICS");
   return name != nullptr && std::string_view(name) == "gles" ? GraphicsApi::kOpenGlEs30
                                                              : GraphicsApi::kOpenGl33;
 }
 
-// A test that draws off screen, and fails where the driver calls anything an error.
+// A test that draws off screen, and fails if the driver reports any OpenGL error.
 class GlTest : public ::testing::Test {
  protected:
   void SetUp() override { Open(TestedGraphics()); }
@@ -30,10 +31,10 @@ class GlTest : public ::testing::Test {
     }
   }
 
-  // In place of the context before.
+  // Replaces the current context.
   void Open(GraphicsApi api) {
     context_.reset();
-    ::setenv("MESA_GLES_VERSION_OVERRIDE", "3.0", 1);  // Mesa would let ES 3.2 pass
+    ::setenv("MESA_GLES_VERSION_OVERRIDE", "3.0", 1);  // Mesa would accept ES 3.2
     auto context = CreateOffscreenContext(api);
     ASSERT_TRUE(context.ok()) << context.message();
     context_.emplace(std::move(context).value());

@@ -5,8 +5,8 @@
 #include <iostream>
 #include <optional>
 
-#include "shared/render/graphics_context.h"
-#include "shared/render/window.h"
+#include "shared/render/gl/graphics_context.h"
+#include "shared/render/gl/window.h"
 
 namespace lararium::render {
 namespace {
@@ -48,8 +48,9 @@ TEST(GraphicsContext, IsWhatWasAskedFor) {
   EXPECT_EQ(CurrentGraphicsApi(), GraphicsApi::kOpenGl33);
 }
 
-// With a driver that has less than this machine's, in a process of its own: Mesa reads once what
-// it is to leave out. Ends with 0 and the API's name, or with 1 and the error.
+// Tries to create a context with a driver that lacks features. It runs in a process of its own,
+// because Mesa reads the variables only once. Exits with 0 and prints the API's name, or with 1 and
+// prints the error.
 void TryWithout(const char* variable, const char* value, GraphicsChoice choice) {
   ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/usr/share/glvnd/egl_vendor.d/50_mesa.json", 1);
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);

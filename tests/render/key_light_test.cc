@@ -1,4 +1,4 @@
-#include "shared/render/key_light.h"
+#include "shared/render/passes/key_light.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace lararium::render {
 namespace {
 
-// A lamp in an even light.
+// A directional light in a uniform light.
 light::ShRgb Lit(const glm::vec3& direction, const glm::vec3& irradiance, float even) {
   light::ShRgb light = {};
   const auto basis = light::EvaluateShBasis(direction);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "shared/render/lens_pass.h"
+#include "shared/render/passes/lens_pass.h"
 #include "tests/geometry/lens_oracle.h"
 #include "tests/render/gl_fixture.h"
 
@@ -18,7 +18,7 @@ using geometry::LensModel;
 constexpr int kPictureSize = 400;
 constexpr double kPictureFocal = 200.0;
 
-// A picture whose middle is straight ahead: 45 degrees to each side.
+// A picture whose middle is straight ahead. It covers 45 degrees to each side.
 Eigen::Matrix3d PictureFromEye() {
   Eigen::Matrix3d picture_from_eye = Eigen::Matrix3d::Identity();
   picture_from_eye(0, 0) = picture_from_eye(1, 1) = kPictureFocal;
@@ -66,7 +66,7 @@ class LensPassTest : public GlTest {
 
 cv::Mat Black() { return cv::Mat::zeros(kPictureSize, kPictureSize, CV_8UC3); }
 
-// The middle of what is bright within a part of the panel, counted from that part.
+// The centre of bright pixels in a part of the panel, relative to that part.
 Eigen::Vector2d MiddleOf(const cv::Mat& part, int channel) {
   cv::Mat values;
   cv::extractChannel(part, values, channel);
@@ -101,12 +101,12 @@ TEST_F(LensPassTest, AStraightLineIsSeenStraightThroughTheLens) {
     const Eigen::Vector2d pixel = test::PixelThrough(lens, {x, y});
     highest = std::min(highest, pixel.y());
     lowest = std::max(lowest, pixel.y());
-    // The brightest of its column lies there.
+    // The brightest pixel of its column lies there.
     const cv::Mat column = panel.col(static_cast<int>(std::lround(pixel.x()))).rowRange(0, 150);
     const Eigen::Vector2d bright = MiddleOf(column, 1);
     EXPECT_NEAR(bright.y(), pixel.y(), 0.5) << x;
   }
-  EXPECT_GT(lowest - highest, 4.0);  // on the panel it is bent
+  EXPECT_GT(lowest - highest, 4.0);  // the line is bent on the panel
 }
 
 TEST_F(LensPassTest, ColoursThatTheLensPartsMeetBehindIt) {
@@ -127,7 +127,7 @@ TEST_F(LensPassTest, ColoursThatTheLensPartsMeetBehindIt) {
 TEST_F(LensPassTest, IsBlackWhereThePictureEnds) {
   const cv::Mat white(kPictureSize, kPictureSize, CV_8UC3, cv::Scalar::all(255));
   LensModel lens = Left();
-  lens.fx = lens.fy = 100.0;  // sees further than 45 degrees
+  lens.fx = lens.fy = 100.0;  // the lens sees more than 45 degrees
   lens.radial.fill({});
   const cv::Mat panel = Panel(white, lens, lens).colRange(0, 300);
   EXPECT_EQ(panel.at<cv::Vec3b>(155, 162), cv::Vec3b(255, 255, 255));

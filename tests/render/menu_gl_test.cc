@@ -1,7 +1,7 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "shared/render/menu.h"
+#include "shared/render/text/menu.h"
 #include "tests/render/gl_fixture.h"
 
 namespace lararium::render {

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
 #include "shared/light/glossy_map.h"
@@ -26,13 +27,11 @@ namespace lararium::render {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr float kPi = std::numbers::pi_v<float>;
 const glm::mat4 kNoMotion(1.0f);
 
 human::Texture Encode(const cv::Mat& image) { return {"texture", test::Png(image)}; }
 
-// A square of two metres that faces +Z, u to the right and v downward.
+// A square of 2 m x 2 m that faces +Z, with u to the right and v downwards.
 human::SkinnedMesh Square() {
   human::SkinnedMesh mesh;
   mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -53,10 +52,10 @@ human::Human Textured(const cv::Mat& image, const human::Material& material) {
   return human;
 }
 
-// Irradiance pi from everywhere: albedo is what is seen.
+// Irradiance pi from all directions, so that the visible radiance equals the albedo.
 light::ShRgb EvenLight() {
   light::ShRgb light = {};
-  light[0] = glm::vec3(2.0f * std::sqrt(kPi));
+  light[0] = glm::vec3(2.0f * std::sqrt(kPiF));
   return light;
 }
 
@@ -211,7 +210,7 @@ TEST_F(ModelTest, TheRimOfHairIsSoft) {
                                                      .two_sided = true}),
                                     scene);
   std::set<int> greys;
-  // At its ends the texture begins anew.
+  // The texture repeats at its ends, so these columns are skipped.
   for (int x = 4; x < 76; ++x) {
     EXPECT_LE(picture.at<cv::Vec3b>(40, x)[1], picture.at<cv::Vec3b>(40, x - 1)[1] + 1) << x;
     greys.insert(picture.at<cv::Vec3b>(40, x)[1]);
@@ -242,7 +241,7 @@ TEST_F(ModelTest, ANormalMapTurnsTheSurface) {
     human::Human human = Textured(map, {.name = "", .normal_texture = 0});
     RenderScene scene = Scene();
     scene.light[3] = glm::vec3(0.4f);  // brighter towards +X
-    scene.light[1] = glm::vec3(0.2f);  // and +Y
+    scene.light[1] = glm::vec3(0.2f);  // brighter towards +Y
     scene.exposure = 0.4f;
     return static_cast<int>(DrawHuman(human, scene).at<cv::Vec3b>(40, 40)[1]);
   };
@@ -250,7 +249,7 @@ TEST_F(ModelTest, ANormalMapTurnsTheSurface) {
     light::ShRgb light = EvenLight();
     light[3] = glm::vec3(0.4f);
     light[1] = glm::vec3(0.2f);
-    const float linear = 0.4f * light::EvaluateIrradiance(light, normal).x / kPi;
+    const float linear = 0.4f * light::EvaluateIrradiance(light, normal).x / kPiF;
     return 255.0 * (1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
   };
   const float s = std::sqrt(0.5f);
@@ -260,7 +259,8 @@ TEST_F(ModelTest, ANormalMapTurnsTheSurface) {
   EXPECT_NEAR(brightness(0, s), expected({0, s, s}), 2.0);
 }
 
-// The metal is smooth: rough ones lose what bounces within them.
+// The metal is smooth, because the model loses light that is reflected several times in rough
+// metal.
 TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
   const cv::Mat grey(8, 8, CV_8UC3, cv::Scalar::all(120));
   for (const human::Surface surface :
@@ -278,7 +278,8 @@ TEST_F(ModelTest, EverySurfaceIsLitWithinReason) {
   }
 }
 
-// Glints of eyes are sharper than the vertices are close. Of hair the strands hang down.
+// Highlights of eyes are sharper than the distance of vertices, so the maximum is large. Hair is
+// not tested, because lighting at vertices assumes that strands hang down.
 TEST_F(ModelTest, LightAtVerticesIsThatAtPixelsWhereVerticesAreClose) {
   for (const human::Surface surface :
        {human::Surface::kPlain, human::Surface::kSkin, human::Surface::kCloth, human::Surface::kEye,
@@ -334,8 +335,8 @@ TEST_F(ModelTest, EyesGlintTowardsTheLampAndMatteThingsDoNot) {
   EXPECT_GT(brightest(human::Surface::kEye), brightest(human::Surface::kPlain) + 30.0);
 }
 
-// As where a coarse level of detail folds over: the triangles' backs are seen, their normals look
-// at the eye.
+// Tests folds in a coarse level of detail, where the backs of triangles are visible but their
+// normals point to the eye.
 TEST_F(ModelTest, ClothThatFoldsOverIsLitAsItsFront) {
   const auto brightness = [&](human::Surface surface, float normal) {
     human::Human human = MakeHuman(Square(), 1);
@@ -358,7 +359,7 @@ TEST_F(ModelTest, ClothThatFoldsOverIsLitAsItsFront) {
   EXPECT_LT(brightness(human::Surface::kPlain, 1.0f), 40);
 }
 
-// Columns of one texel: half as fine a texture is grey all over.
+// The texture has columns of one texel, so that at half the resolution it is grey everywhere.
 TEST_F(ModelTest, TexturesBecomeFinerBesideDrawingAndNeverCoarser) {
   cv::Mat columns(256, 256, CV_8UC3, cv::Scalar::all(0));
   for (int x = 0; x < columns.cols; x += 2) {
@@ -367,7 +368,7 @@ TEST_F(ModelTest, TexturesBecomeFinerBesideDrawingAndNeverCoarser) {
   const human::Human human = Textured(columns, {.name = "", .colour_texture = 0});
   const std::vector<glm::mat4> skin(human.skeleton.size(), kNoMotion);
   RenderScene scene = Scene();
-  scene.display = {600, 600, 900.0, 900.0, 299.5, 299.5};  // texels of more than two pixels
+  scene.display = {600, 600, 900.0, 900.0, 299.5, 299.5};  // a texel covers more than two pixels
   SceneHuman shown = {.human = renderer_->AddHuman(Shared(human)).value(), .skin = skin};
   scene.humans = {&shown, 1};
   const cv::Mat fine = Draw(scene);
@@ -402,7 +403,7 @@ TEST_F(ModelTest, WhoLeavesWhileTexturesBecomeFinerLeavesNothingBehind) {
                                       {.name = "", .colour_texture = 0});
   const ModelHandle handle = renderer_->AddHuman(Shared(human)).value();
   renderer_->SetQuality({});
-  Draw(Scene());  // begins to decode
+  Draw(Scene());  // starts decoding
   renderer_->RemoveModel(handle);
   for (int i = 0; i < 50; ++i) {
     Draw(Scene());
@@ -437,14 +438,14 @@ TEST_F(ModelTest, StreamedVerticesReplaceThoseOfTheBindPose) {
   SceneHuman shown = {.human = handle, .skin = {&right, 1}, .vertices = {&vertices, 1}};
   RenderScene scene = Scene();
   scene.humans = {&shown, 1};
-  // A metre to the left by the morph and one to the right by the skin.
+  // The morph moves the square one metre to the left, the skin one metre to the right.
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 40), cv::Vec3b(255, 255, 255));
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 5), cv::Vec3b(255, 255, 255));
-  // Posed: to the left only.
+  // Posed vertices are moved to the left only.
   vertices.posed = true;
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 5), cv::Vec3b(255, 255, 255));
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 60), cv::Vec3b(0, 0, 0));
-  // Without them: to the right only.
+  // Without vertices, the skin moves the square to the right only.
   shown.vertices = {};
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 5), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(Draw(scene).at<cv::Vec3b>(40, 60), cv::Vec3b(255, 255, 255));
@@ -474,7 +475,7 @@ TEST_F(ModelTest, TwoOfOnePersonEachHaveTheirOwnVertices) {
   EXPECT_EQ(picture.at<cv::Vec3b>(40, 16), cv::Vec3b(255, 255, 255));
   EXPECT_EQ(picture.at<cv::Vec3b>(40, 40), cv::Vec3b(0, 0, 0));
   EXPECT_EQ(picture.at<cv::Vec3b>(40, 64), cv::Vec3b(255, 255, 255));
-  // Buffers serve from picture to picture: the same memory, other vertices.
+  // The same memory holds other vertices in the next picture.
   for (std::vector<glm::vec3>& positions : moved) {
     for (glm::vec3& position : positions) {
       position.x -= position.x < 0.0f ? -0.6f : 0.6f;
@@ -512,7 +513,7 @@ TEST_F(ModelTest, DualQuaternionsSkinAsTheCpuDoes) {
   EXPECT_GT(cv::countNonZero(on_cpu.reshape(1)), 3000);
   cv::Mat difference;
   cv::absdiff(on_gpu, on_cpu, difference);
-  // A pixel of an edge may fall either way; surfaces may not.
+  // Pixels at edges may differ, pixels of surfaces may not.
   EXPECT_LT(cv::countNonZero(difference.reshape(1) > 3), 12);
 }
 
@@ -629,8 +630,8 @@ human::Human RoughSquare(human::Surface surface, const glm::vec3& albedo) {
 }
 
 TEST_F(ModelTest, EvenReflectionsAreTheShareOfEvenLight) {
-  // Seen along the normal a dielectric of f0 0.028 and roughness 0.4 reflects 2.44 % of even
-  // light, which alone is seen of what is black.
+  // Viewed along the normal, a dielectric with f0 0.028 and roughness 0.4 reflects 2.44 % of
+  // uniform light. A black surface shows nothing else.
   const human::Human human = RoughSquare(human::Surface::kSkin, glm::vec3(0.0f));
   SceneHuman shown;
   shown.human = renderer_->AddHuman(Shared(human)).value();
@@ -647,15 +648,15 @@ TEST_F(ModelTest, EvenReflectionsAreTheShareOfEvenLight) {
   scene.light = light.sky = EvenLight();
   const double mirrored = LinearAt(Draw(scene), 40, 40).r;
   EXPECT_NEAR(mirrored, 4.0 * 0.0244, 0.01);
-  // Whoever stands in half of the light mirrors half of it.
+  // With half of the light, the reflection is half as bright.
   for (glm::vec3& c : light.sky) {
     c *= 0.5f;
   }
   EXPECT_NEAR(LinearAt(Draw(scene), 40, 40).r, 0.5 * mirrored, 0.005);
 }
 
-// Of roughness 0.4, seen along the normal, what reflects everything returns 0.78 of even light
-// (what bounces within the roughness is left out).
+// Viewed along the normal, a perfect reflector with roughness 0.4 returns 0.78 of uniform light
+// (multiple reflections are ignored).
 TEST_F(ModelTest, MetalsMirrorInTheirOwnColourAndAreNotMatte) {
   const glm::vec3 bronze(0.8f, 0.5f, 0.2f);
   RenderScene scene = Scene();

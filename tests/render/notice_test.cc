@@ -1,4 +1,4 @@
-#include "shared/render/notice.h"
+#include "shared/render/text/notice.h"
 
 #include <gtest/gtest.h>
 

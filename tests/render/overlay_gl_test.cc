@@ -110,7 +110,7 @@ TEST_F(OverlayTest, MeshesAreTranslucentAndHiddenByNearerThings) {
   EXPECT_EQ(picture.at<cv::Vec3b>(60, 80), cv::Vec3b(0, 0, 255));
   const cv::Vec3b ghost = picture.at<cv::Vec3b>(60, 110);
   EXPECT_NEAR(ghost[0], 127, 2);  // the blue behind it
-  EXPECT_NEAR(ghost[1], 126, 6);  // its own green, facing the lamp
+  EXPECT_NEAR(ghost[1], 126, 6);  // green of the mesh, which faces the lamp
   EXPECT_EQ(picture.at<cv::Vec3b>(5, 5), cv::Vec3b(255, 0, 0));
   overlay_->RemoveMesh(square);
   overlay_->Begin(view_, *target_);

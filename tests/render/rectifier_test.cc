@@ -1,4 +1,4 @@
-#include "shared/render/rectifier.h"
+#include "shared/render/passes/rectifier.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ geometry::CameraModel Bent() {
   return camera;
 }
 
-// Blue tells the column and green the row, as far as bytes go.
+// An image whose blue encodes the column and whose green encodes the row.
 cv::Mat TellingImage() {
   cv::Mat image(kHeight, kWidth, CV_8UC3);
   for (int y = 0; y < kHeight; ++y) {

@@ -1,8 +1,8 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include "shared/render/render_target.h"
-#include "shared/render/texture.h"
+#include "shared/render/gl/render_target.h"
+#include "shared/render/gl/texture.h"
 #include "tests/render/gl_fixture.h"
 
 namespace lararium::render {
@@ -16,7 +16,7 @@ TEST_F(RenderTargetTest, ReadsTheTopRowFirst) {
   glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   glEnable(GL_SCISSOR_TEST);
-  glScissor(3, 5, 1, 1);  // stored column 3, row 5: the sixth from the top
+  glScissor(3, 5, 1, 1);  // column 3; stored row 5 is the sixth from the top
   glClearColor(0.0f, 0.0f, 1.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   const cv::Mat bgr = Read(target);

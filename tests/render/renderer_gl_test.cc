@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
 #include "shared/render/clip_space.h"
@@ -20,8 +20,6 @@ namespace lararium::render {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 geometry::CameraModel Pinhole(int width, int height, double focal) {
   return {.width = width,
@@ -64,10 +62,10 @@ geometry::TriangleMesh Wall(float left, float right, float z) {
           .indices = {0, 1, 2, 0, 2, 3}};
 }
 
-// Irradiance kPi on white gives white when highlights are clipped.
+// A uniform light. If highlights are clipped, irradiance kPiF makes a white surface white.
 light::ShRgb UniformLight(float irradiance) {
   light::ShRgb light = {};
-  light[0] = glm::vec3(irradiance / kPi / 0.28209479f);
+  light[0] = glm::vec3(irradiance / kPiF / 0.28209479f);
   return light;
 }
 
@@ -92,7 +90,7 @@ class RendererTest : public GlTest {
   std::unique_ptr<Renderer> renderer_;
 };
 
-// The stage's axes turned to the camera's: looks along -Z from the origin.
+// camera_from_stage of a camera at the origin that looks along -Z.
 geometry::Rigid3 LookAlongMinusZ() {
   return LookAt(Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());
 }
@@ -109,7 +107,7 @@ TEST_F(RendererTest, BackgroundPassesThroughUnchanged) {
   }
 }
 
-// Somebody hardly there is mixed with the image's light.
+// A person that is nearly invisible forces the composite to convert every pixel.
 TEST_F(RendererTest, EverySrgbValueSurvivesTheRoundTrip) {
   const glm::mat4 skin(1.0f);
   SceneHuman human = {
@@ -124,7 +122,7 @@ TEST_F(RendererTest, EverySrgbValueSurvivesTheRoundTrip) {
   }
   scene.camera = scene.display = Pinhole(256, 16, 300.0);
   scene.camera_from_stage = LookAlongMinusZ();
-  scene.light = UniformLight(kPi);
+  scene.light = UniformLight(kPiF);
   scene.humans = {&human, 1};
   scene.people_opacity = 1e-5f;
   EXPECT_TRUE(test::ImagesAgree(Draw(scene, 256, 16), scene.background, {.max = 0, .mean = 0}));
@@ -148,7 +146,7 @@ TEST_F(RendererTest, DistortedBackgroundEqualsUndistortedReference) {
   scene.camera = camera;
   scene.display = camera.DisplayPinhole();
 
-  // cv::undistort works on the encoded values; here light is interpolated.
+  // cv::undistort interpolates encoded values; here linear light is interpolated.
   cv::Mat linear(240, 320, CV_32FC3);
   for (int i = 0; i < 3 * 320 * 240; ++i) {
     linear.ptr<float>()[i] = static_cast<float>(LinearFromSrgb(scene.background.data[i] / 255.0));
@@ -202,7 +200,7 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
         !display.Contains(pixel - Eigen::Vector2d::Constant(4))) {
       continue;
     }
-    // A ball of three pixels' radius: its centroid is the point's pixel.
+    // The centroid of a ball with a radius of three pixels is the pixel of the point.
     const double radius = 3.0 * in_camera.z() / display.Focal();
     SceneHuman human;
     human.human = ball;
@@ -213,7 +211,7 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
     scene.display = display;
     scene.camera_from_stage = camera_from_stage;
     scene.humans = {&human, 1};
-    scene.light = UniformLight(kPi);
+    scene.light = UniformLight(kPiF);
     scene.knee = 1.0f;
     cv::Mat grey;
     cv::cvtColor(Draw(scene, display.width, display.height), grey, cv::COLOR_BGR2GRAY);
@@ -233,7 +231,7 @@ TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
   scene.background = cv::Mat(200, 200, CV_8UC3, cv::Scalar(40, 90, 20));
   scene.camera = scene.display = Pinhole(200, 200, 200.0);
   scene.camera_from_stage = LookAlongMinusZ();
-  scene.light = UniformLight(kPi);
+  scene.light = UniformLight(kPiF);
   scene.knee = 1.0f;
   const SceneOccluder occluder = {.mesh = wall};
   scene.occluders = {&occluder, 1};
@@ -244,7 +242,7 @@ TEST_F(RendererTest, OccludersHideWhatIsBehindAndShowTheBackground) {
   cv::Mat picture = Draw(scene, 200, 200);
   EXPECT_EQ(picture.at<cv::Vec3b>(100, 80), cv::Vec3b(255, 255, 255));
   EXPECT_EQ(picture.at<cv::Vec3b>(100, 120), cv::Vec3b(40, 90, 20));
-  human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -1.9f, 1.0f);  // in front of it
+  human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -1.9f, 1.0f);  // before the wall
   picture = Draw(scene, 200, 200);
   EXPECT_EQ(picture.at<cv::Vec3b>(100, 80), cv::Vec3b(255, 255, 255));
   EXPECT_EQ(picture.at<cv::Vec3b>(100, 120), cv::Vec3b(255, 255, 255));
@@ -257,7 +255,7 @@ TEST_F(RendererTest, WithoutAPoseOnlyTheBackgroundIsDrawn) {
   RenderScene scene;
   scene.background = NoiseImage(120, 90, 6);
   scene.camera = scene.display = Pinhole(120, 90, 100.0);
-  scene.light = UniformLight(kPi);
+  scene.light = UniformLight(kPiF);
   scene.knee = 1.0f;
   SceneHuman human = {.human = ball, .skin = {&skin, 1}};
   human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -3.0f, 1.0f);
@@ -312,7 +310,7 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
   }
   scene.exposure = 2.0f;
   scene.gain = glm::vec3(1.5f, 0.9f, 1.0f);
-  // The actor is turned: light must stay in the stage's axes.
+  // The actor is rotated, but light must stay in the stage's axes.
   SceneHuman human = {.human = ball, .skin = {&skin, 1}};
   const Eigen::Vector3d centre(0.0, 0.0, -4.0);
   human.stage_from_actor =
@@ -336,7 +334,7 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
       const glm::vec3 irradiance =
           light::EvaluateIrradiance(scene.light, geometry::ToGlm(normal.normalized()));
       for (int c = 0; c < 3; ++c) {
-        double radiance = albedo[c] / kPi * irradiance[c] * scene.exposure * scene.gain[c];
+        double radiance = albedo[c] / kPiF * irradiance[c] * scene.exposure * scene.gain[c];
         if (radiance > scene.knee) {
           const double range = 1.0 - scene.knee;
           radiance = scene.knee + range * (1.0 - std::exp(-(radiance - scene.knee) / range));
@@ -370,20 +368,20 @@ TEST_F(RendererTest, LinearPictureHoldsRadianceWithoutTheCamerasResponse) {
   ASSERT_TRUE(drawn.ok()) << drawn.message();
   ASSERT_EQ(rgba.size(), cv::Size(160, 120));
   ASSERT_EQ(rgba.type(), CV_32FC4);
-  // The ball's centre: left of the middle and above it.
+  // The centre of the ball is to the left of the middle and above it.
   const auto middle = rgba.at<cv::Vec4f>(60 - 25, 80 - 50);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(middle[c], albedo[c] / kPi * 20.0f, 0.01f);
+    EXPECT_NEAR(middle[c], albedo[c] / kPiF * 20.0f, 0.01f);
   }
   EXPECT_EQ(middle[3], 1.0f);
   EXPECT_EQ(rgba.at<cv::Vec4f>(60, 120), cv::Vec4f::all(0.0f));
   EXPECT_EQ(rgba.at<cv::Vec4f>(60 + 40, 80 - 50), cv::Vec4f::all(0.0f));
-  // Edges are the average of the samples: colour goes with coverage.
+  // Edges average the samples, so their colour is proportional to coverage.
   int partly = 0;
   for (int x = 0; x < 160; ++x) {
     const auto pixel = rgba.at<cv::Vec4f>(70, x);
     partly += pixel[3] > 0.0f && pixel[3] < 1.0f ? 1 : 0;
-    EXPECT_NEAR(pixel[0], pixel[3] * albedo[0] / kPi * 20.0f, 0.02f) << x;
+    EXPECT_NEAR(pixel[0], pixel[3] * albedo[0] / kPiF * 20.0f, 0.02f) << x;
   }
   EXPECT_GE(partly, 1);
   human.stage_from_actor[3] = glm::vec4(0.0f, 0.0f, 9.0f, 1.0f);
@@ -404,7 +402,7 @@ TEST_F(RendererTest, SamplesSmoothTheEdgesOfPeople) {
     RenderScene scene;
     scene.display = Pinhole(120, 120, 150.0);
     scene.camera_from_stage = LookAlongMinusZ();
-    scene.light = UniformLight(kPi);
+    scene.light = UniformLight(kPiF);
     scene.knee = 1.0f;
     scene.humans = {&human, 1};
     cv::Mat between;
@@ -426,12 +424,12 @@ TEST_F(RendererTest, APictureThatIsMadeLargerShowsTheSame) {
   scene.camera = scene.display = Pinhole(320, 240, 300.0);
   scene.camera.k1 = -0.1;
   scene.camera_from_stage = LookAlongMinusZ();
-  scene.light = UniformLight(kPi);
+  scene.light = UniformLight(kPiF);
   scene.humans = {&human, 1};
   const cv::Mat large = Draw(scene, 960, 720);
   const cv::Mat small = Draw(scene, 320, 240);
   renderer_->SetQuality({.full_size = false});
-  // But for edges, which are as soft as the camera's image.
+  // Both agree except at edges, which are as soft as the camera's image.
   EXPECT_TRUE(test::ImagesAgree(Draw(scene, 960, 720), large, {.max = 160.0, .mean = 1.0}));
   cv::Mat enlarged;
   cv::resize(small, enlarged, cv::Size(960, 720), 0, 0, cv::INTER_LINEAR);
@@ -458,7 +456,7 @@ class HalfRateTest : public RendererTest {
     scene.background = background_;
     scene.camera = scene.display = Pinhole(kWidth, kHeight, 300.0);
     scene.camera_from_stage = pose;
-    scene.light = UniformLight(kPi);
+    scene.light = UniformLight(kPiF);
     scene.humans = {&human_, 1};
     return scene;
   }
@@ -497,7 +495,7 @@ TEST_F(HalfRateTest, TwoHalvesAreTheWhole) {
                                 {.max = 0.0, .mean = 0.0}));
 }
 
-// What the camera turns over leaves no trace: the picture is the one drawn anew, but for edges.
+// A warped layer agrees with a newly drawn picture, except at edges.
 TEST_F(HalfRateTest, PeopleAreWhereTheCameraSeesThemNow) {
   const RenderScene before = SceneFrom(LookAlongMinusZ());
   for (const RenderScene& now :
@@ -513,7 +511,7 @@ TEST_F(HalfRateTest, PeopleAreWhereTheCameraSeesThemNow) {
 }
 
 TEST_F(HalfRateTest, WhoIsJustOutsideOfThePictureIsThereWhenTheCameraTurns) {
-  // The ball ends a few pixels left of the picture, and half of it comes in.
+  // The ball ends a few pixels to the left of the picture; the turn brings half of it into view.
   human_.stage_from_actor[3] = glm::vec4(-4.25f, 0.0f, -6.0f, 1.0f);
   const RenderScene before = SceneFrom(LookAlongMinusZ());
   const RenderScene now = SceneFrom(Turned(0.03));
@@ -559,7 +557,7 @@ TEST_F(RendererTest, DrawsSeveralPeopleWithTheirOwnPoses) {
   RenderScene scene;
   scene.display = Pinhole(200, 100, 150.0);
   scene.camera_from_stage = LookAlongMinusZ();
-  scene.light = UniformLight(kPi);
+  scene.light = UniformLight(kPiF);
   scene.knee = 1.0f;
   scene.humans = people;
   const cv::Mat picture = Draw(scene, 200, 100);

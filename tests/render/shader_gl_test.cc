@@ -7,14 +7,14 @@
 #include <string>
 #include <utility>
 
-#include "shared/render/graphics_context.h"
-#include "shared/render/shader_program.h"
-#include "shared/render/shader_source.h"
+#include "shared/render/gl/graphics_context.h"
+#include "shared/render/gl/shader_program.h"
+#include "shared/render/gl/shader_source.h"
 
 namespace lararium::render {
 namespace {
 
-// Every fragment shader with the vertex shader of its pass: x.vert is that of x.frag and of
+// Every fragment shader with the vertex shader of its pass. x.vert belongs to x.frag and to
 // x_part.frag.
 std::map<std::string, std::string> Passes() {
   std::map<std::string, std::string> vertex_of;
@@ -78,7 +78,8 @@ TEST_P(EveryShader, OfPicturesCompilesForEveryKindOfPicture) {
   EXPECT_TRUE(program.ok()) << program.message();
 }
 
-// What the program in use takes of what drivers limit, outside of blocks. Arrays are not packed.
+// Uniform vectors (outside of blocks) and samplers that the program in use needs; drivers limit
+// both. Arrays are counted without packing.
 struct Uniforms {
   int vectors = 0;
   int samplers = 0;
@@ -106,8 +107,8 @@ Uniforms CountUniforms() {
   return uniforms;
 }
 
-// MAX_FRAGMENT_UNIFORM_VECTORS, the smaller of both kinds of shader, and MAX_TEXTURE_IMAGE_UNITS
-// may be no larger (OpenGL ES 3.0.6, tables 6.31 and 6.32).
+// Programs must fit into the guaranteed minimum of MAX_FRAGMENT_UNIFORM_VECTORS (smaller than that
+// of vertex shaders) and of MAX_TEXTURE_IMAGE_UNITS (OpenGL ES 3.0.6, tables 6.31 and 6.32).
 TEST(Shaders, TakeNoMoreThanEveryOpenGlEs30Has) {
   const auto context = CreateOffscreenContext(GraphicsApi::kOpenGlEs30);
   ASSERT_TRUE(context.ok()) << context.message();
@@ -129,7 +130,7 @@ TEST(Shaders, TakeNoMoreThanEveryOpenGlEs30Has) {
   }
 }
 
-int asked = 0;  // how often a driver was asked where a uniform is
+int asked = 0;  // number of calls of glGetUniformLocation
 GLint (*ask)(GLuint, const GLchar*) = nullptr;
 GLint CountedLocation(GLuint program, const GLchar* name) {
   ++asked;

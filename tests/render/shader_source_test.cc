@@ -1,4 +1,4 @@
-#include "shared/render/shader_source.h"
+#include "shared/render/gl/shader_source.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,27 +1,28 @@
-#include "shared/render/sky_cones.h"
+#include "shared/render/passes/sky_cones.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
+
+#include "shared/core/units.h"
 
 namespace lararium::render {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
-// Their cosine-weighted solid angles cover the hemisphere's, pi, in equal parts.
+// The cosine-weighted solid angles of the cones are equal, and their sum is pi, that of the
+// hemisphere.
 TEST(SkyCones, ShareTheCosineEquallyAndLookAboveTheSurface) {
   for (const glm::vec4& cone : SkyCones()) {
     EXPECT_NEAR(glm::length(glm::vec3(cone)), 1.0f, 1e-5f);
     const float cosine = glm::dot(glm::vec3(cone), SkyConeAxis());
     EXPECT_GT(cosine, 0.0f);
-    EXPECT_NEAR(2.0f * kPi * (1.0f - cone.w) * cosine, kPi / kSkyConeCount, 1e-4f);
+    EXPECT_NEAR(2.0f * kPiF * (1.0f - cone.w) * cosine, kPiF / kSkyConeCount, 1e-4f);
   }
 }
 
-// The mean of a linear function over equal shares of the cosine is 2/3 of the normal's.
+// The mean of a linear function over the cosine-weighted hemisphere is 2/3 of its value at the
+// normal.
 TEST(SkyCones, AverageToTwoThirdsOfTheNormal) {
   glm::vec3 mean(0.0f);
   for (const glm::vec4& cone : SkyCones()) {
@@ -39,9 +40,10 @@ TEST(SkyMap, HoldsRadianceByDirection) {
   const auto at = [&](int column, int row) {
     return map[static_cast<size_t>(row * kSkyMapSize + column)];
   };
-  const float even = 2.0f * std::sqrt(0.25f / kPi);
-  const float slope = 0.5f * std::sqrt(0.75f / kPi);
-  // The middle looks up, corners down; a cone's mean is a little less than its middle.
+  const float even = 2.0f * std::sqrt(0.25f / kPiF);
+  const float slope = 0.5f * std::sqrt(0.75f / kPiF);
+  // The middle of the map is up and its corners are down. The mean over a cone is slightly less
+  // than the value at its axis.
   EXPECT_NEAR(at(kSkyMapSize / 2, kSkyMapSize / 2).x, even + slope, 0.05f * slope);
   EXPECT_NEAR(at(0, 0).x, even - slope, 0.05f * slope);
   EXPECT_GT(at(kSkyMapSize / 2, kSkyMapSize / 2).x, at(kSkyMapSize / 2, 0).x);

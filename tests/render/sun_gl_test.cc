@@ -1,12 +1,13 @@
-// Shadows of the sun: where they fall, how soft their edges are, and what shades what.
+// Tests the sun's shadows: their position, the softness of their edges, and what casts them on
+// what.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/renderer.h"
@@ -15,18 +16,16 @@
 
 namespace lararium::render {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr int kWidth = 640;
-constexpr int kHeight = 480;
+constexpr int kSunWidth = 640;
+constexpr int kSunHeight = 480;
 constexpr int kGrey = 190;
-constexpr double kPixelsPerMetre = 200.0;  // of the floor
+constexpr double kPixelsPerMetre = 200.0;
 
-double LinearFromSrgb(double c) {
+double LinearFromSunSrgb(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-geometry::TriangleMesh Quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+geometry::TriangleMesh SunQuad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
   return {.positions = {corner, corner + u, corner + u + v, corner + v},
           .normals = {},
           .indices = {0, 1, 2, 0, 2, 3}};
@@ -34,11 +33,11 @@ geometry::TriangleMesh Quad(const glm::vec3& corner, const glm::vec3& u, const g
 
 light::ShRgb EvenSky(float irradiance) {
   light::ShRgb light = {};
-  light[0] = glm::vec3(irradiance / kPi / 0.28209479f);
+  light[0] = glm::vec3(irradiance / kPiF / 0.28209479f);
   return light;
 }
 
-// A floor seen from straight above, so that a pixel is 5 mm of it, and a ball above it.
+// A floor viewed from straight above, with 5 mm per pixel, and a ball above it.
 class SunTest : public GlTest {
  protected:
   void SetUp() override {
@@ -46,17 +45,17 @@ class SunTest : public GlTest {
     auto renderer = Renderer::Create({.samples = 1});
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
-    scene_.background = cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(kGrey));
-    scene_.camera = scene_.display = {.width = kWidth,
-                                      .height = kHeight,
+    scene_.background = cv::Mat(kSunHeight, kSunWidth, CV_8UC3, cv::Scalar::all(kGrey));
+    scene_.camera = scene_.display = {.width = kSunWidth,
+                                      .height = kSunHeight,
                                       .fx = 8.0 * kPixelsPerMetre,
                                       .fy = 8.0 * kPixelsPerMetre,
-                                      .cx = 0.5 * (kWidth - 1),
-                                      .cy = 0.5 * (kHeight - 1)};
+                                      .cx = 0.5 * (kSunWidth - 1),
+                                      .cy = 0.5 * (kSunHeight - 1)};
     scene_.camera_from_stage =
         LookAt(Eigen::Vector3d(0.0, 8.0, 0.0), Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ());
     occluders_ = {{.mesh = renderer_->AddMesh(
-                       Quad({-6.0f, 0.0f, 6.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f}))}};
+                       SunQuad({-6.0f, 0.0f, 6.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f}))}};
     scene_.occluders = occluders_;
     scene_.light = EvenSky(1.0f);
     human_ = {.human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 1))).value(),
@@ -69,19 +68,19 @@ class SunTest : public GlTest {
     human_.stage_from_actor[3] = glm::vec4(centre, 1.0f);
   }
   cv::Mat Draw() {
-    const RenderTarget target = MakeTarget(kWidth, kHeight);
+    const RenderTarget target = MakeTarget(kSunWidth, kSunHeight);
     const Status drawn = renderer_->Draw(scene_, target);
     EXPECT_TRUE(drawn.ok()) << drawn.message();
     return Read(target);
   }
-  // How much of its light the floor keeps at a point.
+  // The share of its light that the floor keeps at a point.
   static double Kept(const cv::Mat& picture, double x, double z) {
-    const int column = static_cast<int>(std::lround(0.5 * (kWidth - 1) + kPixelsPerMetre * x));
-    const int row = static_cast<int>(std::lround(0.5 * (kHeight - 1) + kPixelsPerMetre * z));
-    return LinearFromSrgb(picture.at<cv::Vec3b>(row, column)[1] / 255.0) /
-           LinearFromSrgb(kGrey / 255.0);
+    const int column = static_cast<int>(std::lround(0.5 * (kSunWidth - 1) + kPixelsPerMetre * x));
+    const int row = static_cast<int>(std::lround(0.5 * (kSunHeight - 1) + kPixelsPerMetre * z));
+    return LinearFromSunSrgb(picture.at<cv::Vec3b>(row, column)[1] / 255.0) /
+           LinearFromSunSrgb(kGrey / 255.0);
   }
-  // Where, from x on, the floor first keeps more than a share.
+  // The first position from x on at which the floor keeps more than a share.
   static double EdgeAt(const cv::Mat& picture, double x, double end, double share) {
     for (; x < end; x += 1.0 / kPixelsPerMetre) {
       if (Kept(picture, x, 0.0) > share) {
@@ -99,16 +98,17 @@ class SunTest : public GlTest {
 };
 
 TEST_F(SunTest, ShadowFallsWhereTheSunSaysAndLeavesTheSky) {
-  // At 45 degrees from -x: a ball one metre up throws its shadow one metre to +x.
+  // The sun stands at 45 degrees towards -x. A ball at a height of one metre casts its shadow one
+  // metre towards +x.
   scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
                           glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
   PlaceBall({-0.1f, 1.0f, 0.0f}, 0.2f);
   const cv::Mat picture = Draw();
-  // Sky 1, sun 3: three quarters are lost.
+  // The sky's irradiance is 1 and the sun's is 3, so three quarters are lost.
   EXPECT_NEAR(Kept(picture, 0.9, 0.0), 0.25, 0.02);
   EXPECT_EQ(Kept(picture, 0.4, 0.0), 1.0);
   EXPECT_EQ(Kept(picture, 1.4, 0.0), 1.0);
-  // An ellipse, longer along the light by the root of two.
+  // The shadow is an ellipse, longer along the light by the square root of two.
   const double far_edge = EdgeAt(picture, 0.9, 1.5, 0.6);
   EXPECT_NEAR(far_edge, 0.9 + 0.2 * std::sqrt(2.0), 0.01);
   EXPECT_NEAR(Kept(picture, 0.9, 0.18), 0.25, 0.03);
@@ -124,7 +124,7 @@ TEST_F(SunTest, WhoIsOutsideOfThePictureThrowsShadowsIntoIt) {
   EXPECT_EQ(Kept(Draw(), 0.4, 0.0), 1.0) << "the shadow is outside, too";
 }
 
-// Cheaper pictures show the same shadow, and nothing of one is left in the next.
+// Pictures of lower quality show the same shadow, and no picture leaves traces in the next.
 TEST_F(SunTest, TheShadowIsThereAtEveryQuality) {
   scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
                           glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
@@ -145,25 +145,24 @@ TEST_F(SunTest, TheShadowIsThereAtEveryQuality) {
   EXPECT_EQ(cv::norm(Draw(), first, cv::NORM_INF), 0.0);
 }
 
-// The map of real things is kept from picture to picture as long as it holds what is asked for.
+// The map of real objects is reused as long as it covers the required box.
 TEST_F(SunTest, RealThingsShadeWhereverPeopleGoAndWhereverTheyAreMoved) {
   scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)), glm::vec3(4.0f), 0.0005f};
   occluders_.push_back({.mesh = renderer_->AddMesh(
-                            Quad({0.3f, 0.0f, -2.0f}, {0.0f, 1.5f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
+                            SunQuad({0.3f, 0.0f, -2.0f}, {0.0f, 1.5f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
   scene_.occluders = occluders_;
   for (const float x : {-1.2f, -1.19f, -1.18f}) {
     PlaceBall({x, 0.3f, 0.0f}, 0.15f);
     EXPECT_LT(Kept(Draw(), x + 0.3f, 0.0), 0.5) << x;
   }
-  // Behind the wall it is dark already.
+  // The floor behind the wall is in its shadow already.
   PlaceBall({0.8f, 0.3f, 0.0f}, 0.15f);
   EXPECT_NEAR(Kept(Draw(), 1.1, 0.0), 1.0, 0.02);
   occluders_[1].stage_from_mesh[3].z = 10.0f;
   EXPECT_LT(Kept(Draw(), 1.1, 0.0), 0.5);
 }
 
-// A disc of angular radius a throws a penumbra 2 d tan(a) wide past an edge at distance d.
-// What stands still is kept from picture to picture: each must be what it would be by itself.
+// The shadows of still props are reused. Each picture must equal one that was drawn without reuse.
 TEST_F(SunTest, ThingsCastTheSameShadowsWhetherTheyStandOrMove) {
   scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)), glm::vec3(3.0f), 0.003f};
   PlaceBall({-0.8f, 1.0f, 0.4f}, 0.2f);
@@ -190,7 +189,8 @@ TEST_F(SunTest, ThingsCastTheSameShadowsWhetherTheyStandOrMove) {
   place(1, {0.3f, 0.6f, 0.5f});
   const auto expect_as_alone = [&](const std::string& when) {
     const cv::Mat picture = Draw();
-    renderer_->RemoveModel(renderer_->AddProp(Shared(prop)).value());  // so that nothing is kept
+    // Removing a model discards everything that is kept.
+    renderer_->RemoveModel(renderer_->AddProp(Shared(prop)).value());
     EXPECT_EQ(cv::norm(Draw(), picture, cv::NORM_INF), 0.0) << when;
   };
   const cv::Mat first = Draw();
@@ -207,12 +207,13 @@ TEST_F(SunTest, ThingsCastTheSameShadowsWhetherTheyStandOrMove) {
   expect_as_alone("the other is gone");
 }
 
+// A sun of angular radius a gives a penumbra of width 2 d tan(a) behind an edge at distance d.
 TEST_F(SunTest, PenumbraGrowsWithDistanceByTheAngularRadius) {
   for (const double height : {0.5, 1.5}) {
     const float angular_radius = 0.03f;
     scene_.sun = light::Sun{glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(3.0f), angular_radius};
-    // The silhouette, seen from beside the ball, is half a metre off its middle. It hides
-    // from the camera what lies under it: looked at from aside.
+    // The edge that casts the shadow is half a metre from the middle of the ball. The camera looks
+    // from the side, because from above the ball would hide its shadow.
     PlaceBall({0.0f, static_cast<float>(height), 0.0f}, 0.5f);
     scene_.camera_from_stage = LookAt(Eigen::Vector3d(6.0, 5.0, 0.0),
                                       Eigen::Vector3d(0.6, 0.0, 0.0), Eigen::Vector3d::UnitY());
@@ -223,15 +224,15 @@ TEST_F(SunTest, PenumbraGrowsWithDistanceByTheAngularRadius) {
             *scene_.display.Project(*scene_.camera_from_stage * Eigen::Vector3d(x, 0.0, 0.0));
         const cv::Vec3b colour = picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y())),
                                                        static_cast<int>(std::lround(pixel.x())));
-        const double kept = LinearFromSrgb(colour[1] / 255.0) / LinearFromSrgb(kGrey / 255.0);
+        const double kept = LinearFromSunSrgb(colour[1] / 255.0) / LinearFromSunSrgb(kGrey / 255.0);
         if (colour[0] == colour[2] && kept > 0.25 + 0.75 * share && kept <= 1.0) {
           return x;
         }
       }
       return 0.0;
     };
-    // Of a straight edge before a disc, a tenth is seen at -0.687 of the radius, nine
-    // tenths at 0.687.
+    // A straight edge in front of a disc leaves a tenth of it visible at -0.687 of the radius, and
+    // nine tenths at 0.687.
     const double width = edge(0.9) - edge(0.1);
     EXPECT_NEAR(edge(0.5), 0.5, 0.03) << height;
     EXPECT_NEAR(width, 2.0 * 0.687 * height * std::tan(angular_radius), 0.3 * height * 0.03)
@@ -243,12 +244,12 @@ TEST_F(SunTest, WhereRealThingsShadeAlreadyPeopleDoNotAgain) {
   scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)),
                           glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
   PlaceBall({-0.1f, 1.0f, 0.0f}, 0.2f);
-  // A roof out of the picture, towards the sun, over half of the floor.
-  occluders_.push_back({.mesh = renderer_->AddMesh(
-                            Quad({-6.0f, 4.0f, -2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
+  // A roof outside the picture, towards the sun, over half of the floor.
+  occluders_.push_back({.mesh = renderer_->AddMesh(SunQuad({-6.0f, 4.0f, -2.0f}, {4.0f, 0.0f, 0.0f},
+                                                           {0.0f, 0.0f, 4.0f}))});
   scene_.occluders = occluders_;
   const cv::Mat picture = Draw();
-  // The roof's shadow ends at x = 2: all that is in the picture lies in it.
+  // The roof's shadow ends at x = 2 and covers the whole picture.
   EXPECT_EQ(Kept(picture, 0.9, 0.0), 1.0);
 }
 
@@ -260,12 +261,12 @@ TEST_F(SunTest, PeopleAreLitByTheSunAndNotInTheShadowOfThings) {
   cv::Mat rgba;
   ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
   // The top of the ball: white 0.5 under sky and sun.
-  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2)[0], 0.5f / kPi * 1.5f, 0.003f);
-  occluders_.push_back({.mesh = renderer_->AddMesh(
-                            Quad({-2.0f, 9.0f, -2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kSunHeight / 2, kSunWidth / 2)[0], 0.5f / kPiF * 1.5f, 0.003f);
+  occluders_.push_back({.mesh = renderer_->AddMesh(SunQuad({-2.0f, 9.0f, -2.0f}, {4.0f, 0.0f, 0.0f},
+                                                           {0.0f, 0.0f, 4.0f}))});
   scene_.occluders = occluders_;
   ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
-  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2)[0], 0.5f / kPi * 0.5f, 0.003f);
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kSunHeight / 2, kSunWidth / 2)[0], 0.5f / kPiF * 0.5f, 0.003f);
 }
 
 TEST_F(SunTest, PeopleShadeEachOther) {
@@ -276,19 +277,19 @@ TEST_F(SunTest, PeopleShadeEachOther) {
   two[0].stage_from_actor = glm::mat4(glm::mat3(0.4f));
   two[0].stage_from_actor[3] = glm::vec4(0.0f, 0.5f, 0.0f, 1.0f);
   two[1].stage_from_actor = glm::mat4(glm::mat3(0.2f));
-  // Above the camera, so that it hides nothing from it.
+  // The second person is above the camera, so that it hides nothing.
   two[1].stage_from_actor[3] = glm::vec4(0.0f, 9.0f, 0.0f, 1.0f);
   scene_.humans = two;
   cv::Mat rgba;
   ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
-  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2)[0], 0.5f / kPi * 0.5f, 0.003f);
-  // Beside that shadow the sun is seen.
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kSunHeight / 2, kSunWidth / 2)[0], 0.5f / kPiF * 0.5f, 0.003f);
+  // The sun is visible beside that shadow.
   const float sine = 0.3f / 0.4f;
   const float cosine = std::sqrt(1.0f - sine * sine);
   const int aside = static_cast<int>(0.3 * 8.0 * kPixelsPerMetre /
                                      (8.0 - 0.5 - 0.4 * static_cast<double>(cosine)));
-  EXPECT_NEAR(rgba.at<cv::Vec4f>(kHeight / 2, kWidth / 2 + aside)[0], 0.5f / kPi * (0.5f + cosine),
-              0.01f);
+  EXPECT_NEAR(rgba.at<cv::Vec4f>(kSunHeight / 2, kSunWidth / 2 + aside)[0],
+              0.5f / kPiF * (0.5f + cosine), 0.01f);
 }
 
 }  // namespace

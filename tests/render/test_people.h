@@ -5,24 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "shared/core/units.h"
 #include "shared/human/human.h"
 
 namespace lararium::render {
 
 // A latitude-longitude sphere of radius 1 about the origin.
 inline human::SkinnedMesh Sphere(const glm::vec3& albedo) {
-  constexpr float kPi = std::numbers::pi_v<float>;
   constexpr int kRings = 64;
   constexpr int kSectors = 128;
   human::SkinnedMesh mesh;
   for (int ring = 0; ring <= kRings; ++ring) {
     for (int sector = 0; sector <= kSectors; ++sector) {
-      const float theta = kPi * static_cast<float>(ring) / kRings;
-      const float phi = 2.0f * kPi * static_cast<float>(sector) / kSectors;
+      const float theta = kPiF * static_cast<float>(ring) / kRings;
+      const float phi = 2.0f * kPiF * static_cast<float>(sector) / kSectors;
       const glm::vec3 normal(std::sin(theta) * std::cos(phi), std::cos(theta),
                              -std::sin(theta) * std::sin(phi));
       mesh.positions.push_back(normal);
@@ -42,7 +41,7 @@ inline human::SkinnedMesh Sphere(const glm::vec3& albedo) {
   return mesh;
 }
 
-// A box, its eight corners weighted between two joints by their height.
+// A box whose eight corners are weighted between two joints by their height.
 inline human::SkinnedMesh BendingBox(const glm::vec3& albedo) {
   human::SkinnedMesh mesh;
   for (int i = 0; i <= 8; ++i) {
@@ -67,7 +66,7 @@ inline human::SkinnedMesh BendingBox(const glm::vec3& albedo) {
   return mesh;
 }
 
-// joint_count joints at the origin, so that skin matrices alone move the mesh.
+// A human with joint_count joints at the origin, so that only the skin matrices move the mesh.
 inline human::Human MakeHuman(human::SkinnedMesh mesh, size_t joint_count) {
   human::Human human;
   human.name = "test";
@@ -82,7 +81,7 @@ inline human::Human MakeHuman(human::SkinnedMesh mesh, size_t joint_count) {
   return human;
 }
 
-// As a renderer keeps a person or prop.
+// Copies a person or prop into the shared pointer that a renderer takes.
 template <typename Model>
 std::shared_ptr<const Model> Shared(Model model) {
   return std::make_shared<const Model>(std::move(model));

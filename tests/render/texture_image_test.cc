@@ -1,4 +1,4 @@
-#include "shared/render/texture_image.h"
+#include "shared/render/gl/texture_image.h"
 
 #include <gmock/gmock.h>
 
@@ -60,7 +60,7 @@ TEST(DecodeTexture, ReadsJpegs) {
 TEST(DecodeTexture, SaysWhatIsWrongAndWhere) {
   std::vector<std::byte> png = Encode(Noise(CV_8UC3, 2), ".png");
   EXPECT_THAT(DecodeTexture({}, "keeper: texture 'skin'").message(),
-              HasSubstr("keeper: texture 'skin': is no PNG or JPEG"));
+              HasSubstr("keeper: texture 'skin': is not a PNG or JPEG"));
   EXPECT_THAT(DecodeTexture(std::vector<std::byte>(500), "t").message(), HasSubstr("no PNG"));
   std::vector<std::byte> cut(png.begin(), png.begin() + 30);
   EXPECT_THAT(DecodeTexture(cut, "t").message(), HasSubstr("damaged or cut short"));
@@ -102,7 +102,7 @@ TEST(DecodeForUse, HalvesOftenEnoughButSmallImagesLess) {
   }
 }
 
-// What is not covered has no part in the colours of what is.
+// Colours of transparent pixels must not influence those of covered pixels.
 TEST(DecodeForUse, HalvesColoursAfterTheyAreMultipliedWithCoverage) {
   cv::Mat image(256, 256, CV_8UC4, cv::Scalar(255, 255, 255, 0));
   for (int x = 0; x < 256; x += 2) {
@@ -123,7 +123,7 @@ TEST(PremultiplySrgb, MultipliesLight) {
   image.at<cv::Vec4b>(2) = {200, 100, 50, 0};
   PremultiplySrgb(image);
   EXPECT_EQ(image.at<cv::Vec4b>(0), cv::Vec4b(200, 100, 50, 255));
-  // Half the light of white is 188 in sRGB.
+  // Half of the light of white is 188 in sRGB.
   EXPECT_EQ(image.at<cv::Vec4b>(1), cv::Vec4b(188, 188, 188, 128));
   EXPECT_EQ(image.at<cv::Vec4b>(2), cv::Vec4b(0, 0, 0, 0));
 }

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdlib>
 
-#include "shared/render/render_target.h"
-#include "shared/render/window.h"
+#include "shared/render/gl/render_target.h"
+#include "shared/render/gl/window.h"
 
 namespace lararium::render {
 namespace {

@@ -31,12 +31,12 @@ TEST(LookOf, IsThatOfTheCameraAtItsOwnSize) {
 }
 
 TEST(LookOf, BlurGoesWithThePixelsOfThePicture) {
-  // Twice as large: the lens's blur and the camera's own pixels are.
+  // At twice the size, the lens's blur and the camera's pixels are twice as large.
   const render::CameraLook large = LookOf(kTraits, Staged(), kCamera.Resized(1280, 960));
   EXPECT_NEAR(large.blur_px, std::sqrt(1.6 * 1.6 + 0.25), 1e-5);
   const render::CameraLook small = LookOf(kTraits, Staged(), kCamera.Resized(320, 240));
   EXPECT_NEAR(small.blur_px, 0.4, 1e-5);
-  // Measured on images of another size.
+  // The traits were measured on images of another size.
   light::CameraTraits fine = kTraits;
   fine.width = 1280;
   EXPECT_NEAR(LookOf(fine, Staged(), kCamera).blur_px, 0.4, 1e-5);
@@ -47,7 +47,7 @@ TEST(LookOf, TheShutterIsThatOfTheTraitsElseTheOneThatWasLearnt) {
   known.shutter = 0.25f;
   StagedFrame staged = Staged();
   EXPECT_EQ(LookOf(known, staged, kCamera).shutter, 0.25f);
-  staged.motion->frames = 2;  // of the way over two frames
+  staged.motion->frames = 2;  // The motion spans two frames.
   EXPECT_EQ(LookOf(known, staged, kCamera).shutter, 0.125f);
   staged.tracked.shutter.reset();
   EXPECT_EQ(LookOf(kTraits, staged, kCamera).shutter, 0.0f);

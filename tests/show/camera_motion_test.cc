@@ -66,7 +66,7 @@ TEST(Predict, GoesOnAsFastAsBefore) {
   const geometry::Rigid3 later = Predict(motion, now, 2.0);
   const geometry::Rigid3 expected = step * step * now;
   EXPECT_LT(later.rotation.angularDistance(expected.rotation), 1e-9);
-  // What turns on the way moves a little aside.
+  // A rotation on the way displaces the position a little.
   EXPECT_LT((later.translation - expected.translation).norm(), 1e-4);
   const geometry::Rigid3 same = Predict(motion, now, 0.0);
   EXPECT_LT(same.rotation.angularDistance(now.rotation), 1e-9);

@@ -55,7 +55,7 @@ TEST(Evidence, EachCertaintyHasAColourAndStripesOfItsOwn) {
 
 TEST(Evidence, SaysWhatIsKnownOfWhomTheVisitorLooksAt) {
   Evidence evidence(TwoPeople());
-  // Chests are at the camera's height.
+  // The people's chests are at the camera's height.
   const render::Legend& left =
       evidence.LegendOf(Seeing({{0.1f, -1.2f, -3.0f}, {1.5f, -1.2f, -3.0f}}));
   EXPECT_EQ(left.title, "Placidus: attestato");

@@ -10,14 +10,14 @@
 namespace lararium::show {
 namespace {
 
-// Says of every frame that it was asked for.
+// Signals every frame that it is asked for.
 class TellingPoses : public vision::PoseSource {
  public:
   vision::TrackedFrame Track(const geometry::Frame& frame) override {
     asked_.release();
     return fake_.Track(frame);
   }
-  // Waits for the next one that is asked for.
+  // Waits for the next frame that is asked for.
   bool WasAsked() { return asked_.try_acquire_for(std::chrono::seconds(20)); }
 
  private:
@@ -25,7 +25,7 @@ class TellingPoses : public vision::PoseSource {
   std::counting_semaphore<> asked_{0};
 };
 
-// Keeps every frame until it is let go.
+// Holds every frame until it is released.
 class StuckPoses : public vision::PoseSource {
  public:
   vision::TrackedFrame Track(const geometry::Frame& frame) override {
@@ -125,7 +125,7 @@ TEST_F(FramePipelineTest, RealtimeDeliversTheLastFrameAndNeverGoesBack) {
 
 TEST_F(FramePipelineTest, RealtimeCountsWhatItDroppedOnTopOfWhatOthersDid) {
   int64_t shown = 0;
-  for (const int milliseconds : {100, 0}) {  // that drawing takes: the first drops frames
+  for (const int milliseconds : {100, 0}) {  // Duration of drawing; the first one drops frames.
     test::FakeSource source(15);
     RealtimePipeline pipeline(Stages(source));
     while (!pipeline.Finished()) {
@@ -143,7 +143,7 @@ TEST_F(FramePipelineTest, RealtimeCountsWhatItDroppedOnTopOfWhatOthersDid) {
 }
 
 TEST_F(FramePipelineTest, RealtimeStagesIntoThreeFramesHoweverSlowTheyAreDrawn) {
-  constexpr size_t kServed = 1000;  // more than there are actors
+  constexpr size_t kServed = 1000;  // More than there are actors.
   test::FakeSource source(30);
   RealtimePipeline pipeline(Stages(source));
   int fresh = 0;

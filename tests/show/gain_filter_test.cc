@@ -22,7 +22,7 @@ TEST(GainFilter, TakesTheFirstGainAsItIs) {
 }
 
 TEST(GainFilter, DoesNotLagBehindAnEvenChangeAtAnyFrameRate) {
-  // Four stops a second, as fast as telephones hunt.
+  // Four stops a second, the fastest exposure change of phones.
   for (const double rate : {10.0, 30.0, 60.0, 144.0}) {
     GainFilter filter;
     for (int i = 0; i <= static_cast<int>(rate); ++i) {
@@ -38,7 +38,7 @@ TEST(GainFilter, DoesNotLagBehindAnEvenChangeAtAnyFrameRate) {
 }
 
 TEST(GainFilter, FollowsExposureThatSwingsAsInTheMaquette) {
-  // 1.5 stops to either side in two seconds, with a hundredth of a stop of noise.
+  // 1.5 stops up and down in two seconds, with a hundredth of a stop of noise.
   GainFilter filter;
   Random random(6);
   double squares = 0.0;

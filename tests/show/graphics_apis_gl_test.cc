@@ -1,4 +1,4 @@
-// OpenGL ES 3.0 draws what OpenGL 3.3 draws.
+// OpenGL ES 3.0 draws the same pictures as OpenGL 3.3.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ geometry::TriangleMesh Square(const glm::vec3& corner, const glm::vec3& u, const
           .indices = {0, 1, 2, 0, 2, 3}};
 }
 
-// A noisy, soft camera's place: floor and wall catch shadows, a pillar hides.
+// A place with a noisy, soft camera: floor and wall receive shadows, and a pillar occludes.
 stage::Place Yard() {
   stage::Place yard;
   yard.occluders = {
@@ -35,7 +35,7 @@ stage::Place Yard() {
   return yard;
 }
 
-// Two balls in sun, sky and a lamp's light.
+// Two balls lit by sun, sky and a lamp.
 StagedFrame Noon(const std::shared_ptr<const human::Human>& ball) {
   StagedFrame staged;
   light::ProbeLight light;
@@ -70,7 +70,7 @@ StagedFrame Noon(const std::shared_ptr<const human::Human>& ball) {
 
 class GraphicsApisTest : public render::GlTest {
  protected:
-  // The same moment at every level of quality, a little larger than the camera sees it.
+  // Draws the same moment at every level of quality, slightly larger than the camera's image.
   std::vector<cv::Mat> DrawWith(render::GraphicsApi api) {
     Open(api);
     const auto ball = render::Shared(render::MakeHuman(render::Sphere(glm::vec3(0.6f)), 1));
@@ -100,7 +100,7 @@ TEST_F(GraphicsApisTest, DrawTheSamePictureAtEveryLevelOfQuality) {
     cv::Scalar mean, deviation;
     cv::meanStdDev(desktop[level], mean, deviation);
     EXPECT_GT(deviation[0], 20.0) << "there is something to compare";
-    // Mesa's software (22.3.6) draws both alike to the last digit; others may compile otherwise.
+    // Mesa's software renderer (22.3.6) draws both identically; other compilers may differ.
     EXPECT_TRUE(test::ImagesAgree(embedded[level], desktop[level], {.max = 4.0, .mean = 0.05}))
         << level;
   }

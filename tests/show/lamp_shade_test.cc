@@ -9,7 +9,7 @@
 namespace lararium::show {
 namespace {
 
-// A counter of 2 x 1 x 0.6 m that stands on the floor.
+// A counter of 2 x 1 x 0.6 m on the floor.
 stage::Occluder Counter() {
   stage::Occluder occluder;
   for (const float x : {-1.0f, 1.0f}) {
@@ -38,7 +38,7 @@ TEST(LampShade, ACounterHidesTheLampOnItFromTheFloorBeforeItAndFromNobodyWhoStan
   EXPECT_EQ(Past(shade, lamp, {0.0f, 0.0f, -0.9f}), 0.0f);
   EXPECT_EQ(Past(shade, lamp, {0.0f, 0.2f, 0.6f}), 0.0f);
   EXPECT_EQ(Past(shade, lamp, {0.0f, 1.5f, -0.9f}), 1.0f);
-  EXPECT_EQ(Past(shade, lamp, {0.8f, 1.0f, 0.0f}), 1.0f);  // on the counter
+  EXPECT_EQ(Past(shade, lamp, {0.8f, 1.0f, 0.0f}), 1.0f);  // A point on the counter.
   EXPECT_EQ(Past(shade, lamp, {2.0f, 1.7f, 2.0f}), 1.0f);
 }
 
@@ -69,14 +69,14 @@ TEST(LampShade, LooksAgainOnlyWhereALampHasMoved) {
   std::array lamps = {LampAt({0.0f, 1.2f, 0.0f}), LampAt({2.0f, 1.0f, 0.0f})};
   shade.SetWalls(lamps);
   const auto before = lamps;
-  lamps[0].position.x += 0.01f;  // as flames do
+  lamps[0].position.x += 0.01f;  // Flames move like this.
   lamps[1].position.x += 0.5f;
   shade.SetWalls(lamps);
   EXPECT_EQ(lamps[0].walls, before[0].walls);
   EXPECT_NE(lamps[1].walls, before[1].walls);
 }
 
-// What a frame before still shows must not change under it.
+// Walls that an earlier frame still shows must not change.
 TEST(LampShade, WhatSomebodyStillReadsStaysAsItIs) {
   LampShade shade(std::array{Counter()});
   light::Lamp lamp = LampAt({0.0f, 1.2f, 0.0f});

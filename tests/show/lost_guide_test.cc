@@ -7,14 +7,14 @@
 namespace lararium::show {
 namespace {
 
-// Keyframes that look along +Z from x = 0, 1, 2, ..., each of so many points.
-vision::SceneDatabase Map(const std::vector<uint32_t>& sights) {
+// Keyframes that look along +Z from x = 0, 1, 2, ..., each with a number of observed points.
+vision::SceneDatabase Map(const std::vector<uint32_t>& observations) {
   vision::SceneDatabase map;
-  for (uint32_t i = 0; i < sights.size(); ++i) {
+  for (uint32_t i = 0; i < observations.size(); ++i) {
     vision::Keyframe& keyframe = map.keyframes.emplace_back();
     keyframe.camera_from_map.translation = {-static_cast<double>(i), 0.0, 0.0};
     keyframe.grey = cv::Mat(48, 64, CV_8UC1, cv::Scalar(10.0 * (i + 1)));
-    for (uint32_t k = 0; k < sights[i]; ++k) {
+    for (uint32_t k = 0; k < observations[i]; ++k) {
       map.observations.push_back({0, i, 1.0f, 1.0f, 1.0f});
     }
   }

@@ -12,7 +12,7 @@
 namespace lararium::show {
 namespace {
 
-// One joint, and balls all over a body's height.
+// One joint, and spheres distributed over a body's height.
 std::shared_ptr<const human::Human> BlockedHuman() {
   human::Human human;
   human.skeleton.names = {"humanoid_root"};
@@ -39,7 +39,7 @@ struct Sums {
   double share = 0.0;
   glm::dvec3 centre = glm::dvec3(0.0);
 };
-// What the balls hide from afar, and about where.
+// Sums that describe what the spheres hide from a distance, and where.
 Sums SumsOf(const SphereSet& balls) {
   Sums sums;
   for (size_t i = 0; i < balls.size(); ++i) {
@@ -53,7 +53,7 @@ Sums SumsOf(const SphereSet& balls) {
 
 class PersonLightTest : public ::testing::Test {
  protected:
-  // The blockers of one person for another so far away.
+  // The blockers of one person as seen by another one at a distance.
   SphereSet SeenFrom(float metres) {
     const glm::mat4 skin(1.0f);
     near_.Pose({&skin, 1}, glm::mat4(1.0f));
@@ -87,7 +87,7 @@ TEST_F(PersonLightTest, InBetweenOnlyWhatLooksSmallIsMerged) {
   EXPECT_NEAR(SumsOf(some).share, SumsOf(near_.blockers()).share, 1e-6);
 }
 
-// Somebody with many receivers on two joints, and vertices near them.
+// A person with many receivers on two joints, and vertices near them.
 std::shared_ptr<const human::Human> LitHuman() {
   Random random(10);
   human::Human human;
@@ -133,7 +133,7 @@ light::ShRgb SkyFromAbove() {
   return sky;
 }
 
-// The arm lifts and the body turns and walks, frame by frame.
+// In each frame the arm rises a little, and the body turns and walks.
 struct Moving {
   std::array<glm::mat4, 2> skin;
   glm::mat4 stage_from_actor;
@@ -185,7 +185,7 @@ TEST(PersonLightInMotion, AfterALeapTheLightIsThatOfThePlace) {
   }
 }
 
-// What a coarser level leaves out is lit when it is wanted again.
+// Vertices that a coarser level left out are lit when they are needed again.
 TEST(PersonLightInMotion, WhoStandsStillIsLitOnceAndWhollyWhenSeenFiner) {
   human::Human human = *LitHuman();
   human.meshes[0].coarser = {{0.1f, {0, 1, 99}}};

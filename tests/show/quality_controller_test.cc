@@ -10,7 +10,8 @@
 namespace lararium::show {
 namespace {
 
-// A device on which a frame at the finest level costs so much, and coarser ones their true share.
+// A device with a given cost of a frame at the finest level, and the true relative costs of coarser
+// levels.
 struct Device {
   std::vector<double> share = {1.0, 0.75, 0.5, 0.3, 0.18};
   double noise = 0.1;
@@ -21,7 +22,7 @@ struct Device {
   }
 };
 
-// Draws for so many seconds from begin; frames never come faster than the camera's.
+// Draws for a number of seconds from `begin`; frames never come faster than the camera's.
 double Play(QualityController& controller,
             Device& device,
             double begin,
@@ -97,7 +98,7 @@ TEST(QualityController, ComesBackWhenTheSceneIsLighter) {
 }
 
 TEST(QualityController, DoesNotSwingWhereTheFinerLevelJustDoesNotFit) {
-  // Priors that promise too much: the finer level is expected to fit and does not.
+  // Priors that are too optimistic: the finer level is expected to fit and does not.
   for (const double finest : {45.0, 48.0, 60.0, 70.0, 100.0}) {
     QualityOptions options;
     options.expected_cost = {1.0, 0.95, 0.9, 0.85, 0.8};
@@ -127,7 +128,7 @@ TEST(QualityController, HeatHoldsItDownUntilItHasCooledClearly) {
   EXPECT_EQ(controller.steps().back().reason, QualityReason::kHot);
   controller.SetPower(1.0, {85.0, std::nullopt});
   EXPECT_EQ(controller.level(), 2u);
-  // About the bound nothing swings.
+  // Quality does not oscillate around the limit.
   double time = 2.0;
   for (int i = 0; i < 30; ++i) {
     controller.SetPower(time, {i % 2 == 0 ? 83.5 : 84.5, std::nullopt});

@@ -35,7 +35,7 @@ TEST(ShowCaptions, TheTwoThatBeganLastAreShownTheNewestFirst) {
   EXPECT_EQ(captions[0].text, "first");
   EXPECT_EQ(captions[1].speaker, "Girl");
   EXPECT_NE(captions[0].colour, captions[1].colour);
-  // Two that began in the same tick are both there.
+  // Two lines that began in the same tick are both shown.
   staged.lines = {{0, 1, 0.5, true}, {1, 0, 0.5, true}};
   CollectCaptions(Texts(), staged, captions);
   EXPECT_EQ(captions.size(), 2u);

@@ -100,9 +100,10 @@ TEST_F(ShowContentTest, ThePeopleOfAClosedBundleAreReadInMoreDetail) {
   ASSERT_TRUE(finer.ok()) << finer.message();
   EXPECT_EQ(finer->human->meshes[0].positions, human.meshes[0].positions);
   EXPECT_EQ(finer->light->at(0).vertices(), 4u);
-  EXPECT_EQ(finer->human->textures, content->cast[0].human->textures);  // the same in memory
+  // The same objects in memory.
+  EXPECT_EQ(finer->human->textures, content->cast[0].human->textures);
 
-  // What lies there now was not opened.
+  // The file has changed since it was opened.
   human.meshes[0].positions[0].y += 1.0f;
   human_ = human::SerializeHuman(human);
   ASSERT_TRUE(Load().ok());
@@ -138,7 +139,7 @@ TEST_F(ShowContentTest, LoadsAllPlacesInTheBundlesOrder) {
 TEST_F(ShowContentTest, OccludersDoWhatTheBundleSays) {
   manifest_.places[1].occluders[0].blocks_walking = false;
   manifest_.places[1].occluders[0].receives_shadow = false;
-  // The yard stands in the way at the bar too.
+  // The yard's occluders block walking at the bar too.
   const auto bar = Load("bar");
   ASSERT_TRUE(bar.ok()) << bar.message();
   EXPECT_FALSE(bar->elsewhere.at(0).occluders.at(0).blocks_walking);
@@ -194,7 +195,7 @@ TEST_F(ShowContentTest, DescriptionsAreInTheLanguageThatIsRead) {
   EXPECT_TRUE(content->speech[0].describes);
   EXPECT_FALSE(content->speech[1].describes);
   EXPECT_EQ(content->speech[0].visemes.keys.size(), 1u) << "not that of another language";
-  // One of the cast may have that name.
+  // A cast member may have that name.
   manifest_.cast[0].name = "description";
   const auto actors = Load();
   ASSERT_TRUE(actors.ok()) << actors.message();

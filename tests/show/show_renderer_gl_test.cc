@@ -15,8 +15,8 @@
 namespace lararium::show {
 namespace {
 
-constexpr geometry::CameraModel kCamera{160, 120, 200.0, 200.0, 79.5, 59.5};
-const float kKnee = render::RenderScene().knee;  // of the camera's response
+constexpr geometry::CameraModel kShowCamera{160, 120, 200.0, 200.0, 79.5, 59.5};
+const float kKnee = render::RenderScene().knee;  // Knee of the camera's response.
 
 double LinearFromSrgb(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
@@ -28,7 +28,7 @@ uint8_t SrgbFromLinear(double c) {
       std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055)));
 }
 
-// Light that makes a white matte surface of the given radiance, from whichever side.
+// Light that gives a white matte surface this radiance, for any orientation.
 light::ProbeLight UniformLight(const glm::vec3& radiance) {
   light::ProbeLight light;
   light.sky[0] = radiance * 2.0f * std::sqrt(std::numbers::pi_v<float>);
@@ -54,24 +54,24 @@ class ShowRendererTest : public render::GlTest {
     auto renderer = ShowRenderer::Create(content);
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
-    target_.emplace(MakeTarget(kCamera.width, kCamera.height));
+    target_.emplace(MakeTarget(kShowCamera.width, kShowCamera.height));
     staged_.actors.resize(1);
     staged_.actors[0].figure = content.cast[0].human;
     staged_.actors[0].skin_count = 1;
     staged_.actors[0].stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
     staged_.skin = {glm::mat4(1.0f)};
     staged_.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
-    staged_.tracked.camera = kCamera;
+    staged_.tracked.camera = kShowCamera;
   }
 
   void SetLight(const glm::vec3& radiance) {
     staged_.light = staged_.actors[0].light = UniformLight(radiance);
   }
 
-  // An even image of the camera: linear colour, below the knee.
+  // Draws over a uniform camera image: linear colour, below the knee.
   cv::Mat Draw(const glm::vec3& background = glm::vec3(0.0f)) {
     staged_.tracked.frame.bgr =
-        cv::Mat(kCamera.height, kCamera.width, CV_8UC3,
+        cv::Mat(kShowCamera.height, kShowCamera.width, CV_8UC3,
                 cv::Scalar(SrgbFromLinear(background.b), SrgbFromLinear(background.g),
                            SrgbFromLinear(background.r)));
     const Status drawn = renderer_->Draw(staged_, *target_);
@@ -105,8 +105,8 @@ TEST_F(ShowRendererTest, OneStopLessOfTheCameraIsOneStopLessOfThePeople) {
 }
 
 TEST_F(ShowRendererTest, PeopleStandInThePictureLikeThePlaceAtEveryGain) {
-  // What has the radiance of the map's reference there looks like the place itself,
-  // whatever exposure and white balance the camera chose: the ball vanishes.
+  // A surface with the radiance of the map's reference looks like the place itself, for any
+  // exposure and white balance of the camera: the ball vanishes.
   const glm::vec3 albedo(0.6f, 0.4f, 0.3f);
   const glm::vec3 light(0.8f, 0.9f, 1.0f);
   Create(albedo, {{}});
@@ -184,12 +184,12 @@ TEST_F(ShowRendererTest, GhostsAreOfOneColourWhereNothingHidesThemAndChangeNoPic
   yard.occluders = {{"wall", Wall(0.0f, 9.0f, -2.0f), {}}, {"floor", Wall(-9.0f, 9.0f, -6.0f), {}}};
   Create(glm::vec3(0.5f), {yard});
   SetLight(glm::vec3(0.8f));
-  staged_.blockers = {{0.0f, 0.0f, -5.5f, 1.0f}};  // a shadow that falls on the floor
+  staged_.blockers = {{0.0f, 0.0f, -5.5f, 1.0f}};  // A shadow on the floor.
   const cv::Mat before = Draw(glm::vec3(0.2f));
   render::SceneMark mark;
   mark.colour = {0.1f, 0.2f, 0.9f};
   mark.share = 1.0f;
-  ASSERT_TRUE(renderer_->DrawGhosts(staged_, mark, *target_).ok());
+  ASSERT_TRUE(renderer_->DrawOverlays(staged_, mark, *target_).ok());
   const cv::Mat ghost = Read(*target_);
   cv::Mat coverage;
   renderer_->ReadCoverage(coverage);
@@ -208,10 +208,10 @@ TEST_F(ShowRendererTest, GhostsAreOfOneColourWhereNothingHidesThemAndChangeNoPic
   EXPECT_TRUE(test::ImagesAgree(Draw(glm::vec3(0.2f)), before, {.max = 0.0, .mean = 0.0}));
 }
 
-// By which the middle of the ball's ellipse moves: f z / (z^2 - r^2).
+// Motion of the middle of the ball's ellipse: f z / (z^2 - r^2).
 constexpr double kPixelsPerMetre = 200.0 * 4.0 / (16.0 - 1.0);
 
-// Where the ball is in the picture; the camera's image is black.
+// Column of the ball in the picture; the camera's image is black.
 double BallAt(const cv::Mat& picture) {
   cv::Mat lit;
   cv::inRange(picture, cv::Scalar::all(60), cv::Scalar::all(255), lit);
@@ -241,7 +241,7 @@ TEST_F(ShowRendererTest, AtHalfTheRatePeopleMoveInEverySecondPicture) {
     staged_.actors[0].stage_from_actor[3].x = 0.1f * static_cast<float>(frame);
     seen.push_back(BallAt(Draw()));
   }
-  // The first picture is whole; each pair shows what the one before began.
+  // The first picture is drawn as a whole; each pair shows what the previous pair began.
   const std::array<double, 7> expected = {0, 0, 1, 1, 3, 3, 5};
   for (size_t frame = 0; frame < seen.size(); ++frame) {
     EXPECT_NEAR(seen[frame] - seen[0], kPixelsPerMetre * 0.1 * expected[frame], 0.3) << frame;

@@ -9,7 +9,7 @@ namespace {
 
 TEST(TrackingStatistics, CountsWhatHappened) {
   TrackingStatistics statistics;
-  test::FakePoses poses(4);  // lost in frames 0, 4, 8
+  test::FakePoses poses(4);  // Lost in frames 0, 4, 8.
   for (int64_t index = 0; index < 10; ++index) {
     geometry::Frame frame;
     frame.index = index;
@@ -53,7 +53,7 @@ TEST(ShowStatistics, HoldsWhatTheDesignNames) {
       EXPECT_TRUE(json[stage].contains(key)) << stage << " " << key;
     }
   }
-  // Its frames pass several threads, whose processor time is not the frame's.
+  // Frames pass through several threads whose CPU time is not the frame's.
   EXPECT_TRUE(json["total"].contains("p95"));
   EXPECT_FALSE(json["total"].contains("cpu_p50"));
   for (const char* key : {"tracked_fraction", "followed_fraction", "relocalizations", "inliers",

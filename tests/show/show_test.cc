@@ -58,7 +58,7 @@ TEST_F(ShowTest, AnyOrderOfTimesGivesTheStateOfPlaying) {
 }
 
 TEST_F(ShowTest, AnotherMomentIsStagedAsItWillBeAndLeavesNoTrace) {
-  // Where the actor is tells whether the visitor was there a moment ago.
+  // The actor's position shows whether the visitor was present a moment ago.
   ShowContent content = test::SmallContent();
   content.drama = R"(
     local one = actor("one")
@@ -79,15 +79,15 @@ TEST_F(ShowTest, AnotherMomentIsStagedAsItWillBeAndLeavesNoTrace) {
   for (int i = 0; i <= 120; ++i) {
     vision::TrackedFrame tracked = test::FakePoses().Track({});
     if (i >= 80) {
-      tracked.camera_from_map.reset();  // they look away
+      tracked.camera_from_map.reset();  // The visitor looks away.
     }
-    const double time = i <= 40 ? i / 30.0 : (i - 20) / 30.0;  // once back
+    const double time = i <= 40 ? i / 30.0 : (i - 20) / 30.0;  // Goes back once.
     plain->StageFrame(tracked, time, expected);
     glancing->StageFrame(tracked, time, staged);
     ASSERT_EQ(staged.actors.at(0).stage_from_actor, expected.actors.at(0).stage_from_actor) << i;
     ASSERT_EQ(staged.skin, expected.skin) << i;
     for (const double offset : {-0.5, -0.25, 0.25, 0.5, 1.5}) {
-      ASSERT_TRUE(glancing->StageOther(time + offset, staged, other).ok());
+      ASSERT_TRUE(glancing->StageAtTime(time + offset, staged, other).ok());
     }
   }
   EXPECT_NEAR(PositionX(expected), -7.0f, 0.1f) << "the drama does not depend on the visitor";
@@ -100,7 +100,7 @@ TEST_F(ShowTest, AnotherMomentIsThatOfTheDrama) {
   const StagedFrame staged = At(*show, 0.5);
   StagedFrame other;
   for (const double time : {0.0, 0.25, 0.75, 0.9}) {
-    ASSERT_TRUE(show->StageOther(time, staged, other).ok());
+    ASSERT_TRUE(show->StageAtTime(time, staged, other).ok());
     EXPECT_NEAR(PositionX(other), time, 1e-4);
     EXPECT_NEAR(other.time, time, 1e-9);
     EXPECT_EQ(other.camera_from_stage->translation, staged.camera_from_stage->translation);
@@ -111,7 +111,7 @@ TEST_F(ShowTest, AnotherMomentIsThatOfTheDrama) {
 TEST_F(ShowTest, ThePoseOnTheStageIsMetric) {
   const std::unique_ptr<Show> show = Make();
   const StagedFrame staged = At(*show, 0.0);
-  // The map is twice as large as the stage, so 4 map units are 2 metres.
+  // The map's scale is twice the stage's, so 4 map units are 2 metres.
   ASSERT_TRUE(staged.camera_from_stage.has_value());
   EXPECT_NEAR(staged.camera_from_stage->translation.z(), 2.0, 1e-12);
 }
@@ -131,9 +131,9 @@ TEST_F(ShowTest, TheStageGoesWhereTheFramesMapSaysAndTheDramaRunsOn) {
   struct Step {
     std::optional<uint32_t> map;
     uint32_t place;
-    double depth;  // 4 map units in metres of the place
+    double depth;  // 4 map units, in metres of the place.
   };
-  // The bar's map is twice as large as the stage, the yard's half as large.
+  // The scale of the bar's map is twice the stage's, the yard's is half of it.
   double time = 0.0;
   for (const Step& step : {Step{0, 0, 2.0}, Step{1, 1, 8.0}, Step{std::nullopt, 1, 0.0},
                            Step{std::nullopt, 1, 0.0}, Step{1, 1, 8.0}, Step{0, 0, 2.0}}) {
@@ -356,7 +356,7 @@ TEST_F(ShowTest, TheDramaHearsOfItsVisitor) {
   const glm::vec3 at = staged.actors.at(0).stage_from_actor[3];
   EXPECT_EQ(at.x, 1.0f);
   EXPECT_EQ(at.z, 1.0f);
-  // 4 map units before the stage's origin, 2 to the metre.
+  // The camera is 4 map units from the stage's origin, at 2 units per metre.
   EXPECT_NEAR(at.y, -2.0f, 1e-3f);
 }
 
@@ -385,7 +385,7 @@ TEST_F(ShowTest, LampsBurnWhereTheirObjectsAreAndAsTheDramaSays) {
   ASSERT_EQ(lit.lamps.size(), 1u);
   EXPECT_LT(glm::distance(lit.lamps[0].position, glm::vec3(1.0f, 0.1f, -2.0f)), 1e-5f);
   EXPECT_GT(lit.objects.at(0).glow, 0.5f);
-  EXPECT_EQ(At(*show, 0.5).lamps[0].intensity, lit.lamps[0].intensity);  // of the time alone
+  EXPECT_EQ(At(*show, 0.5).lamps[0].intensity, lit.lamps[0].intensity);  // Depends on time only.
   const StagedFrame out = At(*show, 1.5);
   EXPECT_TRUE(out.lamps.empty());
   EXPECT_EQ(out.objects.at(0).glow, 0.0f);
@@ -405,7 +405,7 @@ TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
   const auto radiance_at = [&](double time) { return At(*show, time).actors.at(0).light.sky[0].r; };
   EXPECT_NEAR(radiance_at(0.0), 1.0f, 1e-3f);
-  EXPECT_NEAR(radiance_at(0.5), 2.0f, 1e-3f);  // the middle, at nine
+  EXPECT_NEAR(radiance_at(0.5), 2.0f, 1e-3f);  // The middle, at nine o'clock.
   EXPECT_NEAR(radiance_at(1.0), 6.0f, 1e-3f);
   float before = radiance_at(0.0);
   for (double time = 0.0; time < 0.74; time += 1.0 / 60.0) {
@@ -417,7 +417,7 @@ TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {
 
 TEST_F(ShowTest, WhileTrackingIsLostPeopleAreHeldThenFadeThenTheVisitorIsGuided) {
   const std::unique_ptr<Show> show = Make();
-  show->SetLostLadder({});
+  show->SetTrackingLossFader({});
   StagedFrame staged;
   const auto stage = [&](double time, bool tracked) {
     vision::TrackedFrame frame = test::FakePoses().Track({});
@@ -436,7 +436,7 @@ TEST_F(ShowTest, WhileTrackingIsLostPeopleAreHeldThenFadeThenTheVisitorIsGuided)
   EXPECT_EQ(staged.opacity, 1.0f);
   stage(time, false);
   EXPECT_EQ(staged.opacity, 1.0f);
-  EXPECT_EQ(staged.rung, LostLadder::Rung::kHeld);
+  EXPECT_EQ(staged.rung, TrackingLossFader::State::kHeld);
   ASSERT_TRUE(staged.camera_from_stage);
   EXPECT_NEAR((staged.camera_from_stage->Center() - seen->Center()).norm(), 0.0, 1e-6);
   EXPECT_EQ(staged.gain, (std::array<float, 3>{1.0f, 1.0f, 1.0f}));
@@ -500,8 +500,8 @@ TEST_F(ShowTest, AnotherShowGoesOnWhereOneWas) {
   stage(*before, 7.0, 0.0);
   const StagedFrame last = stage(*before, 7.4, 0.4);
   const std::unique_ptr<Show> after = Make();
-  ASSERT_TRUE(after->GoOnFrom(*before).ok());
-  // A pipeline that begins anew counts its times from its first frame.
+  ASSERT_TRUE(after->ResumeFrom(*before).ok());
+  // A new pipeline counts its times from its first frame.
   const StagedFrame next = stage(*after, 7.5, 0.0);
   EXPECT_NEAR(PositionX(next), PositionX(last), 0.01);
   EXPECT_NEAR(next.sound.frame_time, 0.5, 1e-9);
@@ -509,11 +509,11 @@ TEST_F(ShowTest, AnotherShowGoesOnWhereOneWas) {
 }
 
 TEST_F(ShowTest, APoseThatIsFoundAnewIsTakenAsItIs) {
-  // By how much the place moves that people are drawn at, when after a loss they are found
-  // elsewhere.
+  // The change of the pose with which people are drawn, when tracking returns at a different pose
+  // after a loss.
   const auto moved = [&](bool forget) {
     const std::unique_ptr<Show> show = Make();
-    show->SetLostLadder({});
+    show->SetTrackingLossFader({});
     StagedFrame staged;
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
     for (int i = 0; i < 10; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// A show of one actor with one joint, and doubles of what feeds it.
+// A show of one actor with one joint, and fakes of its frame and pose sources.
 
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace lararium::test {
 // Actor "one" walks along +X at 1 m/s from the origin and then stops.
 show::ShowContent SmallContent();
 
-// Frames at 30 per second from a list; fails at fail_at, if not negative.
+// Delivers `count` frames at 30 per second; fails at frame fail_at unless it is negative.
 class FakeSource : public capture::FrameSource {
  public:
   explicit FakeSource(int64_t count, int64_t fail_at = -1) : count_(count), fail_at_(fail_at) {}
@@ -33,7 +33,7 @@ class FakeSource : public capture::FrameSource {
   int64_t next_ = 0;
 };
 
-// A pose for every frame but those whose index is a multiple of lost_every.
+// Gives a pose for every frame except those whose index is a multiple of lost_every.
 class FakePoses : public vision::PoseSource {
  public:
   explicit FakePoses(int64_t lost_every = 0) : lost_every_(lost_every) {}

@@ -24,7 +24,7 @@ stage::Prop WithUse(stage::Prop prop, const char* use) {
   return prop;
 }
 
-// A chest that rattles as it is opened and hums while it is open.
+// A chest that rattles while being opened and hums while open.
 constexpr const char* kChest = R"({"schema": 1, "states": ["shut", "open"],
   "places": {"front": {"at": [0, -0.6], "heading": 180}},
   "sounds": [{"name": "hum", "states": ["open"], "at": [0, 0.5, 0], "gain_db": -6}],
@@ -84,7 +84,7 @@ TEST_F(Director, APlaceIsHeardAsItIs) {
 TEST_F(Director, TheEarsAreAtTheCameraAndStayWithoutAPose) {
   SoundDirector director = Make();
   audio::SoundScene scene;
-  // Three metres behind the origin, looking at it, as cameras have their axes.
+  // Three metres behind the origin, looking at it; camera axes.
   const geometry::Rigid3 pose{Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 1.5, 3.0}};
   director.Begin(0.0, 0, pose, scene);
   EXPECT_LT(glm::distance(scene.listener.position, geometry::ToGlm(pose.Center())), 1e-5f);
@@ -143,7 +143,7 @@ TEST_F(Director, WallsHideAndCurtainsDoNot) {
     content_.places[0].stage.occluders = {wall};
     SoundDirector director = Make();
     audio::SoundScene scene;
-    director.Begin(0.0, 0, std::nullopt, scene);  // the ears are at z = 2
+    director.Begin(0.0, 0, std::nullopt, scene);  // The listener is at z = 2.
     director.Finish(0, scene);
     EXPECT_EQ(Find(scene, director.library()->Find("hum"))->obstruction, blocks ? 1.0f : 0.0f);
     EXPECT_EQ(Find(scene, director.library()->Find("street"), true)->obstruction, 0.0f);
@@ -180,7 +180,7 @@ TEST_F(Director, AShowSaysWhatItsDramaPlays) {
   test::FakePoses poses;
   test::FakeSource source(100);
   StagedFrame staged;
-  for (const double time : {0.4, 0.7, 0.2, 0.7}) {  // there, back and there again
+  for (const double time : {0.4, 0.7, 0.2, 0.7}) {  // Forward, back and forward again.
     (*show)->StageFrame(poses.Track(**source.Next()), time, staged);
     const Voice* voice = Find(staged.sound, (*show)->sounds()->Find("street"));
     ASSERT_EQ(voice != nullptr, time == 0.7) << time;

@@ -4,16 +4,14 @@
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <vector>
 
+#include "shared/core/units.h"
 #include "shared/show/stage_light.h"
 #include "tests/stage/test_props.h"
 
 namespace lararium::show {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Unshadowed transfer for every vertex of a chest, as if all normals were +Y, in one key pose
 // for each mask of parts.
@@ -58,7 +56,7 @@ std::vector<glm::mat4> PartsAt(const glm::vec3& place, float lid = 0.0f) {
   return {body, glm::rotate(hinge, lid, {1.0f, 0.0f, 0.0f})};
 }
 
-// Of every vertex of the things, each with all of its parts.
+// The light of every vertex of the objects, each with all of its parts.
 std::vector<std::vector<glm::vec3>> Light(const std::vector<stage::Prop>& props,
                                           const std::vector<std::vector<glm::mat4>>& parts,
                                           const std::vector<std::vector<uint8_t>>& shown) {
@@ -91,7 +89,7 @@ TEST(ThingLight, AtItsKeyPoseAThingAloneHasTheLightThatWasBaked) {
     const auto lit = Light({MakeLitChest()}, {parts}, {{1, 1}});
     ASSERT_EQ(lit[0].size(), 16u);
     for (const glm::vec3& irradiance : lit[0]) {
-      EXPECT_NEAR(irradiance.g, kPi, 0.05f);
+      EXPECT_NEAR(irradiance.g, kPiF, 0.05f);
     }
   }
 }
@@ -102,17 +100,17 @@ TEST(ThingLight, AThingBesideItShadesIt) {
   const auto far = Light({MakeLitChest(), MakeLitChest()},
                          {PartsAt({0, 0, 0}), PartsAt({60, 0.8f, 0})}, {{1, 1}, {1, 1}});
   EXPECT_LT(near[0][0].g, 0.95f * far[0][0].g);
-  EXPECT_NEAR(far[0][0].g, kPi, 0.05f);
+  EXPECT_NEAR(far[0][0].g, kPiF, 0.05f);
 }
 
 TEST(ThingLight, WhatHasNoLightOfItsOwnShadesAllTheSame) {
   const auto lit = Light({MakeLitChest(), test::MakeChest()},
                          {PartsAt({0, 0, 0}), PartsAt({0.5f, 0.8f, 0})}, {{1, 1}, {1, 1}});
-  EXPECT_LT(lit[0][0].g, 0.95f * kPi);
+  EXPECT_LT(lit[0][0].g, 0.95f * kPiF);
   EXPECT_TRUE(lit[1].empty());
 }
 
-// What lights a figure counts on a mesh of light for each of its meshes.
+// Lighting of a figure expects a light mesh for each of its meshes.
 TEST(ThingLight, AFigureHasMeshesOnlyWithTheirLight) {
   EXPECT_TRUE(FigureOf(test::MakeChest())->meshes.empty());
   const auto lit = FigureOf(MakeLitChest());
@@ -124,8 +122,8 @@ TEST(ThingLight, ThePartsThatAreThereChooseTheKeyPose) {
   const stage::Prop prop = MakeLitChest({1, 3});
   const auto bare = Light({prop}, {PartsAt({0, 0, 0})}, {{1, 0}});
   const auto lidded = Light({prop}, {PartsAt({0, 0, 0})}, {{1, 1}});
-  EXPECT_NEAR(bare[0][0].g, kPi, 0.06f);
-  EXPECT_NEAR(lidded[0][0].g, 0.5f * kPi, 0.06f);
+  EXPECT_NEAR(bare[0][0].g, kPiF, 0.06f);
+  EXPECT_NEAR(lidded[0][0].g, 0.5f * kPiF, 0.06f);
 }
 
 TEST(ThingMemory, AsksForLightOnlyWhenSomethingNearHasChanged) {
@@ -138,11 +136,11 @@ TEST(ThingMemory, AsksForLightOnlyWhenSomethingNearHasChanged) {
   const auto changed = [&] { return memory.Update(sky, lamps, place, skin, blockers); };
   EXPECT_TRUE(changed());
   EXPECT_FALSE(changed());
-  blockers[1].x -= 20.0f;  // too far to matter
+  blockers[1].x -= 20.0f;  // Too far to matter.
   EXPECT_FALSE(changed());
   blockers.pop_back();
   EXPECT_FALSE(changed());
-  // Creeping does not go unnoticed for ever.
+  // Slow motion is noticed eventually.
   int lit = 0;
   for (int i = 0; i < 100; ++i) {
     blockers[0].x += 0.002f;

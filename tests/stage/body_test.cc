@@ -1,4 +1,4 @@
-// People with whole bodies at the stage's objects: what is seen, not only what is meant.
+// Complete bodies at the stage's objects: checks the drawn poses, not only the state.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
-#include "shared/human/performance.h"
+#include "shared/human/animator.h"
 #include "shared/stage/stage.h"
 #include "tests/human/full_body.h"
 #include "tests/stage/test_props.h"
@@ -21,7 +21,7 @@ class BodyTest : public ::testing::Test {
   BodyTest()
       : human_(std::make_shared<human::Human>(human::FullBody(0.9f, 0))),
         keeper_(*stage_.Add("keeper", human_)),
-        performer_(stage_.Find(keeper_)->model) {}
+        animator_(stage_.Find(keeper_)->model) {}
 
   ObjectId AddObject(const char* name, stage::Prop prop, float x, float z) {
     return *stage_.AddObject(name, test::Model(std::move(prop)), {{x, 0.0f, z}});
@@ -42,31 +42,31 @@ class BodyTest : public ::testing::Test {
     EXPECT_EQ(stage_.tasks().report(*task).state, TaskReport::State::kDone)
         << stage_.tasks().report(*task).message;
   }
-  // Of the body as it is drawn: the middle between the hip joints, stage frame.
+  // Middle between the hip joints of the drawn body, stage frame.
   glm::vec3 Hips() {
-    performer_.Pose(State().performance);
+    animator_.Pose(State().animation_state);
     glm::vec3 middle(0.0f);
-    for (const human::Body::Leg& leg : performer_.model().sitting.body.legs) {
+    for (const human::BodyRig::Leg& leg : animator_.model().sitting.body.legs) {
       middle +=
           0.5f *
-          human::ActorFromJoint(performer_.human().skeleton, performer_.pose(), leg.hip).position;
+          human::ActorFromJoint(animator_.human().skeleton, animator_.pose(), leg.hip).position;
     }
     return StageFromActorPose(State()) * middle;
   }
   const ActorState& State() { return stage_.Find(keeper_)->state; }
 
-  // Of the body as it is drawn, stage frame.
+  // Palm of the drawn body.
   Pose StageFromPalm(int side) {
-    performer_.Pose(State().performance);
+    animator_.Pose(State().animation_state);
     const human::GripFrame palm = human::ActorFromPalm(
-        performer_.model().reach, performer_.human().skeleton, performer_.pose(), side);
+        animator_.model().reach, animator_.human().skeleton, animator_.pose(), side);
     return StageFromActorPose(State()) * Pose{palm.position, palm.rotation};
   }
 
   std::shared_ptr<const human::Human> human_;
   Stage stage_;
   ActorId keeper_;
-  human::Performer performer_;
+  human::Animator animator_;
 };
 
 TEST_F(BodyTest, TheHandStaysOnTheGripOfAMovingPart) {
@@ -89,7 +89,7 @@ TEST_F(BodyTest, TheHandStaysOnTheGripOfAMovingPart) {
   EXPECT_LT(worst, 0.005f);
 }
 
-// A place that has something solid, axis-aligned, in it.
+// A place with an axis-aligned solid box.
 stage::Place PlaceWith(const stage::PropMesh& solid) {
   stage::Place place;
   Occluder& occluder = place.occluders.emplace_back();
@@ -117,7 +117,7 @@ TEST_F(BodyTest, PeopleReachOverACounterFromEitherSide) {
   for (const float side : {1.5f, -1.5f}) {
     for (const ObjectId thing : things) {
       Place(0.0f, side);
-      // Turned as somebody on that side takes it.
+      // Turned so that an actor on that side can take it.
       const glm::vec3 lies = stage_.Find(thing)->state.stage_from_object.position;
       const float turn = side > 0.0f ? 0.0f : std::numbers::pi_v<float>;
       stage_.Place(thing, {lies, glm::angleAxis(turn, glm::vec3(0.0f, 1.0f, 0.0f))});
@@ -127,7 +127,7 @@ TEST_F(BodyTest, PeopleReachOverACounterFromEitherSide) {
       while (!stage_.tasks().report(*task).over()) {
         Tick();
         const ObjectState& state = stage_.Find(thing)->state;
-        if (state.holder && !held) {  // the moment in which it is taken
+        if (state.holder && !held) {  // The moment in which it is taken.
           held = true;
           const Pose grip = state.stage_from_object * ObjectFromGrip(*stage_.Find(thing)->model,
                                                                      state.joints, state.hands[0]);
@@ -163,7 +163,7 @@ TEST_F(BodyTest, WhatIsCarriedStaysInTheHandAndUpright) {
     const Object& object = *stage_.Find(cup);
     const Pose palm = StageFromPalm(human::kRight);
     const human::GripFrame in_actor = human::ActorFromPalm(
-        performer_.model().reach, performer_.human().skeleton, performer_.pose(), human::kRight);
+        animator_.model().reach, animator_.human().skeleton, animator_.pose(), human::kRight);
     const Pose drawn = DrawnPose(*object.model, object.state, StageFromActor(State()), in_actor);
     const Pose grip = drawn * ObjectFromGrip(*object.model, object.state.joints,
                                              object.state.hands[human::kRight]);
@@ -182,7 +182,7 @@ TEST_F(BodyTest, SitsOnAStoolDrinksThereAndGetsUp) {
   Finish(stage_.tasks().Take(keeper_, cup));
   Finish(stage_.tasks().Use(keeper_, stool, "sit", 0.0f));
   ASSERT_TRUE(stage_.tasks().Sits(keeper_));
-  const human::SittingModel& model = performer_.model().sitting;
+  const human::SittingModel& model = animator_.model().sitting;
   EXPECT_NEAR(Hips().y, 0.46f + model.seat_to_hips, 0.01f);
   EXPECT_LT(glm::length(glm::vec2(Hips().x, Hips().z - 0.02f)), 0.05f) << "over the seat";
   EXPECT_LT(std::abs(State().heading), 0.05f);
@@ -208,7 +208,7 @@ TEST_F(BodyTest, SitsOnAStoolDrinksThereAndGetsUp) {
   EXPECT_EQ(State().position, feet);
 
   Finish(stage_.tasks().Walk(keeper_, {1, -2}, {}, 0.0f));
-  EXPECT_EQ(State().performance.sitting.amount, 0.0f);
+  EXPECT_EQ(State().animation_state.sitting.amount, 0.0f);
   EXPECT_LT(glm::distance(stage_.Find(keeper_)->place(), glm::vec2(1, -2)), 0.05f);
 }
 
@@ -220,11 +220,11 @@ TEST_F(BodyTest, FeetStandWhileTheBodySitsDownAndGetsUp) {
   float slid = 0.0f;
   bool watching = false;
   const auto watch = [&] {
-    performer_.Pose(State().performance);
+    animator_.Pose(State().animation_state);
     for (size_t side = 0; side < 2; ++side) {
       const human::JointFrame ankle =
-          human::ActorFromJoint(performer_.human().skeleton, performer_.pose(),
-                                performer_.model().sitting.body.legs[side].ankle);
+          human::ActorFromJoint(animator_.human().skeleton, animator_.pose(),
+                                animator_.model().sitting.body.legs[side].ankle);
       const glm::vec3 at = StageFromActorPose(State()) * ankle.position;
       slid = watching ? std::max(slid, glm::distance(at, stood[side])) : 0.0f;
       stood[side] = watching ? stood[side] : at;
@@ -233,12 +233,12 @@ TEST_F(BodyTest, FeetStandWhileTheBodySitsDownAndGetsUp) {
   };
   while (!stage_.tasks().report(*sit).over()) {
     Tick();
-    if (State().performance.sitting.amount > 0.0f) {
+    if (State().animation_state.sitting.amount > 0.0f) {
       watch();
     }
   }
   const auto stand = stage_.tasks().Stand(keeper_);
-  while (State().performance.sitting.amount > 0.0f) {
+  while (State().animation_state.sitting.amount > 0.0f) {
     Tick();
     watch();
   }
@@ -252,14 +252,14 @@ TEST_F(BodyTest, FeetDoNotSlideOnTheCrowdsWays) {
   Place(-3, -2);
   Tick();
   float worst = 0.0f;
-  std::array<human::Locomotion::Foot, 2> before = State().performance.locomotion.feet;
+  std::array<human::Locomotion::Foot, 2> before = State().animation_state.locomotion.feet;
   std::array<float, 2> slid = {0.0f, 0.0f};
   for (const glm::vec2 goal : {glm::vec2(3, 2), glm::vec2(-2, 2.5f), glm::vec2(2, -3)}) {
     const auto task = stage_.tasks().Walk(keeper_, goal, {}, 0.0f);
     while (!stage_.tasks().report(*task).over()) {
       Tick();
       for (size_t side = 0; side < 2; ++side) {
-        const human::Locomotion::Foot& foot = State().performance.locomotion.feet[side];
+        const human::Locomotion::Foot& foot = State().animation_state.locomotion.feet[side];
         if (foot.planted && before[side].planted) {
           slid[side] += glm::distance(foot.print.position, before[side].print.position);
           worst = std::max(worst, slid[side]);

@@ -18,7 +18,7 @@ std::unique_ptr<Navigation> Make(std::span<const NavigationSolid> solids = {},
   return *std::move(made);
 }
 
-// From x = -1 to 1 at z = -0.1 .. 0.1.
+// A wall from x = -1 to 1 at z = -0.1 .. 0.1.
 BlockedArea Counter(bool gate = false) {
   return {{{-1.0f, -0.1f}, {1.0f, -0.1f}, {1.0f, 0.1f}, {-1.0f, 0.1f}}, gate};
 }
@@ -49,7 +49,7 @@ TEST(Navigation, AWayLeadsAroundWhatBlocks) {
   const auto way = navigation->FindWay({0, 1}, {0, -1});
   ASSERT_TRUE(way.has_value());
   EXPECT_TRUE(way->complete);
-  // Round the corner at x = 1, z = +-0.1, with a quarter of a metre's room.
+  // The path goes round the corner at x = 1, z = +-0.1, at a distance of 0.25 m.
   const float shortest = 2.0f * glm::distance(glm::vec2(0, 1), glm::vec2(1.25f, 0.0f));
   EXPECT_GT(way->length, shortest - 0.15f);
   EXPECT_LT(way->length, shortest + 0.3f);

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "shared/core/units.h"
 #include "shared/stage/caption_file.h"
 #include "shared/stage/object.h"
 #include "shared/stage/viseme_file.h"
@@ -15,8 +15,6 @@ namespace lararium::stage {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 Result<ObjectUse> Parse(const std::string& fields) {
   const Prop prop = test::MakeChest();
@@ -40,8 +38,8 @@ TEST(ObjectUse, ReadsWhatTheDocumentationShows) {
      "queue": {"at": [0.6, -1.2], "heading": 180, "step": [0.3, -0.7]}})",
                                      test::MakeChest(), "jar.object.json");
   ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_NEAR(parsed->joints[0].upper, 100.0f / 180.0f * kPi, 1e-6f);
-  EXPECT_NEAR(parsed->actions[0].moves[0].to, 95.0f / 180.0f * kPi, 1e-6f);
+  EXPECT_NEAR(parsed->joints[0].upper, 100.0f / 180.0f * kPiF, 1e-6f);
+  EXPECT_NEAR(parsed->actions[0].moves[0].to, 95.0f / 180.0f * kPiF, 1e-6f);
   EXPECT_EQ(parsed->actions[0].from, 1u);
   EXPECT_EQ(parsed->actions[0].to, 1);
   EXPECT_EQ(parsed->actions[0].hands, (HandGrips{0, -1}));
@@ -78,7 +76,7 @@ TEST(ObjectUse, ErrorsNameTheFieldAndTheRemedy) {
   } kMistakes[] = {
       {R"("colour": 1)", "chest.object.json: the field \"colour\" is not known"},
       {R"("states": [])", "at least one state"},
-      {R"("states": ["a", "a"])", "states need names"},
+      {R"("states": ["a", "a"])", "every state needs a name"},
       {R"("parts": {"handle": {}})", "parts.handle: the model has no part of this name"},
       {R"("parts": {"lid": {"hinge": [0, 0, 0], "limits": [0, 1]}})", "must be a direction"},
       {R"("parts": {"lid": {"hinge": [0, 1, 0], "limits": [10, 1]}})", "limits must be"},
@@ -100,7 +98,7 @@ TEST(ObjectUse, ErrorsNameTheFieldAndTheRemedy) {
       {R"("places": {"p": {"at": [0, 1]}}, "actions": {"open": {"path": [{"t": 0.9, "at": [0,0,0]}, {"t": 0.5, "at": [0,0,0]}]}})",
        "path[1].t: must lie between"},
       {R"("footprint": {"outline": [[0, 0], [1, 0], [0, 1], [1, 1]]})", "convex"},
-      {R"("carry": {"hands": {}})", "somebody's hands must hold it"},
+      {R"("carry": {"hands": {}})", "at least one hand must hold the object"},
       {R"("capacity": 0)", "capacity"},
       {R"("surfaces": {"top": {"spots": []}})", "spots"},
   };
@@ -138,8 +136,8 @@ TEST(ObjectUse, SoundsOfActionsAndStates) {
 
 TEST(ObjectUse, AHingeTurnsAboutItsPartsOrigin) {
   const auto model = test::Model(test::MakeChest());
-  const float quarter[] = {kPi / 2.0f};
-  // The lid's front edge, 0.4 in front of the hinge, comes to stand 0.4 above it.
+  const float quarter[] = {kPiF / 2.0f};
+  // The lid's front edge, 0.4 m in front of the hinge, moves to 0.4 m above it.
   const glm::vec3 edge = ObjectFromPart(*model, quarter, 1) * glm::vec3(0.0f, 0.0f, -0.4f);
   EXPECT_LT(glm::distance(edge, glm::vec3(0.0f, 1.1f, 0.2f)), 1e-5f);
   Object object;
@@ -161,13 +159,13 @@ TEST(ObjectLight, MovesWithItsPartAndBurnsInItsStates) {
   object.model = test::Model(test::MakeLamp());
   object.seed = 5;
   ObjectState state = InitialState(object);
-  const Pose pose = {{1.0f, 2.0f, 3.0f}, glm::angleAxis(0.5f * kPi, glm::vec3(0, 0, 1))};
+  const Pose pose = {{1.0f, 2.0f, 3.0f}, glm::angleAxis(0.5f * kPiF, glm::vec3(0, 0, 1))};
   std::vector<light::Lamp> lamps;
   AddLamps(object, state, pose, 0.7, lamps);
   ASSERT_EQ(lamps.size(), 1u);
   EXPECT_LT(glm::distance(lamps[0].position, glm::vec3(0.9f, 2.0f, 3.0f)), 1e-5f);
   EXPECT_EQ(lamps[0].radius, 0.02f);
-  // Red and green as the file says, of the luminance 0.5, as the flame flickers.
+  // The colour in the file is red and green of luminance 0.5; the flame's flicker scales it.
   EXPECT_FLOAT_EQ(lamps[0].intensity.r, 2.0f * lamps[0].intensity.g);
   const float luminance = glm::dot(lamps[0].intensity, glm::vec3(0.2126f, 0.7152f, 0.0722f));
   EXPECT_NEAR(luminance, 0.5f * light::Flicker(5, 0.7, 0.3f), 1e-5f);
@@ -218,8 +216,9 @@ TEST(Captions, AreReadAsTheyWereWrittenOrRefusedWithTheirPlace) {
   ASSERT_TRUE(read.ok()) << read.message();
   EXPECT_EQ(*read, book);
   book.lines["salvete"]["en"][1].begin = 1.0;
-  EXPECT_THAT(ParseCaptions(FormatCaptions(book), "captions.json").message(),
-              HasSubstr("lines.salvete.en[1]: its time is empty or lies before"));
+  EXPECT_THAT(
+      ParseCaptions(FormatCaptions(book), "captions.json").message(),
+      HasSubstr("lines.salvete.en[1]: its time is empty or overlaps the caption before it"));
   book.lines["salvete"]["en"] = {{0.0, 1.0, "three\nrows\nthere"}};
   EXPECT_THAT(ParseCaptions(FormatCaptions(book), "captions.json").message(),
               HasSubstr("one or two lines"));

@@ -63,9 +63,9 @@ TEST(Paradata, BadTextsAreRefusedWithTheirPlaceAndARemedy) {
   EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"a": {"source": ["b"]}}}})"),
               HasSubstr("there is no source 'b'"));
   EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"a": {"text": {"english": "b"}}}}})"),
-              testing::IsEmpty());  // BCP 47 allows it
+              testing::IsEmpty());  // BCP 47 allows it.
   EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"a": {"text": {"e n": "b"}}}}})"),
-              HasSubstr("no language tag"));
+              HasSubstr("not a valid language tag"));
   EXPECT_THAT(Problem(R"({"schema": 1, "author": "\u001b[31m"})"), HasSubstr("control characters"));
   EXPECT_THAT(Problem(R"({"schema": 1, "sources": {"a\u0007": "b"}})"),
               HasSubstr("control characters"));

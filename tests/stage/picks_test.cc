@@ -2,9 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
-
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 
 namespace lararium::stage {
 namespace {
@@ -12,8 +11,6 @@ namespace {
 using geometry::Rigid3;
 using geometry::Similarity3;
 using ::testing::HasSubstr;
-
-constexpr double kPi = std::numbers::pi;
 
 // A room in metres, Z up, with a floor at z = 0 and a wall at y = 2, seen by
 // cameras in a half circle that look at the middle of the floor.
@@ -34,7 +31,7 @@ class World {
     }
   }
 
-  // The map that training might give: of this world, in a frame of its own.
+  // A map of this room, as training could produce it, in a frame of its own.
   vision::SceneDatabase Map(const Similarity3& map_from_world) const {
     vision::SceneDatabase database;
     database.camera = camera_;
@@ -87,7 +84,7 @@ class World {
 };
 
 const Eigen::Vector3d kOrigin(0.2, -0.3, 0.0);
-const Eigen::Vector3d kForward(0.2, 0.9, 0.0);  // 1.2 m from the origin
+const Eigen::Vector3d kForward(0.2, 0.9, 0.0);  // 1.2 m from the origin.
 const Eigen::Vector3d kFloor(-0.7, 0.1, 0.0);
 
 StagePicks Picks(const World& world, const std::vector<int>& keyframes) {
@@ -103,7 +100,7 @@ Similarity3 SomeGauge() {
   return {3.7, Eigen::Quaterniond(0.3, -0.5, 0.7, 0.4).normalized(), {5.0, -2.0, 11.0}};
 }
 
-// What the picks of this test mean: metres, origin at kOrigin, -Z along +y, Y up.
+// The stage frame that these picks define: metres, origin at kOrigin, -Z along +y, Y up.
 Eigen::Vector3d StageFromWorld(const Eigen::Vector3d& world) {
   const Eigen::Vector3d d = world - kOrigin;
   return {d.x(), d.z(), -d.y()};
@@ -255,7 +252,7 @@ TEST(StagePicks, LieInTheirSessionOnly) {
   auto solution = SolveStage(picks, map);
   ASSERT_TRUE(solution.ok());
   EXPECT_THAT(solution->anchors[0].left_out, testing::ElementsAre("frame30 of session 2"));
-  map.keyframes[3].session = 2;  // then the others are not in it
+  map.keyframes[3].session = 2;  // The other keyframes have session 0.
   solution = SolveStage(picks, map);
   ASSERT_TRUE(solution.ok());
   EXPECT_EQ(solution->anchors[0].picks, 3);
@@ -265,7 +262,7 @@ TEST(StagePicks, LieInTheirSessionOnly) {
 TEST(StagePicks, AGivenScaleMeasuresTheKnownLength) {
   const World world;
   StagePicks picks = Picks(world, {0, 3, 6});
-  picks.length_m = 1.5;  // in truth 1.2
+  picks.length_m = 1.5;  // The true length is 1.2.
   const auto solution = SolveStage(picks, world.Map(SomeGauge()), SomeGauge().scale);
   ASSERT_TRUE(solution.ok()) << solution.message();
   ExpectTrueStage(*solution, SomeGauge(), 1e-6);

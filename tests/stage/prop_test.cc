@@ -10,7 +10,7 @@
 namespace lararium::stage {
 namespace {
 
-// Two key poses, the lid away in the second.
+// A transfer with two key poses; in the second the lid is not shown.
 void AddLight(Prop& prop) {
   human::LightTransfer& light = prop.light;
   light.count = 9;
@@ -137,7 +137,7 @@ TEST(Prop, SaysWhatIsWrong) {
       std::string::npos);
   EXPECT_NE(error([](Prop& p) {
               p.parts[1].meshes[0].coarser[0].error = -1.0f;
-            }).find("no possible error"),
+            }).find("invalid error value"),
             std::string::npos);
   EXPECT_NE(error([](Prop& p) { p.parts[0].meshes[0].material = 1; }).find("material"),
             std::string::npos);

@@ -2,15 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "shared/core/units.h"
 #include "shared/stage/place.h"
 #include "tests/stage/test_human.h"
 
 namespace lararium::stage {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 TEST(Stage, NamesAreUnique) {
   Stage stage;
@@ -33,7 +30,7 @@ TEST(Stage, StaleIdsReachNobody) {
 TEST(Stage, AdvanceRunsClipsAndFades) {
   Stage stage;
   const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
-  human::Animation& animation = stage.Find(id)->state.performance.animation;
+  human::Animation& animation = stage.Find(id)->state.animation_state.animation;
   const auto advance = [&stage](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       stage.Advance();
@@ -57,15 +54,15 @@ TEST(Stage, InterpolatesBetweenSnapshots) {
   a.actors[0].state.visible = a.actors[1].state.visible = true;
   StageSnapshot b = a;
   b.actors[0].state.position = {0.1f, 0.0f, 0.0f};
-  a.actors[0].state.heading = kPi - 0.1f;
-  b.actors[0].state.heading = -kPi + 0.1f;
-  b.actors[0].state.performance.animation.clip_time = 1.0;
-  b.actors[1].state.position = {3.0f, 0.0f, 0.0f};  // too far for one tick
+  a.actors[0].state.heading = kPiF - 0.1f;
+  b.actors[0].state.heading = -kPiF + 0.1f;
+  b.actors[0].state.animation_state.animation.clip_time = 1.0;
+  b.actors[1].state.position = {3.0f, 0.0f, 0.0f};  // Too far for one tick.
   StageSnapshot between;
   Interpolate(a, b, 0.25f, between);
   EXPECT_FLOAT_EQ(between.actors[0].state.position.x, 0.025f);
-  EXPECT_NEAR(between.actors[0].state.heading, kPi - 0.05f, 1e-5);
-  EXPECT_NEAR(between.actors[0].state.performance.animation.clip_time, 0.25, 1e-9);
+  EXPECT_NEAR(between.actors[0].state.heading, kPiF - 0.05f, 1e-5);
+  EXPECT_NEAR(between.actors[0].state.animation_state.animation.clip_time, 0.25, 1e-9);
   EXPECT_EQ(between.actors[1].state.position.x, 3.0f);
 }
 
@@ -83,14 +80,14 @@ TEST(Stage, InterpolationEndsAtTheCurrentSnapshot) {
 TEST(Stage, AQuarterTurnFacesMinusX) {
   ActorState state;
   state.position = {1.0f, 2.0f, 3.0f};
-  state.heading = kPi / 2.0f;
+  state.heading = kPiF / 2.0f;
   const glm::vec4 ahead = StageFromActor(state) * glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
   EXPECT_NEAR(ahead.x, 0.0f, 1e-6);
   EXPECT_NEAR(ahead.y, 2.0f, 1e-6);
   EXPECT_NEAR(ahead.z, 3.0f, 1e-6);
 }
 
-// A keeper, and lines of this length.
+// A stage with a keeper and lines of the same length.
 struct SpeakingStage {
   explicit SpeakingStage(float seconds, std::initializer_list<const char*> lines) {
     human::VisemeTrack track;
@@ -149,7 +146,7 @@ TEST(Stage, WhatIsDescribedWaitsForAPauseOfSpeech) {
   advance(0.2);
   EXPECT_TRUE(heard().speaking);
   EXPECT_EQ(heard().line, 1);
-  // One thing at a time.
+  // Only one description is heard at a time.
   stage.Describe(1, 5.0);
   advance(0.5);
   EXPECT_EQ(stage.description().waiting, 1);
@@ -198,7 +195,7 @@ TEST(Place, TheNudgeMovesTheCameraAlongItsAxes) {
 
 TEST(Place, ThePoseIsMetric) {
   Place place;
-  place.map_from_stage.scale = 0.5;  // map units in a metre
+  place.map_from_stage.scale = 0.5;  // Map units per metre.
   geometry::Rigid3 camera_from_map;
   camera_from_map.translation = {0.0, 0.0, 2.0};
   EXPECT_TRUE(

@@ -46,7 +46,7 @@ class TasksTest : public ::testing::Test {
       Tick();
     }
   }
-  // Until it is over, or so many seconds have passed.
+  // Ticks until the task is over or `seconds` have passed.
   TaskReport Finish(const Result<TaskId>& task, float seconds = 60.0f) {
     EXPECT_TRUE(task.ok()) << task.message();
     for (int i = 0; i < static_cast<int>(seconds * 120.0f); ++i) {
@@ -77,7 +77,7 @@ TEST_F(TasksTest, AWalkGoesThroughWhatDoesNotBlockWalking) {
   const ActorId keeper = AddActor("keeper", 0, 2);
   for (const bool blocks : {true, false}) {
     curtain.blocks_walking = blocks;
-    // At any of the places.
+    // The actor may stand at any of the places.
     ASSERT_TRUE(stage_.SetFloor(floor, std::array{stage::Place(), place}).ok());
     stage_.Place(keeper, {0.0f, 0.0f, 2.0f}, 0.0f);
     const TaskReport walk = Finish(stage_.tasks().Walk(keeper, {0.0f, -2.0f}, {}, 0.0f));
@@ -91,7 +91,7 @@ TEST_F(TasksTest, AWalkGoesThroughWhatDoesNotBlockWalking) {
   }
 }
 
-// A leaf, hinged at the origin, that opens towards +z.
+// A gate leaf that is hinged at the origin and opens towards +z.
 stage::Prop MakeGate() {
   stage::Prop gate;
   gate.name = "gate";
@@ -108,7 +108,7 @@ stage::Prop MakeGate() {
   return gate;
 }
 
-// Metres from somebody to a leaf that has begun to open.
+// Distance from a point to a leaf that has begun to open, metres.
 float ToLeaf(float angle, glm::vec2 place) {
   const glm::vec2 along(std::cos(angle), -std::sin(angle));
   const float on = std::clamp(glm::dot(place, along), 0.0f, 1.0f);
@@ -139,7 +139,8 @@ TEST_F(TasksTest, ALeafStopsForWhoWalksIntoItsSwing) {
   while (At(leaf).state.joints[0] == 0.0f) {
     Tick();
   }
-  ASSERT_TRUE(stage_.tasks().Walk(guest, {0.5f, 0.95f}, {}, 0.0f).ok());  // into the swing
+  ASSERT_TRUE(
+      stage_.tasks().Walk(guest, {0.5f, 0.95f}, {}, 0.0f).ok());  // Into the path of the leaf.
   float hit = 9.0f;
   int stood = 0;
   while (!stage_.tasks().report(*task).over()) {
@@ -168,14 +169,14 @@ TEST_F(TasksTest, TwoHandsOnOneGripKeepApart) {
   const Result<TaskId> task = stage_.tasks().Give(giver, cup, receiver);
   float nearest = 9.0f;
   const auto palm = [&](ActorId id, int side) {
-    const human::ReachGoal goal = human::Goal(At(id).state.performance.reaches[side]);
+    const human::ReachGoal goal = human::Goal(At(id).state.animation_state.reaches[side]);
     return StageFromActorPose(At(id).state) * goal.actor_from_grip.position;
   };
   while (!stage_.tasks().report(*task).over()) {
     Tick();
     for (const int side : {human::kRight, human::kLeft}) {
       const auto weight = [&](ActorId id, int s) {
-        return human::Goal(At(id).state.performance.reaches[static_cast<size_t>(s)]).weight;
+        return human::Goal(At(id).state.animation_state.reaches[static_cast<size_t>(s)]).weight;
       };
       if (weight(giver, human::kRight) > 0.9f && weight(receiver, side) > 0.9f) {
         nearest = std::min(nearest, glm::distance(palm(giver, 0), palm(receiver, side)));
@@ -205,7 +206,7 @@ TEST_F(TasksTest, AnActionWalksThereMovesThePartsAndChangesTheState) {
     }
     if (acted && state.action == 0) {
       // The hand follows the lid's edge.
-      const auto& reach = At(keeper).state.performance.reaches[human::kRight];
+      const auto& reach = At(keeper).state.animation_state.reaches[human::kRight];
       const Pose grip = state.stage_from_object * ObjectFromGrip(*At(chest).model, state.joints, 0);
       const Pose hand =
           StageFromActorPose(At(keeper).state) * Pose{reach.to.position, reach.to.rotation};
@@ -220,7 +221,7 @@ TEST_F(TasksTest, AnActionWalksThereMovesThePartsAndChangesTheState) {
   EXPECT_NEAR(highest, 0.7f + 0.4f, 0.05f) << "the lid stands upright";
   EXPECT_EQ(At(chest).state.action, -1);
   Play(1.0f);
-  EXPECT_EQ(At(keeper).state.performance.reaches[human::kRight].to_weight, 0.0f);
+  EXPECT_EQ(At(keeper).state.animation_state.reaches[human::kRight].to_weight, 0.0f);
 }
 
 TEST_F(TasksTest, WhatIsNotPossibleInAStateFailsAndSaysWhy) {
@@ -299,7 +300,7 @@ TEST_F(TasksTest, WhoGivesMeetsTheOtherAndBothHoldItForAMoment) {
   while (!stage_.tasks().report(*task).over()) {
     Tick();
     const auto reaches = [&](ActorId id) {
-      const auto& all = At(id).state.performance.reaches;
+      const auto& all = At(id).state.animation_state.reaches;
       return (all[0].to_weight > 0.0f && human::Progress(all[0]) >= 1.0f) ||
              (all[1].to_weight > 0.0f && human::Progress(all[1]) >= 1.0f);
     };
@@ -377,7 +378,7 @@ TEST_F(TasksTest, WhoWaitsStandsInLineAndIsServedInTurn) {
         order.push_back(i);
       }
     }
-    // The last one waits behind the second.
+    // The last actor waits behind the second.
     stood_in_line =
         stood_in_line ||
         (order.empty() && glm::distance(At(actors[2]).place(), glm::vec2(0.0f, -2.3f)) < 0.4f);
@@ -424,7 +425,7 @@ TEST_F(TasksTest, AStoppedTaskLetsGo) {
   EXPECT_EQ(stage_.tasks().report(*task).state, State::kFailed);
   Play(1.0f);
   EXPECT_EQ(At(chest).state.action, -1);
-  EXPECT_EQ(At(keeper).state.performance.reaches[human::kRight].to_weight, 0.0f);
+  EXPECT_EQ(At(keeper).state.animation_state.reaches[human::kRight].to_weight, 0.0f);
   EXPECT_EQ(Finish(stage_.tasks().Walk(keeper, {2, 2}, {}, 0.0f)).state, State::kDone);
 }
 
@@ -440,8 +441,8 @@ TEST_F(TasksTest, WhoseActorIsPlacedElsewhereFails) {
   EXPECT_EQ(At(keeper).state.position, glm::vec3(1, 0, 1));
 }
 
-// Random demands of many people for few things: everything ends, nobody holds what
-// another holds, no hand holds two things.
+// Random requests of many actors for few objects: every task ends, no two actors hold the same
+// object, and no hand holds two objects.
 class DemandTest : public TasksTest, public ::testing::WithParamInterface<uint64_t> {
  protected:
   static constexpr int kActors = 7;
@@ -527,7 +528,7 @@ class DemandTest : public TasksTest, public ::testing::WithParamInterface<uint64
 
 TEST_P(DemandTest, EverythingEndsAndNobodyHoldsWhatAnotherHolds) {
   constexpr int kSeconds = 240;
-  constexpr float kLongest = 120.0f;  // seconds that any one may take
+  constexpr float kLongest = 120.0f;  // Maximum seconds of one task.
   struct Open {
     TaskId id;
     float seconds = 0.0f;

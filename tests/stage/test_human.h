@@ -6,8 +6,8 @@
 
 namespace lararium::test {
 
-// Two joints and three clips, "idle" (2 s, loops), "walk" (1 s, loops, 1.4 m) and
-// "bow" (0.5 s, once), in each of which the second joint moves along x.
+// A human with two joints and three clips: "idle" (2 s, loops), "walk" (1 s, loops, 1.4 m) and
+// "bow" (0.5 s, once). In each of them the second joint moves along x.
 inline std::shared_ptr<const human::Human> MakeTestHuman() {
   auto made = std::make_shared<human::Human>();
   made->name = "test";

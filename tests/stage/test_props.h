@@ -7,7 +7,7 @@
 
 namespace lararium::test {
 
-// A box as the one mesh of a part.
+// A part with one box as its mesh.
 inline stage::PropMesh MakeBox(const glm::vec3& low, const glm::vec3& high) {
   stage::PropMesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -48,7 +48,7 @@ inline stage::Prop MakeChest() {
   return prop;
 }
 
-// Half a metre square, with four places around it and spots for three things.
+// A table of 0.5 m x 0.5 m with four places around it and spots for three objects.
 inline stage::Prop MakeTable() {
   stage::Prop prop;
   prop.name = "table";
@@ -67,7 +67,7 @@ inline stage::Prop MakeTable() {
   return prop;
 }
 
-// Carried upright in one hand; two grips, so that it can be handed over.
+// A cup that is carried upright in one hand. It has two grips, so that it can be handed over.
 inline stage::Prop MakeCup() {
   stage::Prop prop;
   prop.name = "cup";
@@ -111,7 +111,7 @@ inline stage::Prop MakeLamp() {
   return prop;
 }
 
-// To sit on, facing -Z.
+// A stool that faces -Z.
 inline stage::Prop MakeStool() {
   stage::Prop prop;
   prop.name = "stool";

@@ -1,11 +1,11 @@
 #pragma once
 
-// Counts what operator new is asked for, by any thread. A program that links this
-// library has its global allocator replaced: for tests in a program of their own.
+// Counts allocations by operator new, in any thread. A program that links this library has its
+// global allocator replaced: use it only in separate test programs.
 
 namespace lararium::test {
 
-// Counts from its construction until Stop() or its end.
+// Counts from construction until Stop() or destruction.
 class AllocationCounter {
  public:
   AllocationCounter();
@@ -13,7 +13,7 @@ class AllocationCounter {
   AllocationCounter(const AllocationCounter&) = delete;
   AllocationCounter& operator=(const AllocationCounter&) = delete;
 
-  // Stops counting and tells.
+  // Stops counting and returns the number of allocations.
   int Stop();
 };
 

@@ -10,7 +10,7 @@
 
 namespace lararium::test {
 
-// An image as a PNG file has it.
+// Encodes an image as a PNG file.
 inline std::vector<std::byte> Png(const cv::Mat& image) {
   std::vector<uchar> png;
   CHECK(cv::imencode(".png", image, png));

@@ -11,7 +11,7 @@
 namespace lararium::test {
 namespace {
 
-constexpr int kFine = 3;  // samples across a pixel
+constexpr int kFine = 3;  // Samples across a pixel.
 constexpr double kWhite = 210.0;
 constexpr double kBlack = 35.0;
 constexpr double kBehind = 120.0;
@@ -81,7 +81,8 @@ std::vector<BoardPicture> VariedBoardPictures(const SyntheticBoard& board,
   Random random(seed);
   std::vector<BoardPicture> pictures;
   const double width = (board.columns + 3) * board.square;
-  const double fills = width * camera.fx / camera.width;  // at this distance all of the width
+  // At this distance the board fills the width.
+  const double fills = width * camera.fx / camera.width;
   while (static_cast<int>(pictures.size()) < count) {
     const Eigen::Vector2d pixel(random.Uniform(0.1, 0.9) * camera.width,
                                 random.Uniform(0.1, 0.9) * camera.height);

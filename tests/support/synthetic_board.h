@@ -1,6 +1,6 @@
 #pragma once
 
-// A chessboard before a camera with ground truth, for tests of calibration.
+// Pictures of a chessboard with ground truth, for tests of calibration.
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -15,8 +15,8 @@
 
 namespace lararium::test {
 
-// Inner corners (i, j) at (i, j, 0) times square, i below columns, j below rows; a white border
-// one square wide is around the squares.
+// Inner corners (i, j) are at (i, j, 0) times square, i below columns, j below rows. A white border
+// one square wide surrounds the squares.
 struct SyntheticBoard {
   int columns = 9;
   int rows = 6;
@@ -25,14 +25,14 @@ struct SyntheticBoard {
 
 struct BoardPicture {
   geometry::Rigid3 camera_from_board;
-  double blur_px = 0.7;   // standard deviation of the lens
-  double smear_px = 0.0;  // length of motion blur along x
-  double noise = 3.0;     // standard deviation, of 255
-  bool board = true;      // otherwise what is behind it alone
+  double blur_px = 0.7;   // Standard deviation of the lens blur, pixels.
+  double smear_px = 0.0;  // Length of motion blur along x, pixels.
+  double noise = 3.0;     // Standard deviation; full scale is 255.
+  bool board = true;      // False: only the background.
 };
 
-// A pose in which all of the board is in the image, aimed at its pixel, with its plane turned by
-// tilt radians out of the image's about an axis in it. distance: of the middle, metres.
+// A pose with the whole board in the image and its middle at `pixel`. The board's plane is turned
+// by tilt radians out of the image plane, about an axis in it. distance: of the middle, metres.
 geometry::Rigid3 AimedBoardPose(const SyntheticBoard& board,
                                 const geometry::CameraModel& camera,
                                 const Eigen::Vector2d& pixel,
@@ -41,13 +41,14 @@ geometry::Rigid3 AimedBoardPose(const SyntheticBoard& board,
                                 double tilt_axis,
                                 double roll);
 
-// All over the image, near and far, tilted up to 40 degrees, with all of the board in it.
+// Pictures with the whole board at positions all over the image, near and far, tilted up to 40
+// degrees.
 std::vector<BoardPicture> VariedBoardPictures(const SyntheticBoard& board,
                                               const geometry::CameraModel& camera,
                                               int count,
                                               uint64_t seed);
 
-// Whether all of it, with its border, is in the image.
+// Whether the whole board, with its border, is in the image.
 bool BoardInside(const SyntheticBoard& board,
                  const geometry::CameraModel& camera,
                  const geometry::Rigid3& camera_from_board);
@@ -70,14 +71,14 @@ class BoardRecording : public capture::FrameSource {
   bool live() const override { return false; }
   std::string FrameName(int64_t index) const override { return std::to_string(index); }
 
-  // Of a picture's number.
+  // Renders a picture by its index.
   cv::Mat Render(size_t index) const;
 
  private:
   SyntheticBoard board_;
   geometry::CameraModel camera_;
   std::vector<BoardPicture> pictures_;
-  std::vector<cv::Vec2f> rays_;  // on the plane z = 1, kFine x kFine of each pixel
+  std::vector<cv::Vec2f> rays_;  // kFine x kFine rays per pixel on the plane z = 1.
   size_t next_ = 0;
 };
 

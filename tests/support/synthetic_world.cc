@@ -12,7 +12,7 @@ using geometry::Rigid3;
 using vision::Descriptor;
 using vision::Keypoint;
 
-constexpr double kDistance = 4.0;  // metres, from the cameras to the origin
+constexpr double kDistance = 4.0;  // Metres, from the cameras to the origin.
 
 Descriptor Quantise(std::array<double, vision::kDescriptorSize> values) {
   double square = 0.0;

@@ -1,11 +1,12 @@
 #pragma once
 
-// Where tests find data and leave files.
+// Locations of test data and temporary files.
 
 #include <filesystem>
 #include <string_view>
 
-// In a test: the folder name below the data folder, or skips with a message.
+// In a test: defines `variable` as the folder `name` below the data folder, or skips the test with
+// a message.
 #define LARARIUM_REQUIRE_DATA(variable, name)                                  \
   const std::filesystem::path variable = ::lararium::test::DataDir() / (name); \
   if (!std::filesystem::exists(variable)) {                                    \
@@ -19,12 +20,12 @@ namespace lararium::test {
 // tests depends on where the checkout is.
 std::filesystem::path SourceDir();
 std::filesystem::path DataDir();
-// Where the cast library is (scripts/fetch_cast_library.sh), unless LARARIUM_CAST_LIBRARY says so.
+// The cast library (scripts/fetch_cast_library.sh), or LARARIUM_CAST_LIBRARY if set.
 std::filesystem::path CastLibraryDir();
-// Where the photographs of a board are (scripts/fetch_board_photographs.sh).
+// The photographs of a board (scripts/fetch_board_photographs.sh).
 std::filesystem::path BoardPhotographsDir();
 
-// A fresh folder, removed with everything in it at the end of its life.
+// A new folder, removed with its content at destruction.
 class TemporaryFolder {
  public:
   TemporaryFolder();

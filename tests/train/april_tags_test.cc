@@ -34,7 +34,7 @@ class PrintedTag {
     image_u8_destroy(image);
   }
 
-  // The grey level where a ray meets the tag; nothing beside it.
+  // The grey level at which a ray meets the tag; nullopt beside the tag.
   std::optional<double> Shade(const Vector3d& center, const Vector3d& ray) const {
     const Vector3d normal = world_from_tag_.rotation * Vector3d::UnitZ();
     const double depth = normal.dot(world_from_tag_.translation - center) / normal.dot(ray);
@@ -61,8 +61,8 @@ Rigid3 LookAt(const Vector3d& center, const Vector3d& target) {
   return Rigid3::FromMatrix(camera_from_world, -camera_from_world * center);
 }
 
-// What a camera sees of tags before a grey wall: each pixel the mean of 5 x 5 rays
-// (where its corners differ), blurred and noisy as photographs are.
+// Renders tags in front of a grey wall. A pixel whose corners differ is the mean of 5 x 5 rays. The
+// image is blurred and noisy like a photograph.
 cv::Mat Photograph(const geometry::CameraModel& camera,
                    const Rigid3& camera_from_world,
                    std::span<const PrintedTag> tags,
@@ -81,7 +81,8 @@ cv::Mat Photograph(const geometry::CameraModel& camera,
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const Vector2d middle = camera.PlaneFromPixel(Vector2d(x, y));
-      const Vector2d half(0.5 / camera.fx, 0.5 / camera.fy);  // distortion is even within a pixel
+      const Vector2d half(0.5 / camera.fx,
+                          0.5 / camera.fy);  // Distortion is constant within a pixel.
       double value = shade(middle - half);
       if (value != shade(middle + half) || value != shade(middle + Vector2d(-half.x(), half.y())) ||
           value != shade(middle + Vector2d(half.x(), -half.y()))) {
@@ -100,8 +101,8 @@ cv::Mat Photograph(const geometry::CameraModel& camera,
   return grey;
 }
 
-// Tags about the origin, seen by cameras in an arc before them; the map is of
-// another scale and orientation.
+// Tags around the origin, seen by cameras on an arc in front of them. The map has another scale and
+// orientation than the world.
 struct Setting {
   geometry::CameraModel camera = {320, 240, 330.0, 330.0, 160.0, 118.0, -0.05, 0.01, 0.0, 0.0};
   Similarity3 map_from_world = {
@@ -128,7 +129,7 @@ struct Setting {
 
 constexpr double kSize = 0.20;
 
-// Facing the cameras: x right, y down, z away from them.
+// The pose of a tag that faces the cameras: x right, y down, z away from them.
 Rigid3 Facing(double x, double turn) {
   Eigen::Matrix3d world_from_tag;
   world_from_tag << 1, 0, 0, 0, 0, 1, 0, -1, 0;

@@ -24,7 +24,7 @@ TEST(ChoosePoints, TakesAllWhereThereIsRoom) {
 }
 
 TEST(ChoosePoints, ServesEveryKeyframe) {
-  // One keyframe alone sees the last twenty points; most points are seen by nine.
+  // Only one keyframe observes the last twenty points; most points are observed by nine.
   SceneDatabase db = Map(500);
   std::erase_if(db.observations,
                 [](const vision::Observation& o) { return (o.keyframe == 9) != (o.point >= 480); });
@@ -40,7 +40,7 @@ TEST(ChoosePoints, ServesEveryKeyframe) {
 TEST(ChoosePoints, PrefersPointsSeenOften) {
   SceneDatabase db = Map(300);
   std::erase_if(db.observations, [](const vision::Observation& o) {
-    return o.point % 2 == 1 && o.keyframe % 5 != 0;  // odd points are seen a fifth as often
+    return o.point % 2 == 1 && o.keyframe % 5 != 0;  // Odd points are observed a fifth as often.
   });
   size_t even = 0;
   const std::vector<uint32_t> chosen = ChoosePoints(db, 100);
@@ -53,7 +53,7 @@ TEST(ChoosePoints, PrefersPointsSeenOften) {
 
 TEST(ChoosePoints, AvoidsPointsThatLookAlike) {
   SceneDatabase db = Map(300);
-  for (uint32_t d = 1; d < 300; d += 2) {  // half of the points share one look
+  for (uint32_t d = 1; d < 300; d += 2) {  // Half of the points share one descriptor.
     db.descriptors[d] = db.descriptors[1];
   }
   db.forest = vision::BuildForest(db.descriptors, {});
@@ -68,13 +68,13 @@ TEST(ChooseImages, DropsImagesThatShowNothingNew) {
   const SceneDatabase db = Map(200);
   const std::vector<uint32_t> all = ChooseImages(db, 1.0);
   const std::vector<uint32_t> most = ChooseImages(db, 0.9);
-  EXPECT_LT(all.size(), 10u);  // cameras are 6 degrees apart
-  EXPECT_GE(all.size(), 2u);   // over an arc of 57
+  EXPECT_LT(all.size(), 10u);  // Cameras are 6 degrees apart.
+  EXPECT_GE(all.size(), 2u);   // The arc spans 57 degrees.
   EXPECT_LE(most.size(), all.size());
   EXPECT_TRUE(ChooseImages(db, 0.0).empty());
 }
 
-TEST(ChooseImages, ShowsEverySightFromNearby) {
+TEST(ChooseImages, ShowsEveryObservationFromNearby) {
   const SceneDatabase db = Map(200);
   const std::vector<uint32_t> images = ChooseImages(db, 1.0);
   for (const vision::Observation& o : db.observations) {
@@ -127,7 +127,7 @@ TEST(Prune, StillLocatesViewsBetweenTheKeyframes) {
 TEST(Prune, KeepsTheDescriptorsThatDifferMost) {
   SceneDatabase db = Map(100);
   Random random(3);
-  std::vector<vision::Descriptor> descriptors;  // three for each point, two of them alike
+  std::vector<vision::Descriptor> descriptors;  // Three per point, two of them similar.
   db.descriptor_point.clear();
   db.descriptor_begin = {0};
   for (uint32_t i = 0; i < 100; ++i) {

@@ -98,7 +98,7 @@ TEST(ReprojectionResidual, RefusesPointsBehindTheCamera) {
                                     nullptr, nullptr));
 }
 
-// The true map, disturbed.
+// The true map with disturbed poses and points.
 Reconstruction Disturbed(const World& world, Random& random) {
   const auto pairs = world.Pairs(11, world.camera);
   Reconstruction reconstruction = world.Unsolved(pairs, world.camera);

@@ -23,7 +23,7 @@ TEST(CaptureAdvice, NamesTheFramesWhyTheyAreWeakAndTheRemedy) {
                           .reason = WeakReason::kFewFeatures};
   EXPECT_EQ(English(one),
             "The frame 4.png could not be located (few features): turn on more light, and keep "
-            "things with texture in view.");
+            "textured objects in view.");
 }
 
 TEST(CaptureAdvice, CountsShortGaps) {
@@ -42,9 +42,9 @@ TEST(CaptureAdvice, SaysHowFarToWalkInMetresOrAsAShareOfWhatIsSeen) {
             "What frames a to b show (at the left end of the plan) was seen from one side only "
             "(directions differ by 2.3 degrees): walk past it sideways by about 0.5 m.");
   advice.walk = {0.264, false};
-  EXPECT_TRUE(English(advice).ends_with("by about 26 % of the distance to what is seen."));
+  EXPECT_TRUE(English(advice).ends_with("by about 26 % of the distance to the scene."));
   advice.walk = {1.2, false};
-  EXPECT_TRUE(English(advice).ends_with("by about as far as what is seen is away."));
+  EXPECT_TRUE(English(advice).ends_with("by about as far as the scene is away."));
 }
 
 TEST(CaptureAdvice, TellsWhatAVisitorDoesWhoIsLocatedPoorly) {

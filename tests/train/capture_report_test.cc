@@ -32,8 +32,7 @@ vision::SceneDatabase MakeDatabase() {
   return db;
 }
 
-// What a training of the database's keyframes, with one more frame between each
-// two, would report.
+// The report of a training on the database's keyframes and one more frame between each two of them.
 TrainReport MakeReport(const vision::SceneDatabase& db) {
   TrainReport report;
   for (size_t k = 0; k < db.keyframes.size(); ++k) {
@@ -123,13 +122,13 @@ TEST(CaptureReport, NumbersAreThoseOfTheMapAndTheTraining) {
   EXPECT_EQ(ValueOf(html, "error"), "0.3125");
   EXPECT_EQ(ValueOf(html, "bytes"), "123456");
   EXPECT_EQ(std::stod(ValueOf(html, "focal")), db.camera.Focal());
-  EXPECT_THAT(html, HasSubstr("3.8 s"));  // altogether
+  EXPECT_THAT(html, HasSubstr("3.8 s"));  // Total time.
 }
 
-TEST(CaptureReport, HistogramsCountEverySightAndPoint) {
+TEST(CaptureReport, HistogramsCountEveryObservationAndPoint) {
   vision::SceneDatabase db = MakeDatabase();
   for (size_t i = 0; i < 50; ++i) {
-    db.observations[i].x += 2.5f;  // in the bin up to 3 pixels
+    db.observations[i].x += 2.5f;  // Belongs to the bin up to 3 pixels.
   }
   const std::string html = FormatCaptureReport(MakeReport(db), db, {});
   const std::vector<size_t> reprojection = CountsOf(html, "reprojection");
@@ -137,12 +136,12 @@ TEST(CaptureReport, HistogramsCountEverySightAndPoint) {
   EXPECT_EQ(reprojection[0], db.observations.size() - 50);
   EXPECT_EQ(reprojection[10], 50u);
   const std::vector<size_t> tracks = CountsOf(html, "tracks");
-  EXPECT_EQ(tracks[5], db.points.size());  // all were seen by 12 images: the bin 11-20
+  EXPECT_EQ(tracks[5], db.points.size());  // All were observed by 12 images: the bin 11-20.
   EXPECT_EQ(Sum(tracks), db.points.size());
   EXPECT_EQ(Sum(CountsOf(html, "parallax")), db.points.size());
 }
 
-TEST(CaptureReport, ParallaxIsTheWidestAngleBetweenTwoSights) {
+TEST(CaptureReport, ParallaxIsTheWidestAngleBetweenTwoObservations) {
   vision::SceneDatabase db = MakeDatabase();
   db.points = {Eigen::Vector3f::Zero()};
   db.observation_counts = {3};
@@ -198,7 +197,7 @@ TEST(CaptureReport, HoldsEverythingWithinItself) {
     EXPECT_EQ(html.compare(at, 28, "src=\"data:image/jpeg;base64,"), 0);
     ++pictures;
   }
-  EXPECT_GE(pictures, 3u);  // between keyframes there are none
+  EXPECT_GE(pictures, 3u);  // Frames between keyframes have no pictures.
 }
 
 TEST(CaptureReport, ClosesEveryElementThatItOpens) {
@@ -231,7 +230,7 @@ TEST(CaptureReport, GivesTheSameBytesTwice) {
 }
 
 TEST(CaptureReport, TakesAMapWithoutATraining) {
-  const vision::SceneDatabase db = MakeDatabase();  // imported, say
+  const vision::SceneDatabase db = MakeDatabase();  // Such as an imported map.
   EXPECT_THAT(FormatCaptureReport({}, db, {}), HasSubstr("</html>"));
 }
 
@@ -253,7 +252,7 @@ TEST(CaptureAnalysis, TellsWhyFramesAreWeak) {
   const vision::SceneDatabase db = MakeDatabase();
   TrainReport report = MakeReport(db);
   auto& frames = report.frame_reports;
-  Unlocate(report, 1, 1);  // sharp, slow, rich: it does not fit
+  Unlocate(report, 1, 1);  // Sharp, slow and rich, but it does not fit.
   Unlocate(report, 3, 4);
   frames[3].features = frames[4].features = 20;
   Unlocate(report, 6, 6);
@@ -261,9 +260,9 @@ TEST(CaptureAnalysis, TellsWhyFramesAreWeak) {
   Unlocate(report, 8, 10);
   for (size_t i = 8; i <= 10; ++i) {
     frames[i].motion.sharpness = 10.0;
-    frames[i].features = 20;  // because of the blur
+    frames[i].features = 20;  // An effect of the blur.
   }
-  frames[12].observations = 20;  // located, but hardly
+  frames[12].observations = 20;  // Located with few points.
   const CaptureAnalysis analysis = AnalyseCapture(report, db, std::nullopt);
   const std::vector<std::tuple<size_t, size_t, WeakReason, bool>> expected = {
       {1, 1, WeakReason::kNotLocated, false}, {3, 4, WeakReason::kFewFeatures, false},
@@ -288,7 +287,7 @@ TEST(CaptureAnalysis, AsksForAWalkWhereThingsWereSeenFromOneSideOnly) {
     db.keyframes[k].camera_from_map = LookAt(from + step, Eigen::Vector3d::Zero());
   }
   EXPECT_THAT(AdviceOf({}, db, std::nullopt), Contains(HasSubstr("from one side only")));
-  // Where the scale is known, in metres: 15 degrees at 4 map units of 0.5 m each.
+  // If the scale is known, in metres: 15 degrees at 4 map units of 0.5 m each.
   EXPECT_THAT(AdviceOf({}, db, 0.5), Contains(HasSubstr("by about 0.5 m")));
 }
 
@@ -307,7 +306,7 @@ TEST(CaptureAnalysis, WarnsOfExposureThatChangedWhileFilming) {
   vision::SceneDatabase db = MakeDatabase();
   db.keyframes[3].gain = {8.0f, 8.0f, 8.0f};
   EXPECT_THAT(AdviceOf({}, db, std::nullopt), Contains(HasSubstr("Exposure changed by 3.0 stops")));
-  db.keyframes[3].session = 1;  // another session may be brighter
+  db.keyframes[3].session = 1;  // Another session may be brighter.
   EXPECT_THAT(AdviceOf({}, db, std::nullopt), Not(Contains(HasSubstr("Exposure"))));
 }
 
@@ -320,7 +319,7 @@ TEST(CaptureAnalysis, ThePlanHasTheViewAheadAtItsTop) {
     const Rigid3 map_from_camera = keyframe.camera_from_map.Inverse();
     EXPECT_GT(plan.up.dot(map_from_camera.rotation * -Eigen::Vector3d::UnitY()), 0.5);
     EXPECT_GT(plan.ahead.dot(map_from_camera.rotation * Eigen::Vector3d::UnitZ()), 0.0);
-    // What the camera has on its right lies to the right.
+    // A point to the right of the camera lies to the right in the plan.
     const Eigen::Vector3d aside = map_from_camera * Eigen::Vector3d(1.0, 0.0, 3.0);
     const Eigen::Vector3d before = map_from_camera * Eigen::Vector3d(0.0, 0.0, 3.0);
     EXPECT_GT(plan(aside).x(), plan(before).x());

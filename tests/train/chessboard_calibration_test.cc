@@ -79,7 +79,7 @@ TEST(Calibrate, SaysHowFarOffItIs) {
     const double fx = (found->camera.fx - kCamera.fx) / found->deviation.fx;
     const double k1 = (found->camera.k1 - kCamera.k1) / found->deviation.k1;
     squares += (fx * fx + k1 * k1) / (2.0 * kTrials);
-    // Of two coordinates, as OpenCV counts it.
+    // OpenCV's RMS error covers both coordinates of a corner.
     EXPECT_NEAR(found->rms_px, 0.2 * std::sqrt(2.0), 0.03);
     EXPECT_NEAR(found->held_out_rms_px, 0.2 * std::sqrt(2.0), 0.06);
     EXPECT_EQ(found->held_out, (found->fitted + found->held_out) / 5);
@@ -95,7 +95,7 @@ TEST(Calibrate, LeavesOutAViewThatFitsNoOther) {
   Random random(3);
   for (size_t i = 0; i < pictures.size(); ++i) {
     std::vector<Eigen::Vector2d> corners = Corners(pictures[i], 0.1, random);
-    if (i == 7) {  // the board bends
+    if (i == 7) {  // The board bends.
       for (size_t c = 0; c < corners.size(); ++c) {
         corners[c].y() += 0.4 * std::pow(static_cast<double>(c % 9) - 4.0, 2.0);
       }
@@ -112,7 +112,8 @@ TEST(Calibrate, LeavesOutAViewThatFitsNoOther) {
 
 TEST(Calibrate, NamesThePartsOfTheImageThatShowedNoBoard) {
   std::vector<BoardPicture> pictures = Varied(120);
-  std::erase_if(pictures, [](const BoardPicture& picture) {  // all of it to the right
+  // Keeps the pictures in which the whole board is on the right.
+  std::erase_if(pictures, [](const BoardPicture& picture) {
     return kCamera.Project(picture.camera_from_board * Eigen::Vector3d::Zero())->x() < 230.0 ||
            kCamera.Project(picture.camera_from_board * Eigen::Vector3d(0.0, 0.125, 0.0))->x() <
                230.0;
@@ -172,7 +173,7 @@ TEST(Calibrate, RefusesTooFewViews) {
 
 TEST(BoardCollector, KeepsVariedViewsOfManyAndTheSharpestOfThoseAlike) {
   std::vector<BoardPicture> pictures = Varied(150);
-  std::vector<BoardPicture> twice = pictures;  // each again, sharper
+  std::vector<BoardPicture> twice = pictures;  // Each picture again, sharper.
   for (BoardPicture& picture : pictures) {
     picture.smear_px = 0.5;
   }

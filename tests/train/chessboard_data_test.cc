@@ -1,4 +1,4 @@
-// The way from pictures to intrinsics; drawing and searching them takes seconds.
+// Tests the whole calibration from pictures; drawing and searching them takes seconds.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using geometry::CameraModel;
 
-// How far the lenses of both bend a pixel differently, at most.
+// Largest difference between the distortions of two cameras, pixels.
 double WorstDistortion(const CameraModel& a, const CameraModel& b) {
   CameraModel bent = b;
   bent.k1 = a.k1;
@@ -61,7 +61,7 @@ TEST_P(CalibrateFromPictures, FindsTheCameraThroughNoiseBlurAndDistortion) {
   EXPECT_GE(found->counts.blurred, 4);
   EXPECT_EQ(found->verdict, Calibration::Verdict::kGood);
   EXPECT_GT(found->covered, 0.6);
-  // Metres: the nearest board fills the image.
+  // Distances are in metres; the nearest board fills the image.
   for (const CalibratedView& view : found->views) {
     if (view.part == CalibratedView::Part::kRejected) {
       continue;
@@ -77,8 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(CameraModel{640, 480, 560, 562, 325, 236, -0.28, 0.09, 0.0008, -0.0005},
                       CameraModel{960, 540, 760, 758, 470, 275, 0.06, -0.10, 0.0, 0.0}));
 
-// A board that was printed, held in hands and photographed by two cameras on one bar, both at the
-// same moments.
+// A printed, hand-held board, photographed by two cameras on one bar at the same moments.
 class CalibrateFromPhotographs : public ::testing::Test {
  protected:
   static constexpr Board kBoard = {9, 6, 0.025};
@@ -98,7 +97,7 @@ class CalibrateFromPhotographs : public ::testing::Test {
     return *std::move(found);
   }
 
-  // By the number of the photograph, of those that were not rejected.
+  // Poses of the board by the number of the photograph, without rejected views.
   static std::map<std::string, geometry::Rigid3> BoardPoses(const Calibration& calibration) {
     std::map<std::string, geometry::Rigid3> poses;
     for (const CalibratedView& seen : calibration.views) {
@@ -142,7 +141,7 @@ TEST_F(CalibrateFromPhotographs, FindsTheCameraThatOthersFoundFromTheSamePhotogr
   EXPECT_LT(left.FocalDeviation(), 0.005);
 }
 
-// What no calibration was told: the bar is stiff.
+// The bar is stiff, which the calibration does not know.
 TEST_F(CalibrateFromPhotographs, BothCamerasKeepTheirDistanceInAllPhotographs) {
   const auto left = BoardPoses(CalibrateCamera("left"));
   const auto right = BoardPoses(CalibrateCamera("right"));

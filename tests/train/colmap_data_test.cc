@@ -1,5 +1,5 @@
-// Exchange with the real colmap program (Debian package colmap), which tests use
-// as a tool: half a pixel or a sign too many would show here.
+// Tests the exchange with the real colmap program (Debian package colmap). An offset of half a
+// pixel or a wrong sign would show here.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ namespace {
 using geometry::Rigid3;
 using lararium::test::TemporaryFolder;
 
-// Runs colmap in folder; what it printed, or a failed test.
+// Runs colmap in folder and returns its output; fails the test if colmap fails.
 std::string Colmap(const TemporaryFolder& folder, const std::string& arguments) {
   const std::string command = "cd '" + folder.path().string() +
                               "' && QT_QPA_PLATFORM=offscreen colmap " + arguments +
@@ -41,7 +41,7 @@ std::string Colmap(const TemporaryFolder& folder, const std::string& arguments) 
   return output;
 }
 
-// The number that follows label in text.
+// The number after a label in text.
 double NumberAfter(const std::string& text, const std::string& label) {
   std::smatch match;
   const std::regex pattern(label + R"([^0-9\n]*([0-9.eE+-]+))");
@@ -49,8 +49,8 @@ double NumberAfter(const std::string& text, const std::string& label) {
   return match.empty() ? 0.0 : std::stod(match[1]);
 }
 
-// What bundle_adjuster prints as its cost: the root of half the mean squared
-// coordinate of a residual.
+// The cost as bundle_adjuster prints it: the root of half the mean squared coordinate of a
+// residual.
 double BundleCost(const vision::SceneDatabase& db) {
   double sum = 0.0;
   for (const vision::Observation& o : db.observations) {
@@ -74,7 +74,7 @@ constexpr char kAdjust[] =
     "bundle_adjuster --BundleAdjustment.refine_focal_length 0 "
     "--BundleAdjustment.refine_extra_params 0 ";
 
-// A map seen through a distorting lens, with noise in its observations.
+// A map with a distorting lens and noise in its observations.
 vision::SceneDatabase MakeNoisyDatabase() {
   vision::SceneDatabase db =
       lararium::test::MakeSceneDatabase(lararium::test::MakeSyntheticWorld({.points = 300}));
@@ -120,7 +120,7 @@ TEST(ColmapProgram, ReadsAnExportedMapAsItIs) {
   }
   for (size_t i = 0; i < exported.points.size(); ++i) {
     EXPECT_LT((exported.points[i].position - converted->points[i].position).norm(), 1e-9);
-    EXPECT_EQ(exported.points[i].sights.size(), converted->points[i].sights.size());
+    EXPECT_EQ(exported.points[i].observations.size(), converted->points[i].observations.size());
   }
   const std::string analysis = Colmap(folder, "model_analyzer --path binary");
   EXPECT_EQ(NumberAfter(analysis, "Registered images:"), 12.0);
@@ -136,8 +136,7 @@ TEST(ColmapProgram, FindsTheReprojectionErrorsThatWeFindThroughADistortingLens) 
   std::filesystem::create_directories(folder / "adjusted");
   const std::string output =
       Colmap(folder, std::string(kAdjust) + "--input_path model --output_path adjusted");
-  // Pixel centres of one convention beside a principal point of the other, or
-  // another lens, would show here.
+  // A mix of both pixel conventions, or another lens model, would show here.
   EXPECT_NEAR(NumberAfter(output, "Initial cost"), BundleCost(db), 0.002);
 }
 
@@ -148,7 +147,8 @@ struct Fountain {
   std::map<std::string, Rigid3> camera_from_world;
 };
 
-// Images first to last at half their size into folder/images; the truth of all.
+// Writes the images first to last at half their size into folder/images; returns the ground truth
+// of all images.
 Fountain ShrinkFountain(const std::filesystem::path& data,
                         const TemporaryFolder& folder,
                         int first,
@@ -225,7 +225,7 @@ TEST(ColmapProgram, MakesAModelThatImportsLocatesAnotherImageAndGoesBack) {
   EXPECT_LT(db->mean_reprojection_error_px, 0.5);
   EXPECT_LT(MeanOffset(*db).norm(), 0.06);
 
-  // The image after the last one was in no model.
+  // The image after the last one was not part of any model.
   std::vector<Eigen::Vector3d> found;
   std::vector<Eigen::Vector3d> expected;
   for (const vision::Keyframe& keyframe : db->keyframes) {
@@ -244,7 +244,7 @@ TEST(ColmapProgram, MakesAModelThatImportsLocatesAnotherImageAndGoesBack) {
   const Eigen::Vector3d truth = fountain.camera_from_world.at("0007.jpg").Center();
   EXPECT_LT((*world_from_map * location.camera_from_map->Center() - truth).norm(), 0.05);  // metres
 
-  // Back to COLMAP, whose own adjustment finds nothing to move.
+  // Exports to COLMAP again, whose own adjustment must not move anything.
   ASSERT_TRUE(ExportColmap(*db, folder / "back", ColmapFormat::kBinary, true).ok());
   std::filesystem::create_directories(folder / "adjusted");
   const std::string output =

@@ -23,12 +23,12 @@ using lararium::test::LookAt;
 using lararium::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
-vision::SceneDatabase MakeDatabase() {
+vision::SceneDatabase MakeColmapDatabase() {
   return lararium::test::MakeSceneDatabase(lararium::test::MakeSyntheticWorld({.points = 60}));
 }
 
 TEST(ExportColmap, HoldsTheMapWithPixelsMovedByHalf) {
-  vision::SceneDatabase db = MakeDatabase();
+  vision::SceneDatabase db = MakeColmapDatabase();
   db.colours.assign(db.points.size(), {1.0f, 0.2140411f, -1.0f});  // sRGB 255, 127.5, unknown
   const ColmapModel model = ColmapFromDatabase(db);
   ASSERT_TRUE(model.Validate().ok()) << model.Validate().message();
@@ -49,7 +49,7 @@ TEST(ExportColmap, HoldsTheMapWithPixelsMovedByHalf) {
 }
 
 TEST(ExportColmap, NamesAreUniqueAndStayInsideTheFolder) {
-  vision::SceneDatabase db = MakeDatabase();
+  vision::SceneDatabase db = MakeColmapDatabase();
   db.keyframes[1].name = db.keyframes[0].name;
   db.keyframes[1].session = 1;
   db.keyframes[2].name = "../../outside.png";
@@ -70,11 +70,11 @@ TEST(ExportColmap, NamesAreUniqueAndStayInsideTheFolder) {
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     ++entries;
   }
-  EXPECT_EQ(entries, 1u);  // the model, nothing beside it
+  EXPECT_EQ(entries, 1u);  // Only the model.
 }
 
 TEST(ExportColmap, GivesTheSameBytesTwice) {
-  const vision::SceneDatabase db = MakeDatabase();
+  const vision::SceneDatabase db = MakeColmapDatabase();
   const TemporaryFolder folder;
   ASSERT_TRUE(ExportColmap(db, folder / "a", ColmapFormat::kBinary, false).ok());
   ASSERT_TRUE(ExportColmap(db, folder / "b", ColmapFormat::kBinary, false).ok());
@@ -84,7 +84,7 @@ TEST(ExportColmap, GivesTheSameBytesTwice) {
 }
 
 TEST(ExportColmap, LeavesAFolderWithContentAloneAndNothingHalfWritten) {
-  const vision::SceneDatabase db = MakeDatabase();
+  const vision::SceneDatabase db = MakeColmapDatabase();
   const TemporaryFolder folder;
   ASSERT_TRUE(WriteFileAtomically(folder / "mine.txt", std::string_view("keep")).ok());
   EXPECT_THAT(ExportColmap(db, folder.path(), ColmapFormat::kText, false).message(),
@@ -96,7 +96,7 @@ TEST(ExportColmap, LeavesAFolderWithContentAloneAndNothingHalfWritten) {
 
 // ---------------------------------------------------------------- import
 
-// A board with a random texture in the plane z = 0, 2 m wide, photographed.
+// Photographs a board of 2 m width with a random texture in the plane z = 0.
 class Board {
  public:
   Board() {
@@ -133,8 +133,8 @@ class Board {
   cv::Mat texture_;
 };
 
-// A model of the board as another program's detector would give it: its points
-// are where the first image has features, seen exactly in all images.
+// A model of the board as another program's detector would give it: its points are at the features
+// of the first image and are observed without error in all images.
 class ColmapImport : public ::testing::Test {
  protected:
   ColmapImport() {
@@ -180,7 +180,7 @@ class ColmapImport : public ::testing::Test {
         const auto pixel = cameras_[i].Project(poses_[i] * point);
         if (pixel && cameras_[i].Contains(*pixel)) {
           std::vector<ColmapFeature>& of_image = model.images[i].features;
-          added.sights.push_back({i + 1, static_cast<uint32_t>(of_image.size())});
+          added.observations.push_back({i + 1, static_cast<uint32_t>(of_image.size())});
           of_image.push_back({pixel->x() + 0.5, pixel->y() + 0.5, added.id});
         }
       }
@@ -200,7 +200,7 @@ class ColmapImport : public ::testing::Test {
   ColmapModel model_;
 };
 
-// Mean offset of the observations from where their points project.
+// Mean offset of the observations from the projections of their points.
 Eigen::Vector2d MeanOffset(const vision::SceneDatabase& db) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const vision::Observation& o : db.observations) {
@@ -224,7 +224,7 @@ TEST_F(ColmapImport, KeepsPosesAndPointsAndTiesFeaturesWithoutAHalfPixelShift) {
   }
   EXPECT_GT(db->points.size(), model_.points.size() / 3);
   EXPECT_LE(db->points.size(), model_.points.size());
-  size_t next = 0;  // the database keeps the model's order
+  size_t next = 0;  // The database keeps the model's order.
   for (const Eigen::Vector3f& point : db->points) {
     while (next < model_.points.size() && model_.points[next].position.cast<float>() != point) {
       ++next;
@@ -320,7 +320,7 @@ TEST_F(ColmapImport, TakesTheExportOfItsOwnPlaceBack) {
   const auto again = ImportColmap(model, {}, {}, progress, *MakeSilentLog());
   ASSERT_TRUE(again.ok()) << again.message();
   EXPECT_EQ(again->camera, db->camera);
-  // The exported images are grey, so that a few features differ.
+  // The exported images are grey, so a few features differ.
   EXPECT_GT(again->points.size(), db->points.size() * 95 / 100);
   EXPECT_GT(again->observations.size(), db->observations.size() * 95 / 100);
   EXPECT_NEAR(again->mean_reprojection_error_px, db->mean_reprojection_error_px, 0.02);

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Two cameras, three images, points that they see, with numbers that need all their digits.
+// A model with two cameras, three images and their points, with numbers that need all their digits.
 ColmapModel MakeModel() {
   Random random(7);
   ColmapModel model;
@@ -37,7 +37,7 @@ ColmapModel MakeModel() {
             .normalized();
     image.camera_from_map.translation = {random.Normal(), random.Normal(), random.Normal()};
     if (id == 3) {
-      continue;  // an image without features
+      continue;  // An image without features.
     }
     for (int i = 0; i < 5; ++i) {
       image.features.push_back({640 * random.Uniform(), 480 * random.Uniform()});
@@ -52,7 +52,7 @@ ColmapModel MakeModel() {
     const auto feature = static_cast<uint32_t>(id - 9);
     for (const size_t image : {size_t{0}, size_t{2}}) {
       model.images[image].features[feature].point = id;
-      point.sights.push_back({model.images[image].id, feature});
+      point.observations.push_back({model.images[image].id, feature});
     }
   }
   return model;
@@ -90,10 +90,10 @@ void ExpectEqual(const ColmapModel& a, const ColmapModel& b) {
     EXPECT_EQ(a.points[i].position, b.points[i].position);
     EXPECT_EQ(a.points[i].colour, b.points[i].colour);
     EXPECT_EQ(a.points[i].error, b.points[i].error);
-    ASSERT_EQ(a.points[i].sights.size(), b.points[i].sights.size());
-    for (size_t s = 0; s < a.points[i].sights.size(); ++s) {
-      EXPECT_EQ(a.points[i].sights[s].image, b.points[i].sights[s].image);
-      EXPECT_EQ(a.points[i].sights[s].feature, b.points[i].sights[s].feature);
+    ASSERT_EQ(a.points[i].observations.size(), b.points[i].observations.size());
+    for (size_t s = 0; s < a.points[i].observations.size(); ++s) {
+      EXPECT_EQ(a.points[i].observations[s].image, b.points[i].observations[s].image);
+      EXPECT_EQ(a.points[i].observations[s].feature, b.points[i].observations[s].feature);
     }
   }
 }
@@ -113,7 +113,7 @@ TEST_P(ColmapModelFormat, RefusesEveryTruncationWithOneErrorThatNamesTheFolder) 
   const ColmapFiles whole = SerializeColmapModel(MakeModel(), GetParam());
   for (std::string ColmapFiles::*file :
        {&ColmapFiles::cameras, &ColmapFiles::images, &ColmapFiles::points}) {
-    // The text's last newline is the only byte that says nothing.
+    // The text's last newline is the only redundant byte.
     for (size_t length = 0; length + 2 < (whole.*file).size(); ++length) {
       ColmapFiles files = whole;
       (files.*file).resize(length);
@@ -122,7 +122,7 @@ TEST_P(ColmapModelFormat, RefusesEveryTruncationWithOneErrorThatNamesTheFolder) 
         ASSERT_FALSE(parsed.ok()) << length;
         EXPECT_THAT(parsed.message(), HasSubstr("model"));
       } else if (parsed.ok()) {
-        EXPECT_TRUE(parsed->Validate().ok());  // a shorter number is a number
+        EXPECT_TRUE(parsed->Validate().ok());  // A truncated number is still a number.
       }
     }
   }
@@ -151,7 +151,7 @@ TEST(ColmapText, ReadsCommentsBlankLinesAndNamesWithBlanks) {
   EXPECT_EQ(model->images[0].features[1].point, ColmapFeature::kNoPoint);
   EXPECT_TRUE(model->images[1].features.empty());
   EXPECT_EQ(model->points[0].error, 0.25);
-  EXPECT_EQ(model->points[0].sights[1].image, 9u);
+  EXPECT_EQ(model->points[0].observations[1].image, 9u);
 }
 
 TEST(ColmapText, ErrorsNameTheLine) {
@@ -184,23 +184,25 @@ TEST(ColmapModel, ValidationSaysWhatIsBroken) {
       {"point 10: appears twice", [](ColmapModel& m) { m.points[1].id = 10; }},
       {"camera 1: has a parameter", [&](ColmapModel& m) { m.cameras[0].parameters[2] = kNan; }},
       {"camera 77, which is missing", [](ColmapModel& m) { m.images[0].camera = 77; }},
-      {"no rigid motion",
+      {"not a rigid motion",
        [](ColmapModel& m) { m.images[0].camera_from_map.rotation.coeffs() *= 1.5; }},
-      {"no rigid motion",
+      {"not a rigid motion",
        [](ColmapModel& m) { m.images[0].camera_from_map.rotation.coeffs().setZero(); }},
-      {"no rigid motion",
+      {"not a rigid motion",
        [&](ColmapModel& m) { m.images[0].camera_from_map.translation.x() = kNan; }},
       {"no usable name", [](ColmapModel& m) { m.images[0].name.clear(); }},
       {"no usable name", [](ColmapModel& m) { m.images[0].name = "a\nb"; }},
-      {"impossible place", [&](ColmapModel& m) { m.images[0].features[0].x = kNan; }},
-      {"impossible place", [&](ColmapModel& m) { m.points[0].position.z() = kNan; }},
+      {"invalid position", [&](ColmapModel& m) { m.images[0].features[0].x = kNan; }},
+      {"invalid position", [&](ColmapModel& m) { m.points[0].position.z() = kNan; }},
       {"point 5, which is missing", [](ColmapModel& m) { m.images[0].features[0].point = 5; }},
-      {"error that is no finite number", [&](ColmapModel& m) { m.points[0].error = kNan; }},
-      {"is not what feature 0", [](ColmapModel& m) { m.points[0].sights[0].feature = 0; }},
-      {"is not what feature 900", [](ColmapModel& m) { m.points[0].sights[0].feature = 900; }},
-      {"of image 8 shows", [](ColmapModel& m) { m.points[0].sights[0].image = 8; }},
-      {"counts twice", [](ColmapModel& m) { m.points[0].sights.push_back(m.points[0].sights[0]); }},
-      {"does not know of feature", [](ColmapModel& m) { m.points[0].sights.pop_back(); }},
+      {"error that is not a finite number", [&](ColmapModel& m) { m.points[0].error = kNan; }},
+      {"is not what feature 0", [](ColmapModel& m) { m.points[0].observations[0].feature = 0; }},
+      {"is not what feature 900",
+       [](ColmapModel& m) { m.points[0].observations[0].feature = 900; }},
+      {"of image 8 shows", [](ColmapModel& m) { m.points[0].observations[0].image = 8; }},
+      {"lists twice",
+       [](ColmapModel& m) { m.points[0].observations.push_back(m.points[0].observations[0]); }},
+      {"does not list feature", [](ColmapModel& m) { m.points[0].observations.pop_back(); }},
   };
   for (const auto& [message, damage] : cases) {
     ColmapModel model = MakeModel();

@@ -1,4 +1,4 @@
-// Recordings of the sample data, as if they were filmed now.
+// Tests the guide with recordings of the sample data, as if they were being filmed.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::vector<CoverageState> FilmAll(capture::FrameSource& source) {
 
 CoverageState Film(capture::FrameSource& source) { return FilmAll(source).back(); }
 
-// Of each image, radians to the right of the first.
+// True heading of each image, radians to the right of the first one.
 std::vector<double> TrueHeadings(const std::filesystem::path& ground_truth) {
   const Result<Json> json = LoadJson(ground_truth);
   CHECK(json.ok());

@@ -1,4 +1,4 @@
-// A camera in a room with corners all around it, and what it is told to do.
+// Tests the advice for a simulated camera in a room with corners all around it.
 
 #include "editor/train/coverage_guide.h"
 
@@ -9,25 +9,24 @@
 #include <numbers>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 #include "shared/geometry/transform.h"
 
 namespace lararium::train {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kRate = 10.0;  // frames a second
+constexpr double kRate = 10.0;  // frames per second
 constexpr double kFocal = 280.0;
 constexpr double kHalfWidth = 160.0;
 constexpr double kHalfHeight = 120.0;
 
-// Where the camera is (metres; x right, z ahead of the beginning) and looks.
+// Position (metres; x right, z ahead of the first view) and viewing direction of the camera.
 struct Stand {
   double x = 0.0;
   double z = 0.0;
-  double yaw = 0.0;    // radians to the right
-  double pitch = 0.0;  // upwards
+  double yaw = 0.0;    // Radians to the right.
+  double pitch = 0.0;  // Radians upwards.
 };
 
 class CoverageGuideTest : public testing::Test {
@@ -35,7 +34,7 @@ class CoverageGuideTest : public testing::Test {
   CoverageGuideTest() {
     Random random(6);
     for (int i = 0; i < 6000; ++i) {
-      // Walls at about three metres, the floor, and furniture before them.
+      // Walls at about three metres, the floor, and furniture in front of them.
       const double yaw = random.Uniform(-std::numbers::pi, std::numbers::pi);
       const double distance = random.Uniform(1.8, 4.5);
       points_.push_back(
@@ -64,7 +63,7 @@ class CoverageGuideTest : public testing::Test {
         continue;
       }
       if (seen_[i] != number_ - 1) {
-        ids_[i] = next_id_++;  // a tracker knows nothing that it lost
+        ids_[i] = next_id_++;  // A lost corner gets a new id.
       }
       seen_[i] = number_;
       frame.tracks.push_back({ids_[i], pixel / assumed_focal_});
@@ -78,7 +77,7 @@ class CoverageGuideTest : public testing::Test {
     return frame;
   }
 
-  // The same whenever the point is seen.
+  // The descriptor of a point is the same in all frames.
   static vision::Descriptor DescriptorOf(size_t point) {
     Random random(1000 + point);
     vision::Descriptor descriptor;
@@ -88,7 +87,7 @@ class CoverageGuideTest : public testing::Test {
     return descriptor;
   }
 
-  // Walks to a stand in so many frames.
+  // Walks to a stand in the given number of frames.
   CoverageState Go(const Stand& to, int frames) {
     CoverageState state;
     for (int i = 1; i <= frames; ++i) {
@@ -108,7 +107,7 @@ class CoverageGuideTest : public testing::Test {
   uint32_t next_id_ = 0;
   int number_ = 0;
   double assumed_focal_ = kFocal;
-  bool describes_ = false;  // what is seen can be recognised
+  bool describes_ = false;  // Frames have features, so views can be recognised.
   Stand at_;
   CoverageGuide guide_{Eigen::Vector2d(kHalfWidth, kHalfHeight) / kFocal};
 };
@@ -129,8 +128,8 @@ TEST_F(CoverageGuideTest, TurningOnTheSpotSeesButDoesNotCoverAndIsTold) {
   for (const double focal : {kFocal, 1.2 * kFocal}) {
     assumed_focal_ = focal;
     guide_ = CoverageGuide(Eigen::Vector2d(kHalfWidth, kHalfHeight) / focal);
-    Go({.yaw = 35.0 * kDegree}, 40);
-    const CoverageState state = Go({.yaw = -5.0 * kDegree}, 40);
+    Go({.yaw = 35.0 * kRadiansPerDegree}, 40);
+    const CoverageState state = Go({.yaw = -5.0 * kRadiansPerDegree}, 40);
     EXPECT_EQ(state.fault, CoverageFault::kTurning) << focal;
     EXPECT_EQ(state.shares.ahead, 0.0) << focal;
     EXPECT_LT(state.shares.sideways, 0.1) << focal;
@@ -141,11 +140,11 @@ TEST_F(CoverageGuideTest, TurningOnTheSpotSeesButDoesNotCoverAndIsTold) {
 }
 
 TEST_F(CoverageGuideTest, MeasuresHeadingAndSteps) {
-  Go({.x = 0.9, .yaw = 20.0 * kDegree}, 60);
-  const CoverageState state = Go({.x = 0.9, .z = 0.6, .yaw = 20.0 * kDegree}, 40);
-  // Well within a column.
-  EXPECT_NEAR(state.heading, 20.0 * kDegree, 4.0 * kDegree);
-  EXPECT_NEAR(state.pitch, 0.0, 4.0 * kDegree);
+  Go({.x = 0.9, .yaw = 20.0 * kRadiansPerDegree}, 60);
+  const CoverageState state = Go({.x = 0.9, .z = 0.6, .yaw = 20.0 * kRadiansPerDegree}, 40);
+  // The tolerance is well within a column.
+  EXPECT_NEAR(state.heading, 20.0 * kRadiansPerDegree, 4.0 * kRadiansPerDegree);
+  EXPECT_NEAR(state.pitch, 0.0, 4.0 * kRadiansPerDegree);
   // The corners are about three metres away.
   EXPECT_NEAR(state.moved.x(), 0.3, 0.1);
   EXPECT_NEAR(state.moved.y(), 0.2, 0.1);
@@ -161,8 +160,8 @@ TEST_F(CoverageGuideTest, SteppingAsideCoversWhatIsAhead) {
 
 TEST_F(CoverageGuideTest, ASideThatIsMissingIsAskedFor) {
   Go({.x = 0.9}, 50);
-  Go({.x = 0.9, .yaw = 40.0 * kDegree}, 30);
-  Go({.x = -0.5, .yaw = 40.0 * kDegree}, 60);
+  Go({.x = 0.9, .yaw = 40.0 * kRadiansPerDegree}, 30);
+  Go({.x = -0.5, .yaw = 40.0 * kRadiansPerDegree}, 60);
   const CoverageState state = Go({.x = -0.5}, 30);
   EXPECT_TRUE(state.advice == CoverageAdvice::kLookLeft ||
               state.advice == CoverageAdvice::kStepLeft)
@@ -184,13 +183,13 @@ TEST_F(CoverageGuideTest, AWalkThatDoesWhatIsAskedComesToItsEnd) {
         to.x += 0.2;
         break;
       case CoverageAdvice::kLookLeft:
-        to.yaw -= 10.0 * kDegree;
+        to.yaw -= 10.0 * kRadiansPerDegree;
         break;
       case CoverageAdvice::kLookRight:
-        to.yaw += 10.0 * kDegree;
+        to.yaw += 10.0 * kRadiansPerDegree;
         break;
       case CoverageAdvice::kLookDown:
-        to.pitch -= 10.0 * kDegree;
+        to.pitch -= 10.0 * kRadiansPerDegree;
         break;
       case CoverageAdvice::kGoNearer:
         to.z += 0.2;
@@ -232,50 +231,50 @@ TEST_F(CoverageGuideTest, GoesOnAfterAllCornersWereLost) {
   CoverageFrame lost = Look(at_);
   lost.tracks.clear();
   EXPECT_EQ(guide_.Add(lost).fault, CoverageFault::kBare);
-  number_ += 2;  // all corners are new afterwards
+  number_ += 2;  // All corners get new ids.
   const CoverageState before = guide_.Add(Look(at_));
   const CoverageState after = Go({.x = 1.1}, 30);
   EXPECT_EQ(after.fault, CoverageFault::kNone);
   EXPECT_GT(after.moved.x(), before.moved.x() + 0.1);
 }
 
-// Lost, turned and carried back, with nothing to follow on the way.
+// The camera is lost, turned and carried back, with nothing to track on the way.
 TEST_F(CoverageGuideTest, WhatWasSeenBeforeSaysWhereTheCameraIs) {
   describes_ = true;
-  Go({.x = 0.9, .yaw = 20.0 * kDegree}, 60);
-  Go({.x = 0.9, .yaw = 45.0 * kDegree}, 30);
+  Go({.x = 0.9, .yaw = 20.0 * kRadiansPerDegree}, 60);
+  Go({.x = 0.9, .yaw = 45.0 * kRadiansPerDegree}, 30);
   const CoverageGuide::Cells before = guide_.cells();
   CoverageFrame lost = Look(at_);
   lost.tracks.clear();
   lost.describe = {};
   EXPECT_EQ(guide_.Add(lost).fault, CoverageFault::kBare);
   number_ += 2;
-  at_ = {.x = 0.3, .yaw = 5.0 * kDegree};
+  at_ = {.x = 0.3, .yaw = 5.0 * kRadiansPerDegree};
   const CoverageState state = guide_.Add(Look(at_));
-  EXPECT_NEAR(state.heading, 5.0 * kDegree, 3.0 * kDegree);
+  EXPECT_NEAR(state.heading, 5.0 * kRadiansPerDegree, 3.0 * kRadiansPerDegree);
   EXPECT_NEAR(state.moved.x(), 0.1, 0.05);
-  // To have been carried is no parallax.
+  // Being carried gives no parallax.
   for (size_t column = 18; column < CoverageGuide::kColumns; ++column) {
     EXPECT_EQ(guide_.cells()[1][column], before[1][column]) << column;
   }
 }
 
 TEST_F(CoverageGuideTest, ErrorsThatAddedUpGoAwayWhereItBegan) {
-  assumed_focal_ = 1.1 * kFocal;  // turns seem smaller than they are, all the more the more is seen
+  assumed_focal_ = 1.1 * kFocal;  // Turns seem smaller than they are.
   const auto error_after_a_walk = [&](bool describes) {
     describes_ = describes;
     guide_ = CoverageGuide(Eigen::Vector2d(kHalfWidth, kHalfHeight) / kFocal);
     at_ = {};
     CoverageState state;
     for (int round = 0; round < 3; ++round) {
-      Go({.x = 0.8, .z = 0.5, .yaw = -40.0 * kDegree}, 40);
-      Go({.x = 0.9, .z = -0.4, .yaw = 30.0 * kDegree}, 50);
+      Go({.x = 0.8, .z = 0.5, .yaw = -40.0 * kRadiansPerDegree}, 40);
+      Go({.x = 0.9, .z = -0.4, .yaw = 30.0 * kRadiansPerDegree}, 50);
       state = Go({}, 40);
     }
     return std::abs(state.heading);
   };
   const double by_following = error_after_a_walk(false);
-  EXPECT_GT(by_following, 4.0 * kDegree);
+  EXPECT_GT(by_following, 4.0 * kRadiansPerDegree);
   EXPECT_LT(error_after_a_walk(true), 0.5 * by_following);
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 
 namespace lararium::train {
 namespace {
@@ -13,20 +14,18 @@ namespace {
 using Eigen::Vector3d;
 using geometry::Similarity3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 struct RoomOptions {
-  double noise = 0.004;     // metres, of every point
-  int floor_points = 1500;  // 0: the floor is not seen
-  int table_points = 2500;  // richly painted
+  double noise = 0.004;     // Noise of every point, metres.
+  int floor_points = 1500;  // 0: the floor is not visible.
+  int table_points = 2500;  // A richly painted table.
   bool clutter = true;
-  double pitch = 0.35;  // radians that the cameras look down
+  double pitch = 0.35;  // Downward pitch of the cameras, radians.
   uint64_t seed = 1;
 };
 
-// A room of 5 m x 4 m, Z up, its floor at z = 0; a table of 1.6 m x 0.9 m, 0.75 m
-// high, three walls, and clutter at all heights below a metre. Filmed from the
-// open side at 1.5 m.
+// A room of 5 m x 4 m with z up and the floor at z = 0. It has a table of 1.6 m x 0.9 m that is
+// 0.75 m high, three walls, and clutter at all heights below a metre. It is filmed from the open
+// side at a height of 1.5 m.
 class Room {
  public:
   explicit Room(const RoomOptions& options) : random_(options.seed), noise_(options.noise) {
@@ -71,7 +70,7 @@ class Room {
                       noise_ * Vector3d(random_.Normal(), random_.Normal(), random_.Normal()));
   }
 
-  // Looks along +y turned by -heading, then down by pitch.
+  // Adds a camera that looks along +y, turned by -heading and then down by pitch.
   void AddCamera(const Vector3d& center, double heading, double pitch) {
     const Vector3d level(-std::sin(heading), std::cos(heading), 0.0);
     const Vector3d forward = std::cos(pitch) * level - std::sin(pitch) * Vector3d::UnitZ();
@@ -95,7 +94,7 @@ double TiltFrom(const FloorPlane& floor, const Similarity3& map_from_room) {
   return std::acos(std::min(1.0, floor.normal.dot(map_from_room.rotation * Vector3d::UnitZ())));
 }
 
-// Metres in the room, above the room's middle.
+// Height of the found floor in the room at the room's middle, metres.
 double HeightInRoom(const FloorPlane& floor, const Similarity3& map_from_room) {
   return -floor.Height(map_from_room.translation) / map_from_room.scale;
 }
@@ -103,7 +102,7 @@ double HeightInRoom(const FloorPlane& floor, const Similarity3& map_from_room) {
 TEST(FindFloor, FindsTheFloorUnderARicherTable) {
   const auto floor = FindFloor(Room({}).Map(SomeGauge()));
   ASSERT_TRUE(floor.has_value());
-  EXPECT_LT(TiltFrom(*floor, SomeGauge()), 0.1 * kDegree);
+  EXPECT_LT(TiltFrom(*floor, SomeGauge()), 0.1 * kRadiansPerDegree);
   EXPECT_NEAR(HeightInRoom(*floor, SomeGauge()), 0.0, 0.002);
   EXPECT_NEAR(floor->spread / SomeGauge().scale, 0.004, 0.0015);
   EXPECT_GT(floor->points, 1000);
@@ -116,7 +115,7 @@ TEST(FindFloor, DoesNotDependOnTheGauge) {
   const Similarity3 gauge{250.0, SomeGauge().rotation, {-1e3, 2e3, 5e2}};
   const auto there = FindFloor(room.Map(gauge));
   ASSERT_TRUE(here && there);
-  EXPECT_NEAR(TiltFrom(*there, gauge), TiltFrom(*here, {}), 0.05 * kDegree);
+  EXPECT_NEAR(TiltFrom(*there, gauge), TiltFrom(*here, {}), 0.05 * kRadiansPerDegree);
   EXPECT_NEAR(HeightInRoom(*there, gauge), HeightInRoom(*here, {}), 0.001);
 }
 
@@ -143,7 +142,7 @@ TEST(FindFloor, StandsCamerasThatAllLookTheSameWayDown) {
   options.noise = 0.01;
   const auto floor = FindFloor(Room(options).Map(SomeGauge()));
   ASSERT_TRUE(floor.has_value());
-  EXPECT_LT(TiltFrom(*floor, SomeGauge()), 0.3 * kDegree);
+  EXPECT_LT(TiltFrom(*floor, SomeGauge()), 0.3 * kRadiansPerDegree);
   EXPECT_NEAR(HeightInRoom(*floor, SomeGauge()), 0.0, 0.005);
 }
 
@@ -160,7 +159,8 @@ TEST(FindFloor, PredictsItsTilt) {
     ASSERT_TRUE(floor.has_value());
     squares += std::pow(TiltFrom(*floor, {}) / floor->tilt_deviation, 2);
   }
-  // Two axes, the better of which tilts less than the worst.
+  // The tilt has two axes and the deviation is that of the worse one, so the expected mean square
+  // is between 1 and 2.
   EXPECT_GT(std::sqrt(squares / kRooms), 0.6);
   EXPECT_LT(std::sqrt(squares / kRooms), 2.5);
 }

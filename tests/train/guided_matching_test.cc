@@ -12,7 +12,7 @@
 namespace lararium::train {
 namespace {
 
-constexpr double kFocal = 500.0;
+constexpr double kGuidedFocal = 500.0;
 
 vision::Descriptor RandomDescriptor(Random& random) {
   vision::Descriptor descriptor;
@@ -28,7 +28,7 @@ vision::Descriptor RandomDescriptor(Random& random) {
   return descriptor;
 }
 
-// The same points from two cameras; feature i of both shows point i.
+// Two views of the same points; feature i of both views shows point i.
 struct TwoViews {
   vision::Features a;
   vision::Features b;
@@ -51,7 +51,7 @@ TwoViews MakeViews(int count) {
     keypoint.angle = static_cast<float>(random.Uniform(-3.0, 3.0));
     views.a.keypoints.push_back(keypoint);
     keypoint.scale *= 1.2f;
-    keypoint.angle += 0.5f;  // may leave -pi..pi
+    keypoint.angle += 0.5f;  // May leave -pi..pi.
     views.b.keypoints.push_back(keypoint);
     views.a.descriptors.push_back(RandomDescriptor(random));
     views.b.descriptors.push_back(views.a.descriptors.back());
@@ -65,7 +65,7 @@ TwoViews MakeViews(int count) {
 GuidedOptions OptionsFor(const TwoViews& views) {
   GuidedOptions options;
   options.fundamental = EssentialMatrix(views.b_from_a);
-  options.band = 3.0 / kFocal;
+  options.band = 3.0 / kGuidedFocal;
   options.turn = 0.5f;
   options.growth = std::log2(1.2f);
   return options;
@@ -85,9 +85,9 @@ TEST(GuidedMatching, FindsEveryFeatureOnItsEpipolarLine) {
 TEST(GuidedMatching, LeavesOutWhatLiesOffTheLine) {
   TwoViews views = MakeViews(500);
   const Eigen::Matrix3d essential = EssentialMatrix(views.b_from_a);
-  for (int i = 0; i < 500; i += 2) {  // 20 pixels across the line
+  for (int i = 0; i < 500; i += 2) {  // Moved by 20 pixels across the line.
     const Eigen::Vector3d line = essential * views.plane_a[i].homogeneous();
-    views.plane_b[i] += line.head<2>().normalized() * (20.0 / kFocal);
+    views.plane_b[i] += line.head<2>().normalized() * (20.0 / kGuidedFocal);
   }
   const auto matches = MatchGuided(FeatureGrid(views.a, views.plane_a),
                                    FeatureGrid(views.b, views.plane_b), OptionsFor(views));
@@ -111,7 +111,7 @@ TEST(GuidedMatching, LeavesOutWhatIsTurnedOrScaledOtherwise) {
 
 TEST(GuidedMatching, LeavesOutWhatLooksAlikeTwice) {
   TwoViews views = MakeViews(300);
-  // A twin of feature 0 beside it, within the band.
+  // A copy of feature 0 within the band.
   views.b.keypoints.push_back(views.b.keypoints[0]);
   views.b.descriptors.push_back(views.b.descriptors[0]);
   views.plane_b.push_back(views.plane_b[0] + Eigen::Vector2d(1e-4, 1e-4));

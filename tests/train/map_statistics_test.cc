@@ -35,10 +35,10 @@ TEST(MapStatistics, ErrorIsTheMeanDistanceOverAPointsObservations) {
   EXPECT_NEAR(statistics.point_error_px[8], 0.0, 1e-3);
 }
 
-TEST(ErrorQuantilePx, IsNotExceededByThatShareOfTheSights) {
+TEST(ErrorQuantilePx, IsNotExceededByThatShareOfTheObservations) {
   SceneDatabase db = Map(30);
   ASSERT_GT(db.observations.size(), 100u);
-  for (size_t i = 0; i < db.observations.size(); ++i) {  // 0, 1, 2 and so on pixels off
+  for (size_t i = 0; i < db.observations.size(); ++i) {  // Errors of 0, 1, 2, ... pixels.
     db.observations[i].y += static_cast<float>(i);
   }
   const auto count = static_cast<double>(db.observations.size());
@@ -58,13 +58,13 @@ TEST(MapStatistics, APointThatNobodySawHasNoError) {
   EXPECT_GE(statistics.point_error_px[4], 0.0f);
 }
 
-TEST(MapStatistics, SightsOfAPointAreItsObservations) {
+TEST(MapStatistics, ObservationsOfAPointAreItsObservations) {
   const SceneDatabase db = Map(25);
   const MapStatistics statistics = MeasureStatistics(db);
   size_t all = 0;
   for (uint32_t point = 0; point < db.points.size(); ++point) {
-    for (const uint32_t sight : statistics.SightsOf(point)) {
-      EXPECT_EQ(db.observations[sight].point, point);
+    for (const uint32_t observation : statistics.ObservationsOf(point)) {
+      EXPECT_EQ(db.observations[observation].point, point);
       ++all;
     }
   }
@@ -108,19 +108,19 @@ TEST(MapStatistics, TellsTheOnlySessionOfAPoint) {
   EXPECT_EQ(statistics.point_session, (std::vector<uint8_t>{0, 2, kNoSingleSession, 31}));
 }
 
-TEST(MapStatistics, SigmaIsTheNoiseOfTheSights) {
+TEST(MapStatistics, SigmaIsTheNoiseOfTheObservations) {
   SceneDatabase db = Map(600, 12);
   Random random(4);
   for (vision::Observation& o : db.observations) {
     o.x += static_cast<float>(0.7 * random.Normal());
     o.y += static_cast<float>(0.7 * random.Normal());
   }
-  // The points were not fitted to the noise here, so their freedom is not spent.
+  // The points were not fitted to the noise here, so they used no degrees of freedom.
   const double freed = 1.0 - 3.0 / (2.0 * static_cast<double>(db.observations.size()) / 600.0);
   EXPECT_NEAR(MeasureStatistics(db).sigma_px * std::sqrt(freed), 0.7, 0.02);
 }
 
-// One Gauss-Newton step from the exact place: what triangulation makes of noisy sights.
+// Triangulates a point from noisy observations, by one Gauss-Newton step from the exact position.
 Eigen::Vector3d Triangulated(const SceneDatabase& db, uint32_t point, Random& random, double px) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();

@@ -26,7 +26,7 @@ TEST(Mapper, RecoversCamerasFromNoisyTracks) {
   NoProgress progress;
   ASSERT_TRUE(MapIncrementally(reconstruction, pairs, {}, progress, *MakeSilentLog()));
   EXPECT_EQ(reconstruction.LocatedImages().size(), world.pixels.size());
-  EXPECT_LT(world.CenterError(reconstruction), 0.002);  // at a distance of 4
+  EXPECT_LT(world.CenterError(reconstruction), 0.002);  // The cameras are at a distance of 4.
   EXPECT_GT(reconstruction.PointCount(), world.points.size() * 95 / 100);
 }
 
@@ -39,7 +39,7 @@ TEST(Mapper, IsExactWithoutNoise) {
   EXPECT_LT(world.CenterError(reconstruction), 1e-6);
 }
 
-TEST(Mapper, ShrugsOffFalseSights) {
+TEST(Mapper, ShrugsOffFalseObservations) {
   const World world = MakeWorld({.false_share = 0.1, .seed = 3});
   const auto pairs = world.Pairs(6, world.camera);
   Reconstruction reconstruction = world.Unsolved(pairs, world.camera);
@@ -119,10 +119,10 @@ TEST(Mapper, KeepsTheCentreThatAFewImagesDoNotDetermine) {
   }
 }
 
-// Somebody who covers two fifths of what the images in the middle see walks by.
+// A passer-by covers two fifths of the points in the middle images.
 TEST(Mapper, LeavesOutSomebodyWhoWalksBy) {
   World world = MakeWorld({.images = 16, .points = 600, .seed = 8});
-  constexpr uint32_t kWalking = 240;  // the first of the points
+  constexpr uint32_t kWalking = 240;  // Points with a lower index belong to the passer-by.
   for (uint32_t image = 0; image < world.pixels.size(); ++image) {
     std::vector<Eigen::Vector2d> pixels;
     std::vector<uint32_t> point_of;

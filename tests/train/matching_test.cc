@@ -23,7 +23,7 @@ std::vector<Descriptor> RandomDescriptors(size_t count, uint64_t seed) {
 
 TEST(MatchDescriptors, FindsNoisyCopiesInAnyOrder) {
   Random random(3);
-  const std::vector<Descriptor> a = RandomDescriptors(101, 1);  // not a multiple of any block
+  const std::vector<Descriptor> a = RandomDescriptors(101, 1);  // Not a multiple of any block size.
   std::vector<Descriptor> b = RandomDescriptors(30, 2);
   for (size_t i = 0; i < 70; ++i) {
     Descriptor copy = a[100 - i];

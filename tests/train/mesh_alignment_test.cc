@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 
 namespace lararium::train {
@@ -15,8 +16,6 @@ namespace {
 using Eigen::Vector3d;
 using geometry::Similarity3;
 using testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 const Similarity3 kStageFromMesh = {
     0.01, Eigen::Quaterniond(0.8, 0.1, -0.5, 0.2).normalized(), {1.0, 0.4, -2.0}};
@@ -48,7 +47,7 @@ TEST(AlignByPairs, KeepsAScaleThatIsKnownAndSharesWhatIsLeftOver) {
   for (const MeshPair& pair : pairs) {
     sum += *found * pair.on_mesh - pair.on_stage;
   }
-  EXPECT_LT(sum.norm(), 1e-9);  // as least squares wants it
+  EXPECT_LT(sum.norm(), 1e-9);  // A property of least squares.
 }
 
 TEST(AlignByPairs, RefusesTooFewAndThoseOnALine) {
@@ -83,7 +82,7 @@ TEST(PlaneDistance, HasTheDerivativeThatDifferencesGive) {
   }
 }
 
-// Boxes: a counter in the shape of an L, closed, in millimetres.
+// A closed, L-shaped counter made of two boxes, in millimetres.
 geometry::TriangleMesh Counter() {
   geometry::TriangleMesh mesh;
   const auto add_box = [&](const Vector3d& least, const Vector3d& most) {
@@ -110,8 +109,7 @@ struct Found {
   Similarity3 stage_from_mesh;   // the truth
 };
 
-// Points on the counter, each as much off as noise says, among foreign ones all around, on the
-// floor that it stands on, too.
+// Noisy points on the counter, among foreign points all around it and on the floor.
 Found Scatter(size_t on_it, double noise_m, double foreign_share, uint64_t seed) {
   Random random(seed);
   const geometry::TriangleMesh mesh = Counter();
@@ -125,7 +123,7 @@ Found Scatter(size_t on_it, double noise_m, double foreign_share, uint64_t seed)
     const double v = random.Uniform() * (1.0 - u);
     const Vector3d at =
         corner(i) + u * (corner(i + 1) - corner(i)) + v * (corner(i + 2) - corner(i));
-    const bool inside = at.z() == 600.0 && at.x() < 500.0;  // where the two boxes meet
+    const bool inside = at.z() == 600.0 && at.x() < 500.0;  // Between the two boxes.
     const bool below = at.y() == 0.0;
     if (!inside && !below) {
       const Vector3d noise(random.Normal(), random.Normal(), random.Normal());
@@ -143,14 +141,15 @@ Found Scatter(size_t on_it, double noise_m, double foreign_share, uint64_t seed)
   return found;
 }
 
-// The truth, turned by degrees about an axis and shifted, about the counter's middle.
+// The truth, rotated by `degrees` about the counter's middle, shifted and scaled.
 Similarity3 Offset(const Similarity3& truth, double degrees, const Vector3d& shift, double scale) {
   SurfaceMotion motion;
-  motion << degrees * kDegree * Vector3d(0.2, 1.0, -0.3).normalized(), shift, std::log(scale);
+  motion << degrees * kRadiansPerDegree * Vector3d(0.2, 1.0, -0.3).normalized(), shift,
+      std::log(scale);
   return MotionAbout(truth * Vector3d(1000, 450, 600), motion) * truth;
 }
 
-// Farthest that a vertex of the counter lies from the truth, metres.
+// Largest distance of a vertex of the counter from its true position, metres.
 double FarthestOff(const Similarity3& stage_from_mesh, const Similarity3& truth) {
   double farthest = 0.0;
   for (const glm::vec3& vertex : Counter().positions) {
@@ -194,7 +193,7 @@ TEST(RefineAlignment, FindsTheScaleTooAndDoesNotCollapseIt) {
 }
 
 TEST(RefineAlignment, WhatStandsOnItDoesNotLiftIt) {
-  // Things all over the top, as high as is looked for and with as many points as the rest.
+  // Objects all over the top, as high as the search distance and with as many points as the rest.
   Found found = Scatter(1500, 0.004, 0.2, 19);
   Random random(20);
   for (int i = 0; i < 1500; ++i) {
@@ -230,7 +229,7 @@ TEST(RefineAlignment, DoesNotSlideWhereNothingSaysHowFar) {
   NoProgress silent;
   const auto report = RefineAlignment(wall, {}, points, {.search_m = 0.2}, silent);
   ASSERT_TRUE(report.ok()) << report.message();
-  EXPECT_EQ(report->undetermined, 4);  // two shifts, the turn in its plane, the scale
+  EXPECT_EQ(report->undetermined, 4);  // Two shifts, the rotation in the plane, and the scale.
   EXPECT_NEAR(report->stage_from_mesh.translation.z(), 0.05, 0.003);
   EXPECT_LT(report->stage_from_mesh.translation.head<2>().norm(), 0.005);
   EXPECT_NEAR(report->stage_from_mesh.scale, 1.0, 1e-6);
@@ -257,7 +256,7 @@ TEST(RefineAlignment, RefusesWhereTooFewPointsAreNear) {
 }
 
 TEST(RefineAlignment, RefusesToGoFartherThanItLooks) {
-  // Its far end would have to move farther than is looked for.
+  // The far end would have to move farther than the search distance.
   const Found found = Scatter(3000, 0.0, 0.0, 17);
   const Similarity3 start = Offset(found.stage_from_mesh, 12.0, {0.05, 0.0, 0.0}, 1.0);
   ASSERT_GT(FarthestOff(start, found.stage_from_mesh), 0.2);

@@ -13,12 +13,12 @@ namespace {
 
 constexpr size_t kPoints = 600;
 constexpr size_t kKeyframes = 60;
-constexpr size_t kOverlap = 8;  // keyframes that see a point: a long chain
+constexpr size_t kOverlap = 8;  // Number of keyframes that observe a point; they form a long chain.
 
 struct PhotoWorld {
   std::vector<Eigen::Vector3f> colours;
   std::vector<std::array<float, 3>> gains;
-  std::vector<ColourSight> sights;
+  std::vector<ColourObservation> observations;
 
   std::vector<Eigen::Vector3f> Unknown() const {
     return std::vector<Eigen::Vector3f>(colours.size(), Eigen::Vector3f::Constant(-1.0f));
@@ -26,9 +26,9 @@ struct PhotoWorld {
 };
 
 struct PhotoOptions {
-  double noise = 0.0;          // standard deviation of logarithms
-  double outlier_share = 0.0;  // of sights, anywhere between black and white
-  double falloff = 0.0;        // share of light lost at random places of the image, at most
+  double noise = 0.0;          // Standard deviation of the logarithms.
+  double outlier_share = 0.0;  // Share of observations with a random value.
+  double falloff = 0.0;        // Largest share of light lost at random positions in the image.
 };
 
 void Scale(std::array<float, 3>& gain, const std::array<float, 3>& by) {
@@ -37,7 +37,7 @@ void Scale(std::array<float, 3>& gain, const std::array<float, 3>& by) {
   }
 }
 
-// The reference's gauge: the median of gains is 1.
+// Fixes the scale of the reference: the median of the gains becomes 1.
 void Normalise(std::vector<std::array<float, 3>>& gains) {
   std::array<float, 3> inverse;
   for (size_t c = 0; c < 3; ++c) {
@@ -69,17 +69,17 @@ PhotoWorld MakePhotoWorld(const PhotoOptions& options) {
     world.colours.emplace_back(dark_to_bright(), dark_to_bright(), dark_to_bright());
     const size_t first = p * (kKeyframes - kOverlap) / (kPoints - 1);
     for (size_t k = first; k < first + kOverlap; ++k) {
-      ColourSight sight{static_cast<uint32_t>(p), static_cast<uint32_t>(k), {}};
+      ColourObservation observation{static_cast<uint32_t>(p), static_cast<uint32_t>(k), {}};
       const bool outlier = random.Uniform() < options.outlier_share;
       const double light = 1.0 - options.falloff * random.Uniform();
       for (int c = 0; c < 3; ++c) {
         const double clean = world.colours[p][c] * world.gains[k][static_cast<size_t>(c)] * light;
-        sight.colour.rgb[c] =
+        observation.colour.rgb[c] =
             static_cast<float>(outlier ? random.Uniform(0.01, 1.0)
                                        : clean * std::exp(options.noise * random.Normal()));
       }
-      sight.colour.weight = Eigen::Vector3f::Ones();
-      world.sights.push_back(sight);
+      observation.colour.weight = Eigen::Vector3f::Ones();
+      world.observations.push_back(observation);
     }
   }
   return world;
@@ -96,7 +96,7 @@ double GainError(const PhotometricReference& found, const PhotoWorld& world) {
   return std::sqrt(sum / (3.0 * kKeyframes));
 }
 
-// Median size of the colours' logarithmic differences.
+// Median absolute logarithmic difference of the colours.
 double ColourError(const PhotometricReference& found, const PhotoWorld& world) {
   std::vector<double> sizes;
   for (size_t p = 0; p < kPoints; ++p) {
@@ -110,22 +110,22 @@ double ColourError(const PhotometricReference& found, const PhotoWorld& world) {
 
 TEST(PhotometricReference, IsExactWithoutNoise) {
   const PhotoWorld world = MakePhotoWorld({});
-  const auto found = SolvePhotometry(world.sights, kKeyframes, world.Unknown());
+  const auto found = SolvePhotometry(world.observations, kKeyframes, world.Unknown());
   EXPECT_LT(GainError(found, world), 1e-3);
   EXPECT_LT(ColourError(found, world), 1e-3);
 }
 
 TEST(PhotometricReference, WithstandsOutliersNoiseAndFalloff) {
   const PhotoWorld world = MakePhotoWorld({.noise = 0.03, .outlier_share = 0.15, .falloff = 0.16});
-  const auto found = SolvePhotometry(world.sights, kKeyframes, world.Unknown());
+  const auto found = SolvePhotometry(world.observations, kKeyframes, world.Unknown());
   EXPECT_LT(GainError(found, world), 0.03);
-  // The mean falloff of 8 % is part of what the points look like.
+  // The mean falloff of 8 % becomes part of the colours.
   EXPECT_LT(ColourError(found, world), 0.08 + 0.03);
 }
 
 TEST(PhotometricReference, FixesTheMedianGain) {
   const PhotoWorld world = MakePhotoWorld({.noise = 0.03});
-  const auto found = SolvePhotometry(world.sights, kKeyframes, world.Unknown());
+  const auto found = SolvePhotometry(world.observations, kKeyframes, world.Unknown());
   for (size_t c = 0; c < 3; ++c) {
     size_t above = 0;
     for (const auto& gain : found.gains) {
@@ -139,9 +139,9 @@ TEST(PhotometricReference, KeepsKnownColours) {
   PhotoWorld world = MakePhotoWorld({.noise = 0.01, .outlier_share = 0.1});
   std::vector<Eigen::Vector3f> known = world.Unknown();
   for (size_t p = 0; p < kPoints; p += 3) {
-    known[p] = 2.0f * world.colours[p];  // a reference that saw twice the light
+    known[p] = 2.0f * world.colours[p];  // A reference with twice the light.
   }
-  const auto found = SolvePhotometry(world.sights, kKeyframes, known);
+  const auto found = SolvePhotometry(world.observations, kKeyframes, known);
   for (size_t p = 0; p < kPoints; p += 3) {
     EXPECT_EQ(found.colours[p], known[p]);
   }
@@ -157,15 +157,15 @@ TEST(PhotometricReference, KeepsKnownColours) {
 
 TEST(PhotometricReference, SaysWhatNoImageShowsWell) {
   PhotoWorld world = MakePhotoWorld({});
-  for (ColourSight& sight : world.sights) {
-    if (sight.point == 5) {
-      sight.colour.weight[1] = 0.0f;
+  for (ColourObservation& observation : world.observations) {
+    if (observation.point == 5) {
+      observation.colour.weight[1] = 0.0f;
     }
-    if (sight.keyframe == 30) {
-      sight.colour.weight.setZero();
+    if (observation.keyframe == 30) {
+      observation.colour.weight.setZero();
     }
   }
-  const auto found = SolvePhotometry(world.sights, kKeyframes, world.Unknown());
+  const auto found = SolvePhotometry(world.observations, kKeyframes, world.Unknown());
   EXPECT_GT(found.colours[5][0], 0.0f);
   EXPECT_LT(found.colours[5][1], 0.0f);
   EXPECT_EQ(found.gains[30], (std::array<float, 3>{1.0f, 1.0f, 1.0f}));
@@ -174,7 +174,7 @@ TEST(PhotometricReference, SaysWhatNoImageShowsWell) {
 TEST(PhotometricReference, ReadsTheKeyframesImages) {
   test::SyntheticWorld points = test::MakeSyntheticWorld({.points = 80, .cameras = 4});
   vision::SceneDatabase database = test::MakeSceneDatabase(points);
-  std::vector<cv::Mat> images;  // one plain wall under four exposures, the last not at hand
+  std::vector<cv::Mat> images;  // A plain wall under four exposures; the last image is missing.
   for (const uint8_t grey : {100, 120, 140}) {
     images.emplace_back(480, 640, CV_8UC3, cv::Scalar(grey, grey, grey));
   }

@@ -38,8 +38,8 @@ double MeanInliers(const vision::SceneDatabase& map, const Part& part) {
   }
 }
 
-// The second half of the lighting sequence has another sun than the training
-// video. Its even frames are added, odd ones tested.
+// The second half of the lighting sequence has another position of the sun than the training video.
+// Its even frames are added as a session, and its odd frames are tested.
 TEST(AddSessionOnMaquette, WorksInBothLights) {
   LARARIUM_REQUIRE_DATA(folder, "maquette");
   NoProgress progress;

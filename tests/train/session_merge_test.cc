@@ -18,12 +18,12 @@ using geometry::Similarity3;
 using vision::Observation;
 using vision::SceneDatabase;
 
-// A map of a world and a session that was trained by itself: in its own frame
-// and unit, by other cameras, with a part of the descriptors changed by the light.
+// A map of a world and a session that was trained by itself: in its own frame and unit, from other
+// cameras, and with a part of the descriptors changed by the light.
 struct TwoSessions {
   SceneDatabase map;
   SceneDatabase session;
-  std::vector<vision::Features> features;  // of the session's keyframes
+  std::vector<vision::Features> features;  // [session's keyframes]
   Similarity3 map_from_session;
 };
 
@@ -92,7 +92,7 @@ TwoSessions MakeTwoSessions(const TwoSessionsOptions& options) {
     keyframe.session = 1;
     keyframe.gain = {2.0f, 2.0f, 2.0f};
   }
-  // The same points in half the light, of which its reference knows nothing.
+  // The same points in half the light; the session's own reference hides the difference.
   sessions.session.colours.assign(300, Eigen::Vector3f(0.2f, 0.1f, 0.05f));
   sessions.session.session_masks.assign(300, 2u);
   return sessions;
@@ -123,7 +123,8 @@ TEST(MergeSession, FindsTheSessionsPlaceInTheMap) {
   EXPECT_EQ(merged->report.located, 6);
   EXPECT_EQ(merged->database.keyframes.size(), 14u);
   EXPECT_NEAR(merged->report.map_from_session.scale, 2.5, 0.02);
-  EXPECT_LT(LargestCenterError(sessions, merged->database), 0.02);  // cameras are 4 away
+  EXPECT_LT(LargestCenterError(sessions, merged->database),
+            0.02);  // The cameras are at a distance of 4.
 }
 
 TEST(MergeSession, LeavesTheMapsFrameAndKeyframesAlone) {
@@ -152,7 +153,7 @@ TEST(MergeSession, SharesPointsThatLookTheSameAndAddsTheOthers) {
     const uint32_t mask = merged->database.session_masks[i];
     EXPECT_TRUE(mask == 1u || mask == 2u || mask == 3u);
     both += mask == 3u;
-    EXPECT_EQ(mask == 2u, i >= 300);  // the map's points come first
+    EXPECT_EQ(mask == 2u, i >= 300);  // The map's points come first.
   }
   EXPECT_EQ(both, merged->report.shared_points);
 }
@@ -160,8 +161,8 @@ TEST(MergeSession, SharesPointsThatLookTheSameAndAddsTheOthers) {
 TEST(MergeSession, BringsTheGainsToOneReference) {
   const Result<MergedMap> merged = Merge(MakeTwoSessions({}));
   ASSERT_TRUE(merged.ok()) << merged.message();
-  // What the session's reference calls 1 is half of the map's: its colours
-  // double, and its gain of 2 is the map's 1.
+  // A value of 1 in the session's reference is 2 in the map's, so the session's colours double and
+  // its gain of 2 becomes 1.
   EXPECT_NEAR(merged->database.keyframes.back().gain[1], 1.0f, 1e-4f);
   EXPECT_NEAR(merged->database.colours.back()[0], 0.4f, 1e-4f);
   EXPECT_EQ(merged->database.keyframes.front().gain[1], 1.0f);
@@ -185,8 +186,8 @@ TEST(MergeSession, RefusesAnotherPlaceAndSaysWhatToFilm) {
   EXPECT_THAT(merged.message(), testing::HasSubstr("film the place from where"));
 }
 
-// As a training leaves a map: points lie where their sights say, and normals are the mean of the
-// directions that they were seen from.
+// Makes a map consistent, as training does: points fit their observations, and normals are the mean
+// directions to the observing cameras.
 void Settle(SceneDatabase& map) {
   std::vector<Rigid3> poses;
   for (const vision::Keyframe& keyframe : map.keyframes) {
@@ -233,7 +234,8 @@ TEST(MergeSession, WhatItAddsIsAllThatRemovingTheSessionTakes) {
   }
   ASSERT_EQ(left.points.size(), map.points.size());
   for (size_t i = 0; i < map.points.size(); ++i) {
-    EXPECT_LT((left.points[i] - map.points[i]).norm(), 1e-3f) << i;  // cameras are 4 away
+    EXPECT_LT((left.points[i] - map.points[i]).norm(), 1e-3f)
+        << i;  // The cameras are at a distance of 4.
     EXPECT_LT((left.normals[i] - map.normals[i]).norm(), 1e-3f) << i;
   }
 }
@@ -261,7 +263,7 @@ TEST(MergeSession, GivesTheSameBytesTwice) {
             vision::SerializeSceneDatabase(second->database));
 }
 
-// Which points a merged map keeps is chosen among those of the whole one, by what they look like.
+// The points that a merged map keeps are chosen among all points, with all their descriptors.
 TEST(MergeSession, WithinABudgetKeepsWhatPruningTheWholeKeeps) {
   const TwoSessions sessions = MakeTwoSessions({});
   const Result<MergedMap> whole = Merge(sessions);

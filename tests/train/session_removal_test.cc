@@ -16,8 +16,9 @@ using testing::HasSubstr;
 using vision::Observation;
 using vision::SceneDatabase;
 
-// Twelve keyframes of three sessions in turn. Points below 20 are seen by session 1 alone, those
-// below 40 by it and once by session 0, point 40 by sessions 1 and 2, the others by all.
+// A map of twelve keyframes that belong to three sessions in turn. Points below 20 are observed by
+// session 1 alone, those below 40 also once by session 0, point 40 by sessions 1 and 2, and all
+// others by all sessions.
 SceneDatabase Map() {
   SceneDatabase db =
       test::MakeSceneDatabase(test::MakeSyntheticWorld({.points = 200, .cameras = 12}));
@@ -67,7 +68,7 @@ TEST(RemoveSession, KeepsPointsThatTwoOthersShow) {
     EXPECT_LT((db.points[i] - map.points[i + 40]).norm(), 1e-4f);
     EXPECT_EQ(db.descriptors[i], map.descriptors[i + 40]);
   }
-  EXPECT_EQ(db.session_masks[0], 2u);  // only what was session 2 saw it
+  EXPECT_EQ(db.session_masks[0], 2u);  // Only the former session 2 observed it.
   EXPECT_EQ(db.session_masks[1], 3u);
 }
 
@@ -90,7 +91,7 @@ TEST(RemoveSession, ObservationsArePartOfThoseThatWere) {
 
 TEST(RemoveSession, TakesWhatPointsLookLikeInThatSessionAlone) {
   SceneDatabase map = Map();
-  // Each point looks in one way in sessions 0 and 2, in another in 1, in a third in 1 and 2.
+  // Each point has one descriptor for sessions 0 and 2, one for session 1, and one for 1 and 2.
   Random random(4);
   map.descriptors.clear();
   map.descriptor_point.clear();
@@ -134,13 +135,13 @@ TEST(RemoveSession, TheMapStillLocates) {
 
 TEST(RemoveSession, SaysWhatItCannotRemove) {
   const SceneDatabase map = Map();
-  EXPECT_THAT(RemoveSession(map, 0).message(), HasSubstr("the training itself"));
+  EXPECT_THAT(RemoveSession(map, 0).message(), HasSubstr("is the first recording"));
   EXPECT_THAT(RemoveSession(map, 3).message(), HasSubstr("is not in the map"));
   SceneDatabase alone = map;
   for (vision::Keyframe& keyframe : alone.keyframes) {
     keyframe.session = 1;
   }
-  EXPECT_THAT(RemoveSession(alone, 1).message(), HasSubstr("all that the map stands on"));
+  EXPECT_THAT(RemoveSession(alone, 1).message(), HasSubstr("supports the whole map"));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-// A camera at center whose axis points at target, y down.
+// The pose of a camera at center whose axis points at target, with y down.
 Rigid3 LookAt(const Eigen::Vector3d& center, const Eigen::Vector3d& target) {
   const Eigen::Vector3d z = (target - center).normalized();
   const Eigen::Vector3d x = Eigen::Vector3d(0, 1, 0).cross(z).normalized();
@@ -30,7 +30,7 @@ Rigid3 CameraAt(const WorldOptions& options, int i) {
   }
   const double angle = options.arc * (t - 0.5);
   return LookAt({4.0 * std::sin(angle), 0.3 * std::sin(7.0 * t), -4.0 * std::cos(angle)},
-                // Cameras that all look at one point leave the focal length open.
+                // If all cameras look at one point, the focal length is not determined.
                 {0.3 * std::sin(4.0 * i), 0.3 * std::cos(3.0 * i), 0});
 }
 

@@ -29,7 +29,7 @@ TEST(BuildTracks, JoinsMatchesAcrossImages) {
 }
 
 TEST(BuildTracks, NeverPutsAnImageTwiceIntoATrack) {
-  // 0:0 - 1:0 - 2:0 - 0:1 would close over two features of image 0.
+  // The chain 0:0 - 1:0 - 2:0 - 0:1 would contain two features of image 0.
   const std::vector<uint32_t> counts = {2, 1, 1};
   const Tracks tracks = BuildTracks(
       counts, std::vector{Pair(0, 1, {{0, 0}}), Pair(1, 2, {{0, 0}}), Pair(0, 2, {{1, 0}})});

@@ -16,7 +16,7 @@
 namespace lararium::train {
 namespace {
 
-// The images' camera and, by file name, the true poses.
+// The camera of the images and the true poses by file name.
 struct GroundTruth {
   geometry::CameraModel camera;
   std::map<std::string, geometry::Rigid3> camera_from_world;
@@ -33,7 +33,7 @@ GroundTruth LoadGroundTruth(const std::filesystem::path& file) {
   return truth;
 }
 
-// Of all located frames, after the similarity that fits them best; in metres.
+// Position errors of all located frames after alignment by the best similarity, metres.
 std::map<std::string, double> CenterErrors(const TrainReport& report, const GroundTruth& truth) {
   std::vector<Eigen::Vector3d> found;
   std::vector<Eigen::Vector3d> expected;
@@ -121,7 +121,7 @@ TEST(TrainerOnMaquette, LocatesTheFramesBetweenKeyframesAsWellAsThese) {
   }
 }
 
-// Somebody of rough texture who walks through the picture, near to the camera.
+// A textured figure that walks through the picture near the camera.
 class PasserBy {
  public:
   static constexpr int64_t kFirst = 40;
@@ -142,7 +142,7 @@ class PasserBy {
     cv::rectangle(shape_, {160, 340}, {250, kHeight}, 255, cv::FILLED);
   }
 
-  // Where it is: from its own pixels to those of the image.
+  // The position in a frame, as a transform from the figure's pixels to those of the image.
   static cv::Matx23d PlaceIn(int64_t frame) {
     const double way = static_cast<double>(frame - kFirst) / (kLast - kFirst);
     const auto swing = [&](double frames) {
@@ -157,7 +157,7 @@ class PasserBy {
             s, c,  centre[1] - s * kWidth / 2 - c * kHeight / 2};
   }
 
-  // 255 where it hides what lies behind.
+  // A mask that is 255 where the figure hides the background.
   cv::Mat MaskIn(int64_t frame, const cv::Size& size) const {
     cv::Mat mask(size, CV_8UC1, cv::Scalar(0));
     if (frame >= kFirst && frame <= kLast) {
@@ -208,7 +208,7 @@ class WithPasserBy : public capture::FrameSource {
   const PasserBy& passer_by_;
 };
 
-// Of the matches between two frames, how many went along with the passer-by.
+// Number of matches between two frames that move with the passer-by.
 int MatchesOn(const PasserBy& passer_by, const geometry::Frame& a, const geometry::Frame& b) {
   vision::FeatureOptions options;
   options.max_features = 1500;
@@ -235,7 +235,7 @@ TEST(TrainerOnMaquette, PaysNoHeedToAPasserBy) {
   const PasserBy passer_by;
   const Part part{folder / "video.mp4", 0, 119, 2};
   WithPasserBy source(part.Open(), passer_by);
-  // In the middle of its way it hides a third of the image and draws matches.
+  // In the middle of its way it hides a third of the image and gives matches of its own.
   const int64_t middle = (PasserBy::kFirst + PasserBy::kLast) / 2 / 2 * 2;
   WithPasserBy crossing(Part{part.video, middle, middle + 2, 2}.Open(), passer_by);
   const auto before = crossing.Next();

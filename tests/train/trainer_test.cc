@@ -18,7 +18,7 @@ namespace {
 using geometry::Frame;
 using ::testing::HasSubstr;
 
-// Frames in memory as a recording.
+// A recording from frames in memory.
 class ListSource : public capture::FrameSource {
  public:
   explicit ListSource(std::vector<cv::Mat> images) : images_(std::move(images)) {}
@@ -55,10 +55,10 @@ class ListSource : public capture::FrameSource {
   size_t next_ = 0;
 };
 
-// Fails to read some images at some readings; the others keep their numbers.
+// Fails to read some images in some passes; the other images keep their indices.
 class FlakySource : public ListSource {
  public:
-  // fails: the readings, from 1, at which image i cannot be read.
+  // fails[i]: the passes, counted from 1, in which image i cannot be read.
   FlakySource(std::vector<cv::Mat> images, std::map<int64_t, std::set<int>> fails)
       : ListSource(std::move(images)), fails_(std::move(fails)) {}
 
@@ -102,8 +102,8 @@ cv::Mat Texture(uint64_t seed) {
   return image;
 }
 
-// A textured wall at depth 4 and a smaller one before it at depth 3, seen by a
-// camera at x = position that is turned by angle about the vertical.
+// A textured wall at depth 4 and a smaller one in front of it at depth 3, seen by a camera at
+// x = position that is turned by angle about the vertical axis.
 cv::Mat Render(double position, double angle) {
   static const cv::Mat kWall = Texture(1);
   static const cv::Mat kFront = Texture(2);
@@ -112,7 +112,7 @@ cv::Mat Render(double position, double angle) {
   const cv::Matx33d turn(std::cos(angle), 0, -std::sin(angle), 0, 1, 0, std::sin(angle), 0,
                          std::cos(angle));
   const auto pixel_from_texture = [&](double depth, double width) {
-    const double unit = width / 640.0;  // metres of a texel
+    const double unit = width / 640.0;  // Metres per texel.
     const cv::Matx33d point(unit, 0, -320 * unit - position, 0, unit, -240 * unit, 0, 0, depth);
     return k * turn * point;
   };
@@ -158,7 +158,7 @@ TEST(Trainer, BuildsAValidDatabaseOfAPlace) {
   EXPECT_GT(result->database.points.size(), 100u);
   EXPECT_LT(result->report.mean_reprojection_error_px, 0.5);
   EXPECT_EQ(result->database.keyframes[3].name, "000003.png");
-  // The camera moved evenly along a line.
+  // The camera moved along a line at constant speed.
   const auto center = [&](size_t i) { return result->report.located[i].camera_from_map.Center(); };
   const double length = (center(7) - center(0)).norm();
   for (size_t i = 0; i < 8; ++i) {
@@ -230,17 +230,17 @@ TEST(Trainer, LocatesTheFramesBetweenKeyframes) {
   }
 }
 
-// The survey reads a source once, then its keyframes, then all for the frames between.
+// Training reads a source three times: all frames, then the keyframes, then all frames again.
 TEST(Trainer, TakesFramesThatReadOnlyOnce) {
   TrainOptions options = KnownCamera();
   options.max_keyframes = 6;
   const Result<TrainResult> whole = TrainOn(WalkPast(14), options);
   ASSERT_TRUE(whole.ok()) << whole.message();
-  int64_t keyframe = 0;  // one from the middle
+  int64_t keyframe = 0;  // A keyframe from the middle.
   for (const FrameReport& frame : whole->report.frame_reports) {
     keyframe = frame.keyframe && frame.frame_index < 9 ? frame.frame_index : keyframe;
   }
-  // Two that the survey misses, one of them the last; a keyframe that is missed later.
+  // The survey misses two frames, one of them the last one. A keyframe is missed later.
   const int64_t missed = keyframe == 5 ? 4 : 5;
   FlakySource source(WalkPast(14), {{missed, {1}}, {13, {1}}, {keyframe, {3}}});
   NoProgress progress;
@@ -289,7 +289,7 @@ TEST(Trainer, RefusesImagesWithoutOverlapAndSaysSo) {
   }
   const Result<TrainResult> result = TrainOn(images, KnownCamera());
   ASSERT_FALSE(result.ok());
-  EXPECT_THAT(result.message(), HasSubstr("no two images show the same things"));
+  EXPECT_THAT(result.message(), HasSubstr("no two images show the same objects"));
   EXPECT_THAT(result.message(), HasSubstr("more slowly"));
 }
 

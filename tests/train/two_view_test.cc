@@ -14,7 +14,7 @@ namespace {
 using test::MakeWorld;
 using test::World;
 
-// Sights of the points that both images see.
+// Observations of the points that both images see.
 PointPairs Common(const World& world, uint32_t a, uint32_t b, bool on_plane) {
   PointPairs pairs;
   for (size_t i = 0; i < world.point_of[a].size(); ++i) {
@@ -74,7 +74,7 @@ TEST(EstimateFundamental, KeepsTrueMatchesOnly) {
   ASSERT_TRUE(fundamental);
   const double share =
       static_cast<double>(fundamental->inliers.size()) / static_cast<double>(pairs.size());
-  EXPECT_GT(share, 0.6);  // 0.85 squared are true in both
+  EXPECT_GT(share, 0.6);  // A share of 0.85 squared is true in both images.
   EXPECT_LT(share, 0.85);
 }
 
@@ -93,7 +93,7 @@ TEST(EstimateFocal, AgreesOnTheTrueOne) {
 
 TEST(EstimateFocal, OfNothingIsNothing) { EXPECT_FALSE(EstimateFocal({}, 640, 480)); }
 
-// Images that each show a window of a long wall, 60 features from a start on.
+// Images of a long wall; each shows 60 features, beginning with the one given by its start.
 std::vector<vision::Features> ImagesOfWall(const std::vector<int>& starts) {
   std::vector<vision::Features> images;
   for (const int start : starts) {
@@ -126,7 +126,7 @@ bool Contains(const std::vector<ImagePair>& pairs, uint32_t a, uint32_t b) {
   return std::binary_search(pairs.begin(), pairs.end(), ImagePair{std::min(a, b), std::max(a, b)});
 }
 
-// Not all images with all others.
+// Options with which images are not all matched with one another.
 PairOptions Choosing() {
   PairOptions options;
   options.exhaustive_up_to = 25;
@@ -144,7 +144,7 @@ TEST(SelectPairs, TakesNeighboursInAVideoAndWhereItComesBack) {
     EXPECT_TRUE(Contains(pairs, i, i + 1)) << i;
     EXPECT_TRUE(Contains(pairs, i, i + 2)) << i;
   }
-  for (uint32_t i = 0; i < 15; ++i) {  // the same view on the way back
+  for (uint32_t i = 0; i < 15; ++i) {  // The same view on the way back.
     EXPECT_TRUE(Contains(pairs, i, 39 - i)) << i;
   }
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
@@ -156,7 +156,7 @@ TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
   const std::vector<int> starts = ThereAndBack();
   std::vector<int> shuffled;
   for (size_t i = 0; i < starts.size(); ++i) {
-    shuffled.push_back(starts[(17 * i + 5) % starts.size()]);  // 17 and 40 share no factor
+    shuffled.push_back(starts[(17 * i + 5) % starts.size()]);  // 17 and 40 have no common factor.
   }
   PairOptions options = Choosing();
   options.similar_unordered = 8;

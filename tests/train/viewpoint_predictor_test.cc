@@ -14,7 +14,7 @@ namespace {
 using geometry::Rigid3;
 using lararium::test::LookAt;
 
-// A synthetic world's map whose sights have the noise of real ones.
+// A synthetic world's map whose observations have the noise of real ones.
 vision::SceneDatabase MakeNoisyMap(const lararium::test::SyntheticWorld& world, double noise_px) {
   vision::SceneDatabase db = lararium::test::MakeSceneDatabase(world);
   Random random(5);
@@ -25,7 +25,7 @@ vision::SceneDatabase MakeNoisyMap(const lararium::test::SyntheticWorld& world, 
   return db;
 }
 
-TEST(ViewpointPredictor, MeasuresTheNoiseOfSights) {
+TEST(ViewpointPredictor, MeasuresTheNoiseOfObservations) {
   const auto world = lararium::test::MakeSyntheticWorld({});
   for (const double noise : {0.2, 0.6}) {
     EXPECT_NEAR(ViewpointPredictor(MakeNoisyMap(world, noise)).noise_px(), noise, 0.05 * noise);
@@ -39,7 +39,7 @@ TEST(ViewpointPredictor, ForetellsWhatTheLocalizerFinds) {
   const ViewpointPredictor predictor(db);
   vision::Localizer localizer(db, {});
   for (size_t i = 1; i + 1 < world.cameras_from_world.size(); i += 3) {
-    // Between two cameras of the path, and a little nearer.
+    // A viewpoint between two cameras of the path, and a little nearer.
     const Eigen::Vector3d center =
         0.45 * (world.cameras_from_world[i].Center() + world.cameras_from_world[i + 1].Center());
     const Rigid3 pose = LookAt(center, Eigen::Vector3d::Zero());
@@ -49,7 +49,7 @@ TEST(ViewpointPredictor, ForetellsWhatTheLocalizerFinds) {
     ASSERT_TRUE(location.camera_from_map.has_value());
     const ViewpointPrediction prediction = predictor.Predict(pose);
     EXPECT_NEAR(prediction.matches, location.inliers, 0.3 * location.inliers);
-    // The localizer knows how unsure its larger features are, the predictor does not.
+    // The localizer considers the larger uncertainty of large features, but the predictor does not.
     EXPECT_LT(prediction.error_px, 2.0 * location.expected_error_px);
     EXPECT_GT(prediction.error_px, 0.3 * location.expected_error_px);
   }
@@ -64,7 +64,7 @@ TEST(ViewpointPredictor, FindsNothingWhereThePlaceIsOutOfViewOrSeenFromBehind) {
   const ViewpointPrediction away = predictor.Predict(LookAt(center, 2.0 * center));
   EXPECT_EQ(QualityOf(away), ViewpointQuality::kNone);
   EXPECT_TRUE(std::isinf(away.error_px));
-  // From ten times as far no feature is as it was.
+  // No feature is recognised from ten times as far.
   EXPECT_EQ(QualityOf(predictor.Predict(LookAt(10.0 * center, Eigen::Vector3d::Zero()))),
             ViewpointQuality::kNone);
 }

@@ -21,7 +21,7 @@ Status WriteBoard(const char* file, int frames) {
       test::VariedBoardPictures(board, camera, frames / 2 + 2, 1);
   std::vector<test::BoardPicture> pictures;
   for (int i = 0; i < frames; ++i) {
-    // Still at each stop, then on the way to the next, where it is smeared.
+    // The board is still at each stop, then moves to the next one with motion blur.
     test::BoardPicture picture = stops[static_cast<size_t>(i / 2)];
     if (i % 2 == 1) {
       const geometry::Rigid3& next = stops[static_cast<size_t>(i / 2 + 1)].camera_from_board;

@@ -1,12 +1,12 @@
-// make_gaze_video SHOW VIDEO POSES FILE: writes a video in which the camera rests, turns to where
-// the item for captions hangs if the menu was opened before, and rests there; for tests of the
-// player's window. Its images are two of VIDEO, whose poses are those of POSES.
+// make_gaze_video SHOW VIDEO POSES FILE: writes a video in which the camera rests, turns towards
+// the menu item for captions (if the menu was opened before), and rests there; for tests of the
+// player's window. Its images are two frames of VIDEO, whose poses are in POSES.
 
 #include <cstdio>
 #include <optional>
 #include <vector>
 
-#include "player/visitor_menu.h"
+#include "player/app/visitor_menu.h"
 #include "shared/bundle/bundle.h"
 #include "shared/capture/frame_source.h"
 #include "shared/capture/video_writer.h"
@@ -17,17 +17,17 @@ namespace {
 
 using namespace lararium;  // NOLINT: the program itself
 
-constexpr int kRate = 30;          // frames a second
-constexpr int kAheadFrames = 120;  // before the camera turns
-constexpr int kAtItemFrames = 90;  // longer than an item is looked at until it is chosen
-constexpr size_t kStep = 4;        // of the frames that are tried
+constexpr int kRate = 30;          // Frames per second.
+constexpr int kAheadFrames = 120;  // Frames before the camera turns.
+constexpr int kAtItemFrames = 90;  // Longer than the dwell time that chooses an item.
+constexpr size_t kStep = 4;        // Step between the frames that are tried.
 
 struct Turn {
   size_t ahead = 0;
   size_t at_item = 0;
 };
 
-// How far from the item's middle one looks who turns so; nullopt: not at it.
+// Distance of the view's middle from the item's middle after this turn; nullopt: not at the item.
 std::optional<double> MissOf(const std::vector<player::MenuItem>& items,
                              const geometry::Rigid3& ahead,
                              const geometry::Rigid3& turned) {
@@ -86,7 +86,8 @@ Status WriteGaze(const char* show_file,
   LARARIUM_ASSIGN_OR_RETURN(const auto poses, vision::LoadPoses(poses_file));
   const std::optional<Turn> turn = FindTurn(player::ItemsOf(content, {}), poses);
   if (!turn) {
-    return Status::Error(video, "nowhere turns from one image to another as to the menu's item");
+    return Status::Error(video,
+                         "has no two images between which the camera turns to the menu item");
   }
   std::printf("from frame %zu to %zu\n", turn->ahead, turn->at_item);
   LARARIUM_ASSIGN_OR_RETURN(const auto source, capture::OpenVideo(video));

@@ -1,6 +1,6 @@
-// make_room_map FILE [POINTS [SESSIONS]]: writes the map of a room with a floor, as training
-// would, for tests of the window. With several sessions each filmed a stretch of the path, some
-// points were seen by one alone, sights are off by a little, and images show the points.
+// make_room_map FILE [POINTS [SESSIONS]]: writes the map of a room with a floor, as training would,
+// for tests of the window. With several sessions, each filmed a part of the path, some points were
+// observed in one session only, observations have small errors, and images show the points.
 
 #include <algorithm>
 #include <cstdio>
@@ -14,8 +14,8 @@ namespace {
 
 using namespace lararium;
 
-// Every third point was seen by the session of its number alone. The further to the right, the
-// worse points were seen.
+// Every third point was observed only in the session of its number. Errors of observations grow to
+// the right.
 void SplitIntoSessions(vision::SceneDatabase& db, uint32_t sessions) {
   Random random(5);
   const auto cameras = static_cast<uint32_t>(db.keyframes.size());

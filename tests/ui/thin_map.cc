@@ -1,4 +1,4 @@
-// thin_map FILE FRAME...: takes keyframes out of a map, as if training had not chosen them.
+// thin_map FILE FRAME...: removes keyframes from a map, as if training had not chosen them.
 
 #include <algorithm>
 #include <cstdio>
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     frames.push_back(std::atoll(argv[i]));
   }
-  std::vector<uint32_t> number(map->keyframes.size());  // of those that stay
+  std::vector<uint32_t> number(map->keyframes.size());  // New index of each kept keyframe.
   std::vector<vision::Keyframe> kept;
   std::vector<bool> stays;
   for (size_t i = 0; i < map->keyframes.size(); ++i) {

@@ -13,7 +13,7 @@ const geometry::CameraModel kCamera{
     .width = 640, .height = 480, .fx = 560.0, .fy = 560.0, .cx = 319.5, .cy = 239.5};
 constexpr std::array<double, 3> kDepths = {2.0, 3.0, 5.0};
 
-// Like that of a pose: large where rotation and translation make up for each other.
+// A covariance like that of a pose: large where rotation and translation compensate each other.
 Matrix6d SomeCovariance(Random& random, double scale) {
   Matrix6d root;
   for (int i = 0; i < 36; ++i) {
@@ -23,7 +23,7 @@ Matrix6d SomeCovariance(Random& random, double scale) {
   return root * root.transpose();
 }
 
-// Root mean square registration error of one pose error, by projecting.
+// Root mean square registration error of one pose error, computed by projection.
 double RegistrationError(const Vector6d& error) {
   double sum = 0.0;
   int count = 0;
@@ -75,7 +75,7 @@ TEST(PoseConfidence, IsTheShareOfDrawnPosesWithinTheLimit) {
   for (const double scale : {2e-4, 4e-4, 8e-4, 1.6e-3}) {
     const Matrix6d covariance = SomeCovariance(random, scale);
     const Matrix6d root = covariance.llt().matrixL();
-    // Many inliers: the covariance is certain.
+    // With many inliers the covariance is certain.
     const double confidence =
         PoseConfidence(kCamera, {.covariance = covariance, .depths = kDepths, .inliers = 100000});
     int within = 0;

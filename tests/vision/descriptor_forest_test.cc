@@ -20,7 +20,7 @@ std::vector<Descriptor> RandomDescriptors(size_t count, uint64_t seed) {
   return descriptors;
 }
 
-// Descriptors near random ones of the given: what another view of them gives.
+// Descriptors near random ones of those given, as another view of the same points would have.
 std::vector<Descriptor> Queries(const std::vector<Descriptor>& descriptors,
                                 size_t count,
                                 double noise) {
@@ -92,7 +92,7 @@ TEST(DescriptorForest, WithoutLimitFindsTheExactNeighboursInOrder) {
     std::array<Neighbour, 4> found;
     ASSERT_EQ(searcher.Search(query, 1 << 20, found), found.size());
     for (size_t i = 0; i < found.size(); ++i) {
-      // The bound is that of summed splits, exact only near the query.
+      // The search bound sums the splits and is exact only near the query.
       ASSERT_LE(expected[i].first, found[i].squared_distance);
     }
     EXPECT_EQ(found[0].descriptor, expected[0].second);
@@ -115,7 +115,7 @@ TEST(DescriptorForest, RecallsNoLessThanFlann) {
   }
   constexpr int kChecks = 64;
   const std::vector<int> flann = test::FlannNearest(rows, query_rows, kDescriptorSize, 4, kChecks);
-  // FLANN's leaves hold one row; larger ones are faster for the same recall.
+  // FLANN's leaves hold one row. Larger leaves are faster at the same recall.
   const DescriptorForest forest = BuildForest(descriptors, {.trees = 4, .leaf_size = 1});
   ForestSearcher searcher(forest, descriptors);
   int ours_right = 0;
@@ -128,7 +128,7 @@ TEST(DescriptorForest, RecallsNoLessThanFlann) {
     flann_right += flann[q] == static_cast<int>(exact) ? 1 : 0;
   }
   EXPECT_GT(ours_right, 150);
-  // Both draw their splits at random: allow for chance.
+  // Both draw their splits at random, so chance must be allowed for.
   EXPECT_GE(ours_right, flann_right - 15);
 }
 

@@ -16,7 +16,7 @@
 namespace lararium::vision {
 namespace {
 
-// Blobs of many sizes and greys at random places.
+// Blobs of many sizes and grey levels at random positions.
 cv::Mat Picture(int width, int height, uint64_t seed) {
   Random random(seed);
   cv::Mat picture(height, width, CV_32F, cv::Scalar(0.5));
@@ -41,7 +41,7 @@ Features Extract(const cv::Mat& grey, const FeatureOptions& options = {}) {
   return *features;
 }
 
-// A Gaussian blob centred at a place between pixels.
+// A Gaussian blob whose centre may lie between pixels.
 cv::Mat Blob(double x, double y, double sigma) {
   cv::Mat grey(96, 128, CV_8UC1);
   for (int row = 0; row < grey.rows; ++row) {
@@ -77,9 +77,9 @@ struct Agreement {
   double median_distance = 0.0;
 };
 
-// How many of OpenCV's keypoints are among ours. OpenCV 4.6 puts them a quarter
-// of a pixel too far right and down, because it doubles the image about the
-// corner of the top-left pixel and not about its centre.
+// Counts how many of OpenCV's keypoints are among ours. OpenCV 4.6 puts them a quarter of a pixel
+// too far right and down, because it doubles the image about the corner of the top-left pixel and
+// not about its centre.
 Agreement AgreementWithOpenCv(const std::vector<cv::KeyPoint>& theirs, const Features& ours) {
   Agreement agreement;
   std::vector<double> distances;
@@ -114,7 +114,7 @@ TEST(ExtractFeatures, FindsWhatOpenCvFinds) {
   EXPECT_LT(ours.size(), 1.25 * theirs.size());
 }
 
-// The picture under x' = A x + t, blurred first where it shrinks, as a lens would.
+// The picture transformed by x' = A x + t; where it shrinks it is blurred first, as a lens would.
 cv::Mat Warped(const cv::Mat& picture, const Eigen::Matrix2d& a, const Eigen::Vector2d& t) {
   cv::Mat blurred = picture;
   const double scale = std::sqrt(a.determinant());

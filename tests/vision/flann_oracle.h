@@ -1,15 +1,15 @@
 #pragma once
 
-// FLANN's k-d trees, as an oracle of recall. Its headers cannot be read together
-// with OpenCV's, so only plain types pass.
+// FLANN's k-d trees, as a reference for recall. FLANN's headers cannot be included together with
+// OpenCV's, so the interface uses plain types only.
 
 #include <cstdint>
 #include <vector>
 
 namespace lararium::test {
 
-// For each of the queries (rows of dimension bytes) the index of the nearest row
-// that FLANN finds with these numbers of trees and checks.
+// For each of the queries (rows of `dimension` bytes), the index of the nearest row that FLANN
+// finds with these numbers of trees and checks.
 std::vector<int> FlannNearest(const std::vector<uint8_t>& rows,
                               const std::vector<uint8_t>& queries,
                               int dimension,

@@ -1,5 +1,5 @@
-// Following allocates nothing in steady state. Its own program: it replaces the
-// global allocator.
+// Tests that tracking allocates nothing in steady state. This is a program of its own, because it
+// replaces the global allocator.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@
 namespace {
 
 thread_local bool counting = false;
-thread_local int allocations = 0;  // by operator new
-thread_local int by_malloc = 0;    // and its kin: what libraries take otherwise
+thread_local int allocations = 0;  // Calls of operator new.
+thread_local int by_malloc = 0;    // Calls of malloc and similar functions by libraries.
 
 void* Allocate(size_t size, size_t alignment) {
   const int before = by_malloc;
@@ -50,7 +50,7 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
 
-// The sanitizers replace these themselves.
+// The sanitizers replace these functions themselves.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(size_t size);                      // NOLINT
@@ -92,8 +92,8 @@ struct Allocations {
 
 class Following : public testing::Test {
  protected:
-  static constexpr int kSettled = 5;  // frames until patches are chosen
-  // Frames at which what was found in the background is joined: 6 after it began.
+  static constexpr int kSettled = 5;  // Number of frames until patches are chosen.
+  // Frames at which the result of background work is joined, 6 frames after it began.
   static constexpr std::array<int, 2> kJoined = {66, 126};
 
   Following() : poster_(test::MakePoster()), map_(test::MapOfPoster(poster_)) {
@@ -103,11 +103,11 @@ class Following : public testing::Test {
     }
   }
 
-  // The allocations of each frame, in the caller's thread; to and fro, the images
-  // that are found in the background alike.
+  // The allocations of each frame in the caller's thread. The camera moves to and fro, so that the
+  // images located in the background are similar.
   std::vector<Allocations> Walk(const TrackerOptions& options) const {
     auto tracker = *CreateTracker({map_}, test::kPosterCamera, options);
-    // Half of the points lie behind something that is not there.
+    // Half of the points lie behind an occluder that does not exist.
     tracker->SetOccluders(
         0, std::vector<OccluderMesh>{{{{-5, -5, 0.3f}, {0, -5, 0.3f}, {0, 5, 0.3f}}, {0, 1, 2}}});
     std::vector<Allocations> all;
@@ -136,17 +136,16 @@ class Following : public testing::Test {
 
 TEST_F(Following, AllocatesNothingInSteadyState) {
   const std::vector<Allocations> all = Walk({});
-  EXPECT_GT(all[0].by_new, 0);  // the count counts
+  EXPECT_GT(all[0].by_new, 0);  // The counter works.
   for (size_t i = kSettled; i < all.size(); ++i) {
     EXPECT_EQ(all[i].by_new, 0) << "frame " << i;
     EXPECT_EQ(all[i].by_malloc, 0) << "frame " << i;
   }
 }
 
-// Where the background has no thread of its own, the frame that joins it does its
-// work. In steady state that allocates the kernels, rows and taps of the Gaussian
-// levels, the lists of extrema and orientations of the parallel jobs, and the buffer
-// of std::stable_sort. OpenCV allocates nothing.
+// If the background has no thread of its own, the frame that joins it does the work. In steady
+// state that allocates the kernels, rows and taps of the Gaussian levels, the lists of extrema and
+// orientations of the parallel jobs, and the buffer of std::stable_sort. OpenCV allocates nothing.
 TEST_F(Following, AllocatesLittleWhereItDoesTheBackgroundsWork) {
   const std::vector<Allocations> all = Walk({.threads = 1});
   for (size_t i = kSettled; i < all.size(); ++i) {

@@ -1,4 +1,4 @@
-// A pose in a place that the image does not show is worse than none.
+// Tests that images of other places get no pose, because a wrong pose is worse than none.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include "shared/core/random.h"
 #include "shared/geometry/triangulation.h"
 #include "shared/vision/descriptor_forest.h"
+#include "shared/vision/feature_scale_controller.h"
 #include "shared/vision/features.h"
-#include "shared/vision/level_of_detail.h"
 #include "shared/vision/localizer.h"
 #include "shared/vision/poses_file.h"
 #include "tests/support/test_files.h"
@@ -33,7 +33,7 @@ std::vector<cv::Mat> VideoFrames(const fs::path& video, int step) {
   return frames;
 }
 
-// The images of a folder by name, no side longer than 960 pixels.
+// The images of a folder in order of names, scaled so that no side is longer than 960 pixels.
 std::vector<cv::Mat> FolderImages(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -51,7 +51,7 @@ std::vector<cv::Mat> FolderImages(const fs::path& folder) {
   return images;
 }
 
-// A map from true poses: features of images step apart, matched and triangulated.
+// Makes a map from true poses: matches and triangulates features of images that are `step` apart.
 class MapMaker {
  public:
   MapMaker(const std::vector<cv::Mat>& images, const std::vector<PoseRecord>& poses, size_t step) {
@@ -121,7 +121,7 @@ class MapMaker {
   SceneDatabase map_;
 };
 
-// With the tracker's way of falling back on the finest features.
+// Locates images and, like the tracker, falls back to the finest features.
 class Eye {
  public:
   explicit Eye(const SceneDatabase& map) : map_(map), localizer_(map, {}) {}
@@ -134,7 +134,7 @@ class Eye {
       camera.cx = 0.5 * (image.cols - 1);
       camera.cy = 0.5 * (image.rows - 1);
     }
-    const LevelOfDetail detail(1000);
+    const FeatureScaleController detail(1000);
     for (const FeatureOptions& options : {detail.options(), detail.finest_options()}) {
       EXPECT_TRUE(extractor_.Extract(image, options, features_).ok());
       if (localizer_.Locate(features_, camera).camera_from_map) {
@@ -202,7 +202,7 @@ TEST(ForeignImages, AreNeverLocatedInTheMaquette) {
   const MapMaker maker(VideoFrames(home / "training/video.mp4", 1), *poses, 4);
   ASSERT_GT(maker.map().points.size(), 5000u);
   Eye eye(maker.map());
-  // The map is good enough to be wrong with.
+  // The map locates its own images, so missing poses for other images are significant.
   const std::vector<cv::Mat> own = VideoFrames(home / "handheld/video.mp4", 15);
   EXPECT_EQ(eye.CountLocated(own), static_cast<int>(own.size()));
   int images = 0;

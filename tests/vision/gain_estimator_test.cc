@@ -22,7 +22,7 @@ struct Scene {
   std::vector<SeenPoint> seen;
 };
 
-// 300 squares of known colours under a gain; a share of them is hidden.
+// An image of 300 squares of known colours with a gain; a share of them is hidden.
 Scene MakeScene(const std::array<double, 3>& gain, double hidden) {
   Random random(3);
   Scene scene;

@@ -14,9 +14,9 @@ namespace {
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 
-// Discs, bars and ramps of all brightnesses, drawn large and brought down so that edges are
-// as sharp as pixels allow, then blurred.
-cv::Mat Scene(uint64_t seed, double blur) {
+// Discs, bars and ramps of all brightnesses. They are drawn large and reduced, so that edges are as
+// sharp as pixels allow, and then blurred.
+cv::Mat TexturedScene(uint64_t seed, double blur) {
   constexpr int kFine = 4;
   Random random(seed);
   cv::Mat fine(kFine * kHeight, kFine * kWidth, CV_32F);
@@ -60,7 +60,7 @@ TEST(EstimateNoise, FindsTheVarianceOfSyntheticNoiseByBrightness) {
   for (const Case c : {Case{0.01, 0.0}, Case{0.03, 0.0}, Case{0.01, 0.0008}}) {
     std::vector<cv::Mat> images;
     for (uint64_t i = 0; i < 4; ++i) {
-      images.push_back(WithNoise(Scene(i, 1.0), c.floor, c.slope, 90 + i));
+      images.push_back(WithNoise(TexturedScene(i, 1.0), c.floor, c.slope, 90 + i));
     }
     const auto noise = EstimateNoise(images);
     ASSERT_TRUE(noise.has_value());
@@ -78,7 +78,7 @@ TEST(EstimateSharpness, FindsTheBlurOfSyntheticEdges) {
     for (const double noise : {0.0, 0.01}) {
       std::vector<cv::Mat> images;
       for (uint64_t i = 0; i < 2; ++i) {
-        images.push_back(WithNoise(Scene(10 + i, blur), noise, 0.0, 50 + i));
+        images.push_back(WithNoise(TexturedScene(10 + i, blur), noise, 0.0, 50 + i));
       }
       const auto found = EstimateSharpness(images);
       ASSERT_TRUE(found.has_value());

@@ -14,7 +14,7 @@ using test::RenderView;
 using test::SyntheticView;
 using test::SyntheticWorld;
 
-// Root mean square of where the pose puts the world's points, in pixels.
+// Root mean square distance, in pixels, between the projections of the world's points by two poses.
 double RegistrationError(const SyntheticWorld& world, const Rigid3& estimate, const Rigid3& truth) {
   double sum = 0.0;
   int count = 0;
@@ -29,7 +29,7 @@ double RegistrationError(const SyntheticWorld& world, const Rigid3& estimate, co
   return std::sqrt(sum / count);
 }
 
-// Between and beside the cameras of the path.
+// Poses between and beside the cameras of the path.
 std::vector<Rigid3> TestPoses() {
   std::vector<Rigid3> poses;
   for (const double angle : {-0.45, -0.21, 0.03, 0.38}) {
@@ -69,9 +69,9 @@ TEST(Localizer, StaysNearTheBoundWithNoiseAndSixtyPercentOutliers) {
     ASSERT_TRUE(location.camera_from_map.has_value());
     const auto seen =
         std::count_if(view.points.begin(), view.points.end(), [](int point) { return point >= 0; });
-    // Six parameters from 2 n numbers: the fit moves points by sqrt(6 / n) sigma
-    // in the mean. The weights by scale do not fit this noise: twice that, and
-    // as much again for chance.
+    // Six parameters are fitted to 2 n numbers, which moves points by sqrt(6 / n) sigma on average.
+    // The weights by scale do not match this noise, which allows twice that; chance allows another
+    // factor of two.
     const double bound = 4.0 * kNoise * std::sqrt(6.0 / static_cast<double>(seen));
     EXPECT_LT(RegistrationError(world, *location.camera_from_map, truth), bound);
     EXPECT_GT(location.inliers, 0.9 * static_cast<double>(seen));
@@ -105,7 +105,7 @@ TEST(Localizer, RepeatsItself) {
   const auto poses = TestPoses();
   const SyntheticView view = RenderView(world, poses[0], {.noise_px = 0.5, .outlier_share = 0.5});
   const Location a = first.Locate(view.features, world.camera);
-  // What came before does not matter.
+  // Earlier calls must not matter.
   second.Locate(RenderView(world, poses[5], {}).features, world.camera);
   const Location b = second.Locate(view.features, world.camera);
   ASSERT_TRUE(a.camera_from_map && b.camera_from_map);

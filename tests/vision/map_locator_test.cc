@@ -37,7 +37,7 @@ TEST(MapLocator, FindsTheRoomAndThePoseInIt) {
     EXPECT_EQ(located.map, room);
     ASSERT_TRUE(located.location.camera_from_map.has_value());
     EXPECT_LT((located.location.camera_from_map->Center() - truth.Center()).norm(), 0.02);
-    // The search among maps chooses one; the pose is the one found there alone.
+    // The search chooses one map; the pose must equal that of a localizer for this map alone.
     Localizer alone(*house.maps[room], {});
     const Location expected = alone.Locate(view.features, world.camera);
     EXPECT_EQ(located.location.camera_from_map->translation, expected.camera_from_map->translation);
@@ -63,7 +63,7 @@ TEST(MapLocator, FindsTheRoomOfAViewThatHalfShowsAnother) {
 TEST(MapLocator, TriesTheOtherMapsWhereThatOfMostVotesGivesNoPose) {
   const House house = MakeHouse(2);
   MapLocator locator(house.maps, {});
-  // More features of room 0, but in no order that a pose explains.
+  // Adds more features of room 0, but at positions that no pose explains.
   auto view =
       test::RenderView(house.rooms[1], house.rooms[1].cameras_from_world[5], {.noise_px = 0.3});
   view.features.keypoints.resize(100);

@@ -1,4 +1,4 @@
-// The motion of the camera: foretold, and seen in small images.
+// Tests the prediction of the camera's motion and its estimation from small images.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(MotionModel, GoesOnAsBefore) {
   EXPECT_LT((model.Motion(1.0).Matrix3x4() - Rigid3().Matrix3x4()).norm(), 1e-12);
   model.Add(5.0, step * first);
   EXPECT_LT((model.Motion(1.0).Matrix3x4() - step.Matrix3x4()).norm(), 1e-12);
-  // A dropped frame: the same velocity over twice the time.
+  // After a dropped frame, the same velocity applies over twice the time.
   EXPECT_NEAR(geometry::VectorFromRotation(model.Motion(2.0).rotation).norm(),
               2.0 * geometry::VectorFromRotation(step.rotation).norm(), 1e-12);
   model.Forget();
@@ -45,7 +45,7 @@ TEST(MotionModel, KeepsTheMotionWhenThePoseIsCorrected) {
 const CameraModel kSmall = {
     .width = 40, .height = 30, .fx = 35.0, .fy = 35.0, .cx = 19.5, .cy = 14.5};
 
-// A far world, by direction.
+// An image of a distant scene, whose brightness depends on the direction only.
 cv::Mat Look(const Eigen::Quaterniond& camera_from_world, double gain) {
   cv::Mat image(kSmall.height, kSmall.width, CV_8UC1);
   for (int y = 0; y < image.rows; ++y) {
@@ -80,7 +80,7 @@ TEST(EstimateRotation, SeesATurnInOtherLight) {
 TEST(EstimateRotation, SeesNothingInTheDark) {
   const cv::Mat black(kSmall.height, kSmall.width, CV_8UC1, cv::Scalar(0));
   const auto estimate = EstimateRotation(black, black, kSmall, Eigen::Quaterniond::Identity());
-  // Nothing pulls: it stays where it began.
+  // Without contrast the rotation stays at its start.
   EXPECT_TRUE(!estimate ||
               estimate->now_from_before.angularDistance(Eigen::Quaterniond::Identity()) < 1e-6);
 }

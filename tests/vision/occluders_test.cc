@@ -39,7 +39,7 @@ OccluderMesh Square(float height) {
   return {{{-1, -1, height}, {1, -1, height}, {1, 1, height}, {-1, 1, height}}, {0, 1, 2, 0, 2, 3}};
 }
 
-// Solves corner + u e1 + v e2 = eye + t way for every triangle.
+// Reference implementation: solves corner + u e1 + v e2 = eye + t way for every triangle.
 bool HidesBySolving(const OccluderMesh& mesh,
                     const Vector3d& eye,
                     const Vector3d& point,
@@ -76,19 +76,19 @@ TEST(OccluderTree, HidesWhatSolvingForEveryTriangleSays) {
   }
   EXPECT_GT(hidden, kRays / 5);
   EXPECT_LT(hidden, kRays * 19 / 20);
-  EXPECT_LE(different, 2);  // an edge, to the last digit of a float
+  EXPECT_LE(different, 2);  // Rounding may decide at an edge.
 }
 
 TEST(OccluderTree, DoesNotHideItsOwnSurfaceNorWhatLiesBeforeIt) {
   const OccluderTree tree(Square(0.0f));
-  for (const float slant : {0.0f, 1.0f, 10.0f}) {  // down to 6 degrees
+  for (const float slant : {0.0f, 1.0f, 10.0f}) {  // Viewing angles down to 6 degrees.
     const Vector3f eye(slant, 0.0f, 1.0f);
     EXPECT_FALSE(tree.Hides(eye, {0.2f, 0.1f, 0.0f}, 0.01f));
     EXPECT_FALSE(tree.Hides(eye, {0.2f, 0.1f, -0.009f}, 0.01f));
     EXPECT_FALSE(tree.Hides(eye, {0.2f, 0.1f, 0.5f}, 0.01f));
     EXPECT_TRUE(tree.Hides(eye, {0.2f, 0.1f, -0.011f}, 0.01f));
   }
-  EXPECT_FALSE(tree.Hides({0, 0, 1}, {1.2f, 0.0f, -0.1f}, 0.01f));  // past its edge
+  EXPECT_FALSE(tree.Hides({0, 0, 1}, {1.2f, 0.0f, -0.1f}, 0.01f));  // The ray passes its edge.
   EXPECT_FALSE(OccluderTree(OccluderMesh()).Hides({0, 0, 1}, {0, 0, -1}, 0.01f));
 }
 
@@ -132,7 +132,7 @@ TEST(OccluderTree, AHitLiesOnTheTriangleAndIsAsFarAsItSays) {
   EXPECT_FLOAT_EQ(std::abs(hit->normal.z()), 1.0f);
 }
 
-// The nearest of many points of a triangle, and the vector to it from there.
+// Distance from a point to the nearest of many sample points of a triangle.
 double NearestBySampling(const Vector3f* corners, const Vector3f& point) {
   constexpr int kSteps = 400;
   double least = std::numeric_limits<double>::infinity();
@@ -159,7 +159,7 @@ TEST(OccluderTree, TheNearestPointOfATriangleIsNearerThanAnyOther) {
     EXPECT_LE(nearest->distance, expected + 1e-5) << "seed 7, triangle " << i;
     EXPECT_GE(nearest->distance, expected - 0.005) << "seed 7, triangle " << i;
     EXPECT_NEAR((nearest->point - point).norm(), nearest->distance, 1e-5f);
-    // It is a point of the triangle: nowhere nearer to it than it is itself.
+    // The result is a point of the triangle.
     EXPECT_LT(NearestBySampling(mesh.positions.data(), nearest->point), 0.005);
   }
 }
@@ -221,7 +221,7 @@ TEST(OccluderSet, StopsBelievingOneThatIsWrongHoweverLongItWasRight) {
   OccluderSet set;
   set.Set(std::vector<OccluderMesh>{Square(0.0f)});
   for (int i = 0; i < 10000; ++i) {
-    set.Note(0, i % 10 == 0);  // past an edge now and then
+    set.Note(0, i % 10 == 0);  // A few points are found past an edge.
   }
   EXPECT_TRUE(set.believed(0));
   int more = 0;

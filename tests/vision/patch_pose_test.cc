@@ -15,7 +15,7 @@ constexpr double kFocal = 500.0;
 
 const Rigid3 kTruth{geometry::RotationFromVector({0.1, -0.2, 0.05}), {0.1, 0.2, 4.0}};
 
-// Half of the patches know their place along one axis only.
+// Makes matches, half of which are localised along one axis only.
 std::vector<PatchMatch> MakeMatches(int count, double noise_px, double outliers, uint64_t seed) {
   Random random(seed);
   std::vector<PatchMatch> matches;

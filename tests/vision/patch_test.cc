@@ -14,8 +14,7 @@ namespace {
 
 constexpr int kSide = 160;
 
-// A brightness over the plane that can be evaluated anywhere: waves of 5 pixels and
-// more.
+// A brightness function over the plane: a sum of waves with wavelengths of at least 5 pixels.
 class Texture {
  public:
   explicit Texture(uint64_t seed) {
@@ -59,7 +58,7 @@ struct Errors {
   int found = 0;
 };
 
-// Patches of source looked for in image, where all is shifted by shift.
+// Errors of patches of source that are searched in image, whose content is shifted by shift.
 Errors Measure(const cv::Mat& source,
                const cv::Mat& image,
                const Eigen::Vector2f& shift,
@@ -148,7 +147,7 @@ TEST(AlignPatch, ForetellsItsScatter) {
     const cv::Mat image =
         Render([&](double x, double y) { return texture(x, y) + kNoise * random.Normal(); });
     for (int i = 0; i < 60; ++i) {
-      // On whole pixels: interpolation would smooth the noise.
+      // Centres are on whole pixels, because interpolation would smooth the noise.
       const Eigen::Vector2f centre(30.5f + static_cast<float>(random.Below(100)),
                                    30.5f + static_cast<float>(random.Below(100)));
       PatchTemplate patch;

@@ -15,7 +15,7 @@ cv::Mat Plain(uint8_t red, uint8_t green, uint8_t blue) {
 TEST(Photometry, DecodesTheSrgbCurve) {
   EXPECT_EQ(LinearFromSrgb(0), 0.0f);
   EXPECT_EQ(LinearFromSrgb(255), 1.0f);
-  // Below 0.04045 the curve is a line; 188 is half the light.
+  // Below 0.04045 the curve is a line. The byte 188 is half the light.
   EXPECT_NEAR(LinearFromSrgb(5), 5.0 / 255.0 / 12.92, 1e-7);
   EXPECT_NEAR(LinearFromSrgb(188), 0.5, 0.005);
   for (int i = 1; i < 256; ++i) {
@@ -36,7 +36,7 @@ TEST(Photometry, AveragesLightNotCode) {
   cv::Mat image = Plain(0, 0, 0);
   image(cv::Rect(8, 8, 5, 5)).setTo(cv::Scalar(40, 40, 40));
   image.at<cv::Vec3b>(10, 10) = cv::Vec3b(200, 200, 200);
-  const auto colour = SampleLinear(image, 10.4f, 9.6f);  // the nearest pixel is (10, 10)
+  const auto colour = SampleLinear(image, 10.4f, 9.6f);  // The nearest pixel is (10, 10).
   ASSERT_TRUE(colour.has_value());
   const float expected = (24.0f * LinearFromSrgb(40) + LinearFromSrgb(200)) / 25.0f;
   EXPECT_NEAR(colour->rgb[1], expected, 1e-6);
@@ -62,7 +62,7 @@ TEST(Photometry, TrustsNeitherClippedNorDarkChannels) {
   const float highlight = SampleLinear(Plain(190, 190, 190), 10.0f, 10.0f)->weight[0];
   EXPECT_GT(highlight, 0.0f);
   EXPECT_LT(highlight, 1.0f);
-  cv::Mat glint = Plain(100, 100, 100);  // one clipped pixel spoils the mean
+  cv::Mat glint = Plain(100, 100, 100);  // One clipped pixel spoils the mean.
   glint.at<cv::Vec3b>(11, 11) = cv::Vec3b(255, 255, 255);
   EXPECT_EQ(SampleLinear(glint, 10.0f, 10.0f)->weight[1], 0.0f);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Rigid3;
 
-constexpr double kFocal = 560.0;
+constexpr double kRefinedFocal = 560.0;
 
 Rigid3 SomePose(Random& random) {
   return {Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
@@ -20,7 +20,7 @@ Rigid3 SomePose(Random& random) {
           {random.Normal(), random.Normal(), random.Normal()}};
 }
 
-// Points in front of the camera, seen with noise.
+// Matches of points in front of the camera, with noise.
 std::vector<PoseMatch> Matches(const Rigid3& pose, int count, double noise_px, Random& random) {
   std::vector<PoseMatch> matches;
   for (int i = 0; i < count; ++i) {
@@ -28,8 +28,8 @@ std::vector<PoseMatch> Matches(const Rigid3& pose, int count, double noise_px, R
     const Eigen::Vector3d p(z * random.Uniform(-0.5, 0.5), z * random.Uniform(-0.4, 0.4), z);
     PoseMatch match;
     match.point = pose.Inverse() * p;
-    match.plane =
-        p.head<2>() / p.z() + noise_px / kFocal * Eigen::Vector2d(random.Normal(), random.Normal());
+    match.plane = p.head<2>() / p.z() +
+                  noise_px / kRefinedFocal * Eigen::Vector2d(random.Normal(), random.Normal());
     matches.push_back(match);
   }
   return matches;
@@ -83,7 +83,8 @@ TEST(PoseRefiner, IsExactWithoutNoise) {
     const Rigid3 truth = SomePose(random);
     const auto matches = Matches(truth, 40, 0.0, random);
     RefinedPose refined;
-    PoseRefiner().Refine(matches, {kFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)), refined);
+    PoseRefiner().Refine(matches, {kRefinedFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)),
+                         refined);
     EXPECT_EQ(refined.inliers.size(), matches.size());
     EXPECT_LT(Difference(refined.camera_from_map, truth).norm(), 1e-9);
   }
@@ -100,7 +101,8 @@ TEST(PoseRefiner, LeavesOutliersAlone) {
       matches.back().plane = elsewhere[(k + 1) % elsewhere.size()].plane;
     }
     RefinedPose refined;
-    PoseRefiner().Refine(matches, {kFocal, 2.0}, Moved(truth, SmallStep(2e-3, random)), refined);
+    PoseRefiner().Refine(matches, {kRefinedFocal, 2.0}, Moved(truth, SmallStep(2e-3, random)),
+                         refined);
     const auto right = std::count_if(refined.inliers.begin(), refined.inliers.end(),
                                      [](uint32_t k) { return k < 60; });
     EXPECT_GE(right, 58);
@@ -109,9 +111,8 @@ TEST(PoseRefiner, LeavesOutliersAlone) {
   }
 }
 
-// For normal noise the normalised squared error follows chi-square with six
-// degrees of freedom, of mean 6, when the estimate is efficient and its
-// covariance true.
+// For normal noise, the normalised squared error has a chi-square distribution with six degrees of
+// freedom, whose mean is 6, if the estimate is efficient and its covariance is correct.
 TEST(PoseRefiner, IsAsPreciseAsItsCovarianceSays) {
   Random random(4);
   double sum = 0.0;
@@ -121,7 +122,8 @@ TEST(PoseRefiner, IsAsPreciseAsItsCovarianceSays) {
     const Rigid3 truth = SomePose(random);
     const auto matches = Matches(truth, 100, 0.3, random);
     RefinedPose refined;
-    PoseRefiner().Refine(matches, {kFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)), refined);
+    PoseRefiner().Refine(matches, {kRefinedFocal, 2.0}, Moved(truth, SmallStep(1e-3, random)),
+                         refined);
     const Vector6d error = Difference(refined.camera_from_map, truth);
     sum += error.dot(refined.covariance.ldlt().solve(error));
     noise_sum += refined.noise_px;
@@ -143,12 +145,12 @@ TEST(PoseRefiner, WeighsMatchesByTheirSigma) {
     }
     matches.insert(matches.end(), coarse.begin(), coarse.end());
     RefinedPose refined;
-    PoseRefiner().Refine(matches, {kFocal, 4.0}, truth, refined);
+    PoseRefiner().Refine(matches, {kRefinedFocal, 4.0}, truth, refined);
     weighted += Difference(refined.camera_from_map, truth).norm();
     for (PoseMatch& match : matches) {
       match.sigma_px = 1.0;
     }
-    PoseRefiner().Refine(matches, {kFocal, 4.0}, truth, refined);
+    PoseRefiner().Refine(matches, {kRefinedFocal, 4.0}, truth, refined);
     equal += Difference(refined.camera_from_map, truth).norm();
   }
   EXPECT_LT(weighted, 0.9 * equal);
@@ -159,7 +161,7 @@ TEST(PoseRefiner, SurvivesTooFewMatches) {
   for (const int count : {0, 1, 2}) {
     const auto matches = Matches(Rigid3(), count, 0.0, random);
     RefinedPose refined;
-    PoseRefiner().Refine(matches, {kFocal, 2.0}, Rigid3(), refined);
+    PoseRefiner().Refine(matches, {kRefinedFocal, 2.0}, Rigid3(), refined);
     EXPECT_EQ(refined.inliers.size(), static_cast<size_t>(count));
     EXPECT_EQ(refined.covariance.norm(), 0.0);
   }

@@ -14,9 +14,9 @@ namespace {
 using geometry::Rigid3;
 
 constexpr double kFrame = 1.0 / 30.0;
-constexpr geometry::CameraModel kCamera{640, 480, 500, 500, 319.5, 239.5};
+constexpr geometry::CameraModel kSmoothedCamera{640, 480, 500, 500, 319.5, 239.5};
 
-// A grid 2 m before the camera.
+// A grid 2 m in front of the camera.
 std::vector<Eigen::Vector3d> Landmarks() {
   std::vector<Eigen::Vector3d> points;
   for (double x = -1.0; x <= 1.0; x += 0.25) {
@@ -27,7 +27,7 @@ std::vector<Eigen::Vector3d> Landmarks() {
   return points;
 }
 
-// Moves sideways, so that the picture moves by pixels everywhere.
+// A pose moved sideways, so that every landmark moves by this many pixels.
 Rigid3 Sideways(double pixels) {
   Rigid3 pose;
   pose.translation.x() = pixels * 2.0 / 500.0;
@@ -40,11 +40,11 @@ class PoseSmootherTest : public ::testing::Test {
   void Make(const PoseSmootherOptions& options) { smoother_.emplace(options, Grid()); }
   static std::vector<std::vector<Eigen::Vector3d>> Grid() { return {Landmarks()}; }
 
-  // The pose that comes out at a time.
+  // Passes a pose through the smoother and returns the result.
   Rigid3 Apply(double time, const Rigid3& pose, bool followed, uint32_t map = 0) {
     TrackedFrame tracked;
     tracked.frame.capture_time = time;
-    tracked.camera = kCamera;
+    tracked.camera = kSmoothedCamera;
     tracked.camera_from_map = pose;
     tracked.map = map;
     tracked.followed = followed;
@@ -60,7 +60,7 @@ class PoseSmootherTest : public ::testing::Test {
   }
 
   std::optional<PoseSmoother> smoother_;
-  // 0.1 px of noise.
+  // Corresponds to a noise of 0.1 pixels.
   Eigen::Matrix<double, 6, 6> covariance_ =
       std::pow(0.1 / 500.0, 2) * Eigen::Matrix<double, 6, 6>::Identity();
 };
@@ -76,8 +76,9 @@ TEST(PoseSmootherMathsTest, ATwistTakesOnePoseToTheOther) {
 
 TEST(PoseSmootherMathsTest, ThePictureShiftIsThatOfTheNearestLandmarkInView) {
   const std::vector<Eigen::Vector3d> landmarks = {{0, 0, 2}, {0.1, 0, 4}, {0, 0, -2}, {50, 0, 1}};
-  EXPECT_NEAR(PictureShift(kCamera, landmarks, Rigid3(), Sideways(3.0)).value(), 3.0, 1e-9);
-  EXPECT_FALSE(PictureShift(kCamera, std::vector<Eigen::Vector3d>{{0, 0, -1}}, Rigid3(), Rigid3()));
+  EXPECT_NEAR(PictureShift(kSmoothedCamera, landmarks, Rigid3(), Sideways(3.0)).value(), 3.0, 1e-9);
+  EXPECT_FALSE(
+      PictureShift(kSmoothedCamera, std::vector<Eigen::Vector3d>{{0, 0, -1}}, Rigid3(), Rigid3()));
 }
 
 TEST_F(PoseSmootherTest, FollowedPosesPassUnchangedWhereOnlyCorrectionIsAsked) {
@@ -111,10 +112,10 @@ TEST_F(PoseSmootherTest, ASmallCorrectionIsTakenBackSmoothlyInItsTimeAndNeverOve
 
 TEST_F(PoseSmootherTest, AMovingCameraKeepsMovingThroughACorrection) {
   Make(PoseSmootherOptions::Of(Smoothing::kSoft));
-  const double speed = 5.0;  // pixels a frame
+  const double speed = 5.0;  // pixels per frame
   double last = 0.0;
   for (int i = 0; i < 30; ++i) {
-    const double drift = i < 10 ? 2.0 : 0.0;  // what following had strayed by
+    const double drift = i < 10 ? 2.0 : 0.0;  // The drift of tracking before relocalisation.
     const double x = Pixels(Apply(i * kFrame, Sideways(speed * i + drift), i != 0 && i != 10));
     if (i > 0) {
       EXPECT_NEAR(x - last, speed, 0.5) << "frame " << i;
@@ -138,7 +139,7 @@ TEST_F(PoseSmootherTest, WhatIsShownNeverStraysByMoreThanTheBound) {
   for (int i = 0; i < 500; ++i) {
     const Rigid3 pose = Sideways(random.Uniform(-6.0, 6.0));
     const Rigid3 shown = Apply(i * kFrame, pose, random.Uniform() < 0.7);
-    EXPECT_LE(PictureShift(kCamera, Landmarks(), pose, shown).value(),
+    EXPECT_LE(PictureShift(kSmoothedCamera, Landmarks(), pose, shown).value(),
               PoseSmootherOptions().correction_px);
   }
 }
@@ -185,17 +186,18 @@ TEST_F(PoseSmootherTest, TheFilterCalmsAStillCamera) {
     const Rigid3 noisy = Moved(Rigid3(), noise);
     const Rigid3 calm = Apply(i * kFrame, noisy, true);
     if (i > 60) {
-      in += std::pow(PictureShift(kCamera, Landmarks(), Rigid3(), noisy).value(), 2);
-      out += std::pow(PictureShift(kCamera, Landmarks(), Rigid3(), calm).value(), 2);
+      in += std::pow(PictureShift(kSmoothedCamera, Landmarks(), Rigid3(), noisy).value(), 2);
+      out += std::pow(PictureShift(kSmoothedCamera, Landmarks(), Rigid3(), calm).value(), 2);
     }
   }
-  // A low-pass with gain g keeps g / (2 - g) of white noise: 0.10 at 1 Hz and 30 frames a second.
+  // A low-pass with gain g keeps g / (2 - g) of the variance of white noise, which is 0.10 at 1 Hz
+  // and 30 frames per second.
   EXPECT_LT(out, 0.15 * in);
 }
 
 TEST_F(PoseSmootherTest, TheFilterOpensWhereTheCameraMoves) {
   Make(PoseSmootherOptions::Of(Smoothing::kStrong));
-  const double speed = 100.0;  // pixels a second: a slow pan
+  const double speed = 100.0;  // Pixels per second, a slow pan.
   double x = 0.0;
   for (int i = 0; i <= 90; ++i) {
     x = Pixels(Apply(i * kFrame, Sideways(speed * i * kFrame), true));
@@ -207,7 +209,7 @@ TEST_F(PoseSmootherTest, TheFilterOpensWhereTheCameraMoves) {
 
 TEST_F(PoseSmootherTest, TheFilterNeverHoldsBackMoreThanAFewDeviations) {
   PoseSmootherOptions options = PoseSmootherOptions::Of(Smoothing::kStrong);
-  options.cutoff_per_speed = 0.0;  // or the jump's speed would open it farther
+  options.cutoff_per_speed = 0.0;  // Prevents the speed of the jump from raising the cutoff.
   Make(options);
   Apply(0.0, Sideways(0.0), true);
   const Rigid3 jumped = Sideways(50.0);
@@ -220,7 +222,7 @@ TEST_F(PoseSmootherTest, TheFrameRateDoesNotMatter) {
   std::vector<double> arrived;
   for (const int rate : {30, 60, 120}) {
     PoseSmootherOptions options = PoseSmootherOptions::Of(Smoothing::kStrong);
-    options.cutoff_per_speed = 0.0;  // a plain low-pass, whose answer is known
+    options.cutoff_per_speed = 0.0;  // A plain low-pass, whose response is known.
     options.most_deviations = 1e9;
     Make(options);
     for (int i = 0; i <= rate / 10; ++i) {

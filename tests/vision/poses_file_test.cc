@@ -12,22 +12,22 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-const CameraModel kCamera = {.width = 640,
-                             .height = 480,
-                             .fx = 560.0,
-                             .fy = 561.0,
-                             .cx = 319.5,
-                             .cy = 239.5,
-                             .k1 = -0.1,
-                             .k2 = 0.01,
-                             .p1 = 0.001,
-                             .p2 = -0.002};
+const CameraModel kFileCamera = {.width = 640,
+                                 .height = 480,
+                                 .fx = 560.0,
+                                 .fy = 561.0,
+                                 .cx = 319.5,
+                                 .cy = 239.5,
+                                 .k1 = -0.1,
+                                 .k2 = 0.01,
+                                 .p1 = 0.001,
+                                 .p2 = -0.002};
 
 std::vector<PoseRecord> Records() {
   const Rigid3 pose{Eigen::Quaterniond(0.5, -0.1, 0.7, 0.2).normalized(), {0.1, -2.0, 3.5}};
-  return {{"000000.png", kCamera, pose, true},
-          {"000001.png", kCamera, std::nullopt, false},
-          {"000002.png", kCamera, pose, false}};
+  return {{"000000.png", kFileCamera, pose, true},
+          {"000001.png", kFileCamera, std::nullopt, false},
+          {"000002.png", kFileCamera, pose, false}};
 }
 
 TEST(PosesFile, KeepsPosesAndCameras) {
@@ -72,7 +72,7 @@ TEST(PosesFile, HasTheFieldsThatOtherToolsRead) {
 TEST(PosesFile, KeepsWhatTheTrackerSays) {
   const test::TemporaryFolder folder;
   TrackedFrame tracked;
-  tracked.camera = kCamera;
+  tracked.camera = kFileCamera;
   tracked.state = TrackState::kTracking;
   tracked.camera_from_map = Rigid3();
   tracked.map = 2;
@@ -80,7 +80,7 @@ TEST(PosesFile, KeepsWhatTheTrackerSays) {
   tracked.confidence = 0.75f;
   tracked.gain = {0.5f, 1.0f, 2.0f};
   TrackedFrame lost;
-  lost.camera = kCamera;
+  lost.camera = kFileCamera;
   lost.state = TrackState::kLost;
   lost.reason = TrackReason::kTooDark;
   const std::vector<PoseRecord> records = {MakePoseRecord("0.png", tracked),

@@ -13,11 +13,12 @@
 namespace lararium::test {
 namespace {
 
-constexpr double kMetresPerPixel = 0.002;  // of the poster, which lies in the plane z = 0
+constexpr double kMetresPerPixel = 0.002;  // Size of a poster pixel.
 constexpr int kPosterWidth = 1000;
 constexpr int kPosterHeight = 800;
 
-// Poster pixel to metres: the middle at the origin, y up, seen from +z.
+// Converts poster pixels to metres: the middle is at the origin, y points up, and the poster is
+// seen from +z.
 Eigen::Matrix3d MapFromPoster() {
   Eigen::Matrix3d m;
   m << kMetresPerPixel, 0.0, -0.5 * (kPosterWidth - 1) * kMetresPerPixel,  //
@@ -26,7 +27,8 @@ Eigen::Matrix3d MapFromPoster() {
   return m;
 }
 
-// An ellipse somewhere in the image, repeated so many times to the right, around the end.
+// Draws an ellipse at a random position. It is repeated `repeats` times in the horizontal direction
+// and wraps around at the end.
 void DrawBlob(Random& random, cv::Mat& image, int repeats) {
   const int period = image.cols / repeats;
   const cv::Point centre(static_cast<int>(random.Below(period)),

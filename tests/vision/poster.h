@@ -17,22 +17,22 @@ inline const geometry::CameraModel kPosterCamera = {
 
 cv::Mat MakePoster();  // CV_8UC1
 
-// A poster that repeats itself to the right, but for a few marks. marks: which ones.
+// A poster that repeats itself to the right except for a few marks; `marks` selects which ones.
 inline constexpr double kWallPeriod = 0.25;  // metres
 cv::Mat MakePeriodicWall(int marks = 0);     // CV_8UC1
 
-// The poster as a camera sees it, four rays for each pixel.
+// Renders the poster as a camera sees it, with four rays per pixel.
 geometry::Frame PhotographPoster(const cv::Mat& poster,
                                  const geometry::Rigid3& camera_from_map,
                                  int64_t index);
 
-// A camera there that looks at the middle of the poster; z is the distance.
+// The pose of a camera at this position that looks at the middle of the poster; z is the distance.
 geometry::Rigid3 PosterPose(double x, double y, double z);
 
 // A map of the poster from one photograph with a known pose.
 std::shared_ptr<const vision::SceneDatabase> MapOfPoster(const cv::Mat& poster);
 
-// The most that two poses differ at the corners of the poster, pixels.
+// The largest difference between two poses at the corners of the poster, pixels.
 double CornerError(const geometry::Rigid3& estimate, const geometry::Rigid3& truth);
 
 }  // namespace lararium::test

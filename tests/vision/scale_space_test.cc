@@ -26,7 +26,7 @@ std::vector<const uchar*> Memory(const ScaleSpace& space) {
   return memory;
 }
 
-// The octaves are those of a scale space that held nothing before.
+// Expects the same octaves as in a new scale space.
 void ExpectAsIfNew(const ScaleSpace& space, const cv::Mat& grey, int first_octave) {
   ScaleSpace fresh;
   fresh.Build(grey, first_octave, kScales);

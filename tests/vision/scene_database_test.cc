@@ -26,7 +26,7 @@ SceneDatabase SmallDatabase() {
   return database;
 }
 
-// Makes a table's vtable say that it has no such field.
+// Changes a table's vtable so that the field is absent.
 void ForgetField(flatbuffers::Table* table, flatbuffers::voffset_t field) {
   auto* vtable = const_cast<uint8_t*>(table->GetVTable());
   flatbuffers::WriteScalar<flatbuffers::voffset_t>(vtable + field, 0);
@@ -84,7 +84,7 @@ TEST(SceneDatabase, KeyframesMayHaveNoImage) {
   ExpectSame(database, *parsed);
 }
 
-// What version 0.1 wrote: fields that came later are absent.
+// Files of version 0.1 lack the fields that were added later.
 TEST(SceneDatabase, ReadsFilesWithoutColour) {
   SceneDatabase database = SmallDatabase();
   database.colours.clear();
@@ -134,7 +134,7 @@ TEST(SceneDatabase, SurvivesFlippedBits) {
       const uint32_t bit = random.Below(static_cast<uint32_t>(8 * bytes.size()));
       damaged[bit / 8] ^= std::byte{1} << (bit % 8);
     }
-    // What is accepted keeps every promise.
+    // A damaged file that is accepted must still be valid.
     const auto parsed = ParseSceneDatabase(damaged, "damaged");
     if (parsed.ok()) {
       ASSERT_TRUE(parsed->Validate().ok());
@@ -162,7 +162,7 @@ TEST(SceneDatabase, RefusesOtherFiles) {
   EXPECT_FALSE(LoadSceneDatabase(folder / "none.larscene").ok());
 }
 
-// Each edit breaks one promise of the header.
+// Each edit breaks one invariant of the header.
 TEST(SceneDatabase, SaysWhatIsBroken) {
   const SceneDatabase good = SmallDatabase();
   ASSERT_TRUE(good.Validate().ok());

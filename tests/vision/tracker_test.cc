@@ -23,14 +23,14 @@ using test::MapOfPoster;
 using test::PhotographPoster;
 using test::PosterPose;
 
-const CameraModel& kCamera = test::kPosterCamera;
+const CameraModel& kTrackedCamera = test::kPosterCamera;
 
 class Tracker : public testing::Test {
  protected:
   Tracker() : poster_(MakePoster()), map_(MapOfPoster(poster_)) {}
 
   std::unique_ptr<PoseSource> Create() {
-    auto tracker = CreateTracker({map_}, kCamera, {});
+    auto tracker = CreateTracker({map_}, kTrackedCamera, {});
     EXPECT_TRUE(tracker.ok());
     return *std::move(tracker);
   }
@@ -56,7 +56,7 @@ TEST_F(Tracker, RegistersAPosterToAFractionOfAPixel) {
 TEST_F(Tracker, TellsWhichPointsAPoseStandsOnAndWhereTheyWereSeen) {
   const auto tracker = Create();
   std::vector<SeenPoint> seen = {{1, {0, 0}}};
-  for (int64_t index = 0; index < 3; ++index) {  // found, then followed
+  for (int64_t index = 0; index < 3; ++index) {  // First located, then tracked.
     const Rigid3 truth = PosterPose(0.01 * static_cast<double>(index), 0.0, 1.5);
     const TrackedFrame tracked = tracker->Track(PhotographPoster(poster_, truth, index));
     ASSERT_TRUE(tracked.camera_from_map.has_value());
@@ -64,14 +64,14 @@ TEST_F(Tracker, TellsWhichPointsAPoseStandsOnAndWhereTheyWereSeen) {
     EXPECT_GE(seen.size(), 50u);
     for (const SeenPoint& point : seen) {
       ASSERT_LT(point.point, map_->points.size());
-      const auto pixel = kCamera.Project(truth * map_->points[point.point].cast<double>());
+      const auto pixel = kTrackedCamera.Project(truth * map_->points[point.point].cast<double>());
       ASSERT_TRUE(pixel);
       EXPECT_LT((*pixel - point.pixel.cast<double>()).norm(), 3.0);
     }
   }
   Frame covered;
   covered.index = 3;
-  covered.grey = cv::Mat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(120));
+  covered.grey = cv::Mat(kTrackedCamera.height, kTrackedCamera.width, CV_8UC1, cv::Scalar(120));
   cv::cvtColor(covered.grey, covered.bgr, cv::COLOR_GRAY2BGR);
   EXPECT_FALSE(tracker->Track(covered).camera_from_map.has_value());
   tracker->Seen(seen);
@@ -82,7 +82,7 @@ TEST_F(Tracker, SearchesLosesAndRecoversInOneFrame) {
   const auto tracker = Create();
   const Rigid3 pose = PosterPose(0.1, 0.0, 1.5);
   Frame covered;
-  covered.grey = cv::Mat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(120));
+  covered.grey = cv::Mat(kTrackedCamera.height, kTrackedCamera.width, CV_8UC1, cv::Scalar(120));
   cv::cvtColor(covered.grey, covered.bgr, cv::COLOR_GRAY2BGR);
   TrackedFrame tracked = tracker->Track(covered);
   EXPECT_EQ(tracked.state, TrackState::kSearching);
@@ -100,7 +100,7 @@ TEST_F(Tracker, SearchesLosesAndRecoversInOneFrame) {
 TEST_F(Tracker, SaysThatItIsTooDark) {
   const auto tracker = Create();
   Frame dark;
-  dark.grey = cv::Mat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(2));
+  dark.grey = cv::Mat(kTrackedCamera.height, kTrackedCamera.width, CV_8UC1, cv::Scalar(2));
   cv::cvtColor(dark.grey, dark.bgr, cv::COLOR_GRAY2BGR);
   EXPECT_EQ(tracker->Track(dark).reason, TrackReason::kTooDark);
 }
@@ -109,7 +109,7 @@ TEST_F(Tracker, FindsNoPoseOfAnotherPlace) {
   const auto tracker = Create();
   Random random(9);
   Frame other;
-  other.grey = cv::Mat(kCamera.height, kCamera.width, CV_8UC1);
+  other.grey = cv::Mat(kTrackedCamera.height, kTrackedCamera.width, CV_8UC1);
   for (int row = 0; row < other.grey.rows; ++row) {
     for (int column = 0; column < other.grey.cols; ++column) {
       other.grey.at<uint8_t>(row, column) = static_cast<uint8_t>(random.Below(256));
@@ -172,7 +172,7 @@ TEST_F(Tracker, FollowsBehindAnOccluderAndInOtherLight) {
 TEST_F(Tracker, FollowsAShake) {
   const auto tracker = Create();
   for (int i = 0; i < 20; ++i) {
-    // Up to 25 pixels from frame to frame, to and fro.
+    // The camera turns to and fro, by up to 25 pixels per frame.
     const Eigen::Vector3d turn(0.03 * std::sin(1.1 * i), 0.05 * std::sin(1.3 * i), 0.0);
     const Rigid3 truth = Rigid3{geometry::RotationFromVector(turn), Eigen::Vector3d::Zero()} *
                          PosterPose(0.0, 0.0, 1.5);
@@ -207,8 +207,8 @@ TEST_F(Tracker, GivesTheSamePosesAgain) {
   TrackerOptions parallel;
   TrackerOptions serial;
   serial.threads = 1;
-  auto one = *CreateTracker({map_}, kCamera, parallel);
-  auto other = *CreateTracker({map_}, kCamera, serial);
+  auto one = *CreateTracker({map_}, kTrackedCamera, parallel);
+  auto other = *CreateTracker({map_}, kTrackedCamera, serial);
   for (int i = 0; i < 10; ++i) {
     const Frame frame = PhotographPoster(poster_, PosterPose(0.02 * i, 0.0, 1.5), i);
     const TrackedFrame a = one->Track(frame);
@@ -219,8 +219,8 @@ TEST_F(Tracker, GivesTheSamePosesAgain) {
   }
 }
 
-// A walk along a wall that repeats itself; after kLeap the camera stands a period
-// farther, which following cannot see.
+// A walk along a wall that repeats itself. At frame kLeap the camera jumps by one period, which
+// frame-to-frame tracking cannot notice.
 class TrackerAtAPeriodicWall : public testing::Test {
  protected:
   static constexpr int kLeap = 10;
@@ -235,7 +235,7 @@ class TrackerAtAPeriodicWall : public testing::Test {
   std::unique_ptr<PoseSource> Create(BackgroundWork background) const {
     TrackerOptions options;
     options.background = background;
-    return *CreateTracker({map_}, kCamera, options);
+    return *CreateTracker({map_}, kTrackedCamera, options);
   }
 
   cv::Mat wall_;
@@ -251,7 +251,7 @@ TEST_F(TrackerAtAPeriodicWall, IsPutRightByTheBackgroundAtAReproducibleFrame) {
     const TrackedFrame tracked = tracker->Track(Photograph(i));
     ASSERT_TRUE(tracked.camera_from_map.has_value()) << i;
     EXPECT_EQ(tracked.followed, i != 0 && i != kJoined) << i;
-    const bool astray = i >= kLeap && i < kJoined;  // the leap goes unseen
+    const bool astray = i >= kLeap && i < kJoined;  // The jump is not noticed yet.
     const Rigid3 expected = astray ? Pose(i) * period : Pose(i);
     EXPECT_LT(CornerError(*tracked.camera_from_map, expected), 0.2) << i;
   }
@@ -265,7 +265,7 @@ TEST_F(TrackerAtAPeriodicWall, IsPutRightWhenTheBackgroundIsDone) {
     ASSERT_TRUE(tracked.camera_from_map.has_value()) << i;
     right = i > kLeap && CornerError(*tracked.camera_from_map, Pose(i)) < 0.1;
     EXPECT_EQ(tracked.followed, i > 0 && !right) << i;
-    EXPECT_FALSE(right && i <= 60) << i;  // not before it was checked
+    EXPECT_FALSE(right && i <= 60) << i;  // Not before the check.
   }
   EXPECT_TRUE(right);
 }
@@ -291,15 +291,15 @@ std::shared_ptr<const SceneDatabase> InUnitsOf(double metres, const SceneDatabas
   return std::make_shared<const SceneDatabase>(std::move(other));
 }
 
-// From kLeap on the camera walks along another wall, which differs in its marks only.
+// From frame kLeap on, the camera walks along another wall, which differs only in its marks.
 TEST_F(TrackerAtAPeriodicWall, IsPutRightByAMapOfAnotherUnit) {
-  constexpr double kUnit = 100.0;  // metres, of the other wall's map
+  constexpr double kUnit = 100.0;  // Unit of the other wall's map, metres.
   constexpr int kMost = 100;       // frames
   const cv::Mat other = test::MakePeriodicWall(1);
   TrackerOptions options;
   options.background = BackgroundWork::kJoined;
   const auto tracker =
-      *CreateTracker({map_, InUnitsOf(kUnit, *MapOfPoster(other))}, kCamera, options);
+      *CreateTracker({map_, InUnitsOf(kUnit, *MapOfPoster(other))}, kTrackedCamera, options);
   const auto pose = [](int frame) {
     return PosterPose(0.0, 0.0, 1.1) *
            Rigid3{Eigen::Quaterniond::Identity(), {0.15 - 0.002 * frame, 0.0, 0.0}};
@@ -322,10 +322,10 @@ TEST_F(TrackerAtAPeriodicWall, IsPutRightByAMapOfAnotherUnit) {
   EXPECT_GT(*corrected, kLeap);
 }
 
-// A wall before the left half of the poster, from there up and down without end.
+// A wall in front of the left half of the poster that extends far up and down.
 class TrackerBehindAWall : public Tracker {
  protected:
-  static constexpr double kWall = 0.3;  // metres before the poster
+  static constexpr double kWall = 0.3;  // Metres in front of the poster.
 
   // The wall from x = left to 0.
   static OccluderMesh Wall(float left) {
@@ -336,12 +336,13 @@ class TrackerBehindAWall : public Tracker {
   Frame Photograph(int index, bool walled) const {
     Frame frame = PhotographPoster(poster_, Pose(index), index);
     if (walled) {
-      const double end = kCamera.Project(Pose(index) * Eigen::Vector3d(0.0, 0.0, kWall))->x();
-      frame.grey(cv::Rect(0, 0, static_cast<int>(end), kCamera.height)) = cv::Scalar(70);
+      const double end =
+          kTrackedCamera.Project(Pose(index) * Eigen::Vector3d(0.0, 0.0, kWall))->x();
+      frame.grey(cv::Rect(0, 0, static_cast<int>(end), kTrackedCamera.height)) = cv::Scalar(70);
     }
     return frame;
   }
-  // Follows one frame to a fraction of a pixel.
+  // Tracks one frame and expects an error of a fraction of a pixel.
   static TrackedFrame Follow(PoseSource& tracker, const Frame& frame) {
     const TrackedFrame tracked = tracker.Track(frame);
     EXPECT_EQ(tracked.followed, frame.index > 0) << frame.index;
@@ -362,7 +363,7 @@ TEST_F(TrackerBehindAWall, LooksForNothingBehindTheOccluder) {
     const TrackedFrame with = Follow(*knowing, frame);
     const TrackedFrame without = Follow(*ignorant, frame);
     if (i >= 5) {
-      EXPECT_LE(with.features - with.inliers, 12) << i;  // four trials, and what chance brings
+      EXPECT_LE(with.features - with.inliers, 12) << i;  // Four trials, and a few by chance.
       EXPECT_GE(without.features - without.inliers, 60) << i;
       EXPECT_GE(with.inliers, without.inliers) << i;
     }
@@ -400,7 +401,7 @@ TEST_F(TrackerBehindAWall, FollowsWhereAnOccluderHidesAllThatIsLeft) {
   for (int i = 0; i < 10; ++i) {
     Follow(*tracker, Photograph(i, true));
   }
-  // The camera stays where it is believed; the model grows over everything.
+  // The camera does not move after the occluder is trusted; then the model covers everything.
   OccluderMesh everything = Wall(-5.0f);
   everything.positions[1].x() = everything.positions[2].x() = 5.0f;
   tracker->SetOccluders(0, std::vector<OccluderMesh>{everything});
@@ -409,12 +410,12 @@ TEST_F(TrackerBehindAWall, FollowsWhereAnOccluderHidesAllThatIsLeft) {
   }
 }
 
-// All but the left of the keyframe's picture shows another poster: in no image do its
-// patches match there, but the detector knows the points by their descriptors.
+// Except at the left, the keyframe's image shows another poster. Its patches therefore do not match
+// in any image, but the detector recognises the points by their descriptors.
 class TrackerInNewLight : public Tracker {
  protected:
-  static constexpr int kLeft = 180;      // of 480 pixels
-  static constexpr int kUncovered = 10;  // until then the camera sees only the left
+  static constexpr int kLeft = 180;      // Width of the left part, out of 480 pixels.
+  static constexpr int kUncovered = 10;  // Before this frame the camera sees the left part only.
   static constexpr int kChecked = 60;
   static constexpr int kMerged = kChecked + 6;
 
@@ -432,7 +433,7 @@ class TrackerInNewLight : public Tracker {
   Frame Photograph(int index) const {
     Frame frame = PhotographPoster(poster_, Pose(index), index);
     if (index < kUncovered) {
-      frame.grey.colRange(kLeft - 30, kCamera.width) = cv::Scalar(70);
+      frame.grey.colRange(kLeft - 30, kTrackedCamera.width) = cv::Scalar(70);
     }
     return frame;
   }
@@ -442,7 +443,7 @@ TEST_F(TrackerInNewLight, FollowsWhatTheDetectorFindsInTheBackground) {
   const auto tracker = Create();
   TrackerOptions options;
   options.threads = 1;
-  const auto serial = *CreateTracker({map_}, kCamera, options);
+  const auto serial = *CreateTracker({map_}, kTrackedCamera, options);
   int before = 0;
   for (int i = 0; i < kMerged + 30; ++i) {
     const Frame frame = Photograph(i);
@@ -465,7 +466,7 @@ TEST_F(TrackerInNewLight, FollowsWhatTheDetectorFindsInTheBackground) {
 TEST_F(Tracker, FindsEveryFrameAnewWhereItIsToldTo) {
   TrackerOptions options;
   options.follow = false;
-  auto tracker = *CreateTracker({map_}, kCamera, options);
+  auto tracker = *CreateTracker({map_}, kTrackedCamera, options);
   for (int i = 0; i < 3; ++i) {
     const TrackedFrame tracked =
         tracker->Track(PhotographPoster(poster_, PosterPose(0.02 * i, 0.0, 1.5), i));
@@ -489,16 +490,16 @@ TEST_F(Tracker, FindsOneFrameAnewWhereItIsAsked) {
 
 TEST_F(Tracker, RefusesWhatItCannotUse) {
   EXPECT_FALSE(CreateTracker({map_}, CameraModel(), {}).ok());
-  EXPECT_FALSE(CreateTracker({std::make_shared<SceneDatabase>()}, kCamera, {}).ok());
+  EXPECT_FALSE(CreateTracker({std::make_shared<SceneDatabase>()}, kTrackedCamera, {}).ok());
   TrackerOptions options;
   options.hypotheses = 0;
-  EXPECT_FALSE(CreateTracker({map_}, kCamera, options).ok());
+  EXPECT_FALSE(CreateTracker({map_}, kTrackedCamera, options).ok());
   options = {};
   options.ratio = 0.0f;
-  EXPECT_FALSE(CreateTracker({map_}, kCamera, options).ok());
+  EXPECT_FALSE(CreateTracker({map_}, kTrackedCamera, options).ok());
   options = {};
   options.min_inliers = 3;
-  EXPECT_FALSE(CreateTracker({map_}, kCamera, options).ok());
+  EXPECT_FALSE(CreateTracker({map_}, kTrackedCamera, options).ok());
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::vector<cv::Mat> GreyFrames(const std::filesystem::path& video, int count) {
   return frames;
 }
 
-// Distance to the line on which the other image must show a point, in pixels.
+// Distance of a point from its epipolar line in the other image, pixels.
 double EpipolarDistance(const PoseRecord& from,
                         const PoseRecord& to,
                         const Keypoint& a,

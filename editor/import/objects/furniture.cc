@@ -1,4 +1,4 @@
-// What the kitchen's people sit on, put things on, and go through.
+// Furniture and doors of the kitchen.
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 namespace lararium::import::model {
 namespace {
 
-// No two boards are of one colour.
+// The colour of a board; each board has its own.
 glm::vec3 Tone(uint32_t seed) {
   return kOak * (1.25f + 0.22f * ValueNoise(glm::vec3(3.7f * static_cast<float>(seed)), 9));
 }
@@ -18,14 +18,14 @@ glm::vec3 Tone(uint32_t seed) {
 stage::PropMesh Board(const glm::vec3& low_cm, const glm::vec3& high_cm, int grain, uint32_t seed) {
   stage::PropMesh board = Block(0.01f * low_cm, 0.01f * high_cm, 0.004f, PlainPaint(Tone(seed)));
   PanelWithWood(grain, board);
-  // Each board from elsewhere in the tree.
+  // The texture of each board comes from a different part of the tree.
   for (glm::vec2& uv : board.uvs) {
     uv += glm::vec2(0.37f, 0.61f) * static_cast<float>(seed);
   }
   return board;
 }
 
-// What is made of boards and legs; they share the picture of wood.
+// An object of boards and legs, which share the image of wood.
 stage::Prop Wooden(std::string name, stage::PropMesh mesh) {
   stage::Prop prop = OnePiece(std::move(name), std::move(mesh));
   prop.textures.push_back(std::make_shared<const human::Texture>(WoodGrain()));
@@ -34,7 +34,7 @@ stage::Prop Wooden(std::string name, stage::PropMesh mesh) {
   return prop;
 }
 
-// A turned leg, leaning outward at its foot.
+// A turned leg that leans outward at its foot.
 void AddLeg(const glm::vec3& top_cm, const glm::vec3& foot_cm, uint32_t seed, stage::PropMesh& to) {
   const glm::vec3 top = 0.01f * top_cm;
   const glm::vec3 way = 0.01f * (foot_cm - top_cm);
@@ -88,7 +88,7 @@ stage::Prop Bench() {
   return Wooden("bench", std::move(mesh));
 }
 
-// An arca: iron bands on oak; the lid turns about its back edge.
+// An arca: oak with iron bands; the lid rotates about its back edge.
 stage::Prop Chest() {
   const Paint iron = MetalPaint(kIron, kRust, 231);
   stage::PropMesh body;
@@ -108,7 +108,7 @@ stage::Prop Chest() {
   Append(Block({-0.05f, 0.28f, -0.248f}, {0.05f, 0.38f, -0.238f}, 0.002f, iron), bands);
   stage::Prop prop = Wooden("chest", std::move(body));
   prop.parts[0].meshes.push_back(std::move(bands));
-  // In the frame of its hinge: the front edge lies towards -z.
+  // In the frame of the hinge: the front edge is at -z.
   stage::PropMesh lid_bands;
   stage::PropMesh lid = Board({-41, 0, -49}, {41, 3.2f, 0}, 0, 237);
   for (const float x : {-1.0f, 1.0f}) {
@@ -122,7 +122,7 @@ stage::Prop Chest() {
   return prop;
 }
 
-// A leaf of boards in its frame; it turns about its left post as seen from the front.
+// A leaf of boards in a frame; it rotates about its left post as seen from the front.
 stage::Prop Door() {
   stage::PropMesh frame;
   stage::PropMesh sill;

@@ -20,7 +20,7 @@ constexpr int kStepsBetweenPoints = 4;
 
 using Ring = std::vector<glm::vec3>;
 
-// Catmull and Rom's cubic through b and c.
+// The Catmull-Rom cubic between b and c.
 template <typename T>
 T Spline(const T& a, const T& b, const T& c, const T& d, float t) {
   return 0.5f * (2.0f * b + t * (c - a) + t * t * (2.0f * a - 5.0f * b + 4.0f * c - d) +
@@ -32,13 +32,13 @@ glm::vec3 Normalised(const glm::vec3& v) {
   return length > 0.0f ? v / length : glm::vec3(0.0f, 1.0f, 0.0f);
 }
 
-// The normal of a sheet of rings at one vertex, by differences along and across.
+// The normal at one vertex of a sheet of rings, by differences along and across.
 glm::vec3 SheetNormal(std::span<const Ring> rings, size_t row, size_t column) {
   const size_t count = rings[row].size();
   const Ring& below = rings[row == 0 ? row : row - 1];
   const Ring& above = rings[row + 1 == rings.size() ? row : row + 1];
   const glm::vec3 along = above[column] - below[column];
-  // Where a ring shrinks to a point, its neighbour tells which way is round.
+  // Where a ring shrinks to a point, its neighbour gives the direction around.
   const auto across = [&](const Ring& ring) {
     return ring[(column + 1) % count] - ring[(column + count - 1) % count];
   };
@@ -47,12 +47,13 @@ glm::vec3 SheetNormal(std::span<const Ring> rings, size_t row, size_t column) {
   return Normalised(glm::cross(round, along));
 }
 
-// Closed rings, one after the other, which turn left about the way from ring to ring.
-// Texture coordinates: turns round, and metres along.
+// Appends a sheet through closed rings, which turn left about the direction from ring to ring.
+// Texture coordinates are turns around and metres along.
 void AppendSheet(std::span<const Ring> rings, const Paint& paint, PropMesh& mesh) {
   const auto begin = static_cast<uint32_t>(mesh.positions.size());
   const auto segments = static_cast<uint32_t>(rings[0].size());
-  const uint32_t columns = segments + 1;  // the first again, for its other coordinate
+  // The first column is repeated with another texture coordinate.
+  const uint32_t columns = segments + 1;
   float along = 0.0f;
   for (size_t row = 0; row < rings.size(); ++row) {
     along += row == 0 ? 0.0f : glm::distance(rings[row][0], rings[row - 1][0]);
@@ -73,7 +74,7 @@ void AppendSheet(std::span<const Ring> rings, const Paint& paint, PropMesh& mesh
   }
 }
 
-// As many as keep corners unseen: small things are seen small.
+// Enough segments to make corners invisible; small objects appear small on screen.
 int SegmentsOf(std::span<const OutlinePoint> outline) {
   float radius = 0.0f;
   for (const OutlinePoint& point : outline) {
@@ -82,7 +83,7 @@ int SegmentsOf(std::span<const OutlinePoint> outline) {
   return std::clamp(static_cast<int>(12.0f + 200.0f * radius), 14, 40);
 }
 
-// The outline between two of its points that bend sharply, refined.
+// Refines the outline between two of its corners.
 std::vector<OutlinePoint> Refined(std::span<const OutlinePoint> outline) {
   std::vector<OutlinePoint> fine;
   const auto at = [&](size_t i) { return glm::vec2(outline[i].radius, outline[i].height); };
@@ -113,7 +114,7 @@ Ring CircleOf(const OutlinePoint& point, int segments, float irregularity) {
   return ring;
 }
 
-// Any unit vector across.
+// Any unit vector perpendicular to `direction`.
 glm::vec3 AnyAcross(const glm::vec3& direction) {
   const glm::vec3 helper =
       std::abs(direction.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
@@ -167,7 +168,7 @@ PropMesh Rod(std::span<const PathPoint> path, const Paint& paint) {
   glm::vec3 across = AnyAcross(tangent(0));
   const auto add_ring = [&](size_t i, float radius) {
     const glm::vec3 along = tangent(i);
-    // Carried on from ring to ring, so that the rod does not twist.
+    // Transported from ring to ring, so that the rod does not twist.
     across = Normalised(across - glm::dot(across, along) * along);
     const glm::vec3 other = glm::cross(along, across);
     Ring& ring = rings.emplace_back(kRodSegments);
@@ -190,7 +191,7 @@ PropMesh Block(const glm::vec3& low, const glm::vec3& high, float edge, const Pa
   const glm::vec3 center = 0.5f * (low + high);
   const glm::vec3 half = 0.5f * (high - low);
   const float round = std::min({edge, half.x, half.y, half.z});
-  // Vertices along a side: half of them for each rounded edge.
+  // Vertices along a side; half of them form each rounded edge.
   const int grid = std::max({half.x, half.y, half.z}) > 0.05f ? 6 : 4;
   const auto coordinate = [&](int i, float extent) {
     const int from_edge = i < grid / 2 ? i : grid - 1 - i;

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "editor/import/model_gltf.h"
-#include "editor/import/model_import.h"
+#include "editor/import/model/model_gltf.h"
+#include "editor/import/model/model_import.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/human/human.h"
@@ -24,7 +24,7 @@ bool EndsWith(const std::filesystem::path& file, std::string_view ending) {
   return file.filename().string().ends_with(ending);
 }
 
-// Something real: nothing of it is drawn.
+// A real object: no mesh is drawn for it.
 Result<stage::Prop> RealThing(const std::filesystem::path& file) {
   stage::Prop prop;
   prop.name = file.filename().string();
@@ -34,7 +34,7 @@ Result<stage::Prop> RealThing(const std::filesystem::path& file) {
   return prop;
 }
 
-// `object` of the extras of the scene that the file shows.
+// The `object` in the extras of the default scene.
 Result<std::string> UseInExtras(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
   if (!LooksLikeGltf(bytes)) {
@@ -62,7 +62,7 @@ Result<std::string> FindUse(const std::filesystem::path& file) {
                                                   : UseInExtras(file);
 }
 
-// The joint that moves most of a mesh's first vertex: parts of objects are rigid.
+// The joint with the largest weight at the first vertex of a mesh; parts of objects are rigid.
 size_t JointOf(const human::SkinnedMesh& mesh) {
   if (mesh.positions.empty()) {
     return 0;
@@ -88,7 +88,7 @@ stage::PropMesh ToPropMesh(const human::SkinnedMesh& mesh, const glm::mat4& part
   return result;
 }
 
-// Which joints bear meshes, or lead to joints that do.
+// Says which joints have meshes or are ancestors of such joints.
 std::vector<bool> NeededJoints(const human::Human& model) {
   std::vector<bool> needed(model.skeleton.size(), false);
   for (const human::SkinnedMesh& mesh : model.meshes) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// Objects of one's own: models from other programs, and real things that are there
-// already and only have to be known.
+// Imports the author's own objects: models from other programs, and real objects at the place
+// that only need a description.
 
 #include <filesystem>
 
@@ -10,13 +10,13 @@
 
 namespace lararium::import {
 
-// A model (glTF, FBX, ...): its nodes become parts, at most Prop::kMaxParts that bear
-// meshes or lead to such. How it is used is in NAME.object.json beside it, else in the
-// `object` of the extras of its scene (glTF), else nowhere: scenery.
-// NAME.object.json itself: something real, which is used and not drawn.
+// Reads a model (glTF, FBX, ...). Its nodes become parts, at most Prop::kMaxParts that have
+// meshes or lead to such parts. NAME.object.json beside it describes its use, otherwise the
+// `object` in the extras of its scene (glTF); without either it is scenery. The file may also
+// be NAME.object.json itself: a real object, which is used and not drawn.
 Result<stage::Prop> ImportObject(const std::filesystem::path& file);
 
-// Where the use of a model may be written.
+// The file for the use of a model.
 std::filesystem::path UseFileBeside(const std::filesystem::path& model);
 
 }  // namespace lararium::import

@@ -14,7 +14,7 @@ struct ObjectModelEntry {
   stage::Prop (*build)();
 };
 
-// What shines more than clay and wood do: red slip, thin-walled ware, metal.
+// Objects that shine more than clay and wood: red slip, thin-walled ware, metal.
 struct Polish {
   std::string_view name;
   float roughness;
@@ -63,7 +63,7 @@ void DropUnusedCoordinates(stage::Prop& prop) {
   }
 }
 
-// Gives a material to what has none.
+// Gives a material to meshes without one.
 void PolishModel(std::string_view name, stage::Prop& prop) {
   const auto polish = std::find_if(kPolished.begin(), kPolished.end(),
                                    [name](const Polish& entry) { return entry.name == name; });

@@ -1,8 +1,7 @@
 #pragma once
 
-// The objects of a Roman street kitchen, modelled here after finds in Pompeii's
-// thermopolia: what people of a drama use before a designer brings models of their
-// own. Sizes are those of finds.
+// The objects of a Roman street kitchen, modelled in code after finds in Pompeii's thermopolia,
+// with their sizes. Dramas use them until a designer provides other models.
 
 #include <span>
 #include <string_view>
@@ -12,10 +11,10 @@
 
 namespace lararium::import {
 
-// Their names, sorted.
+// The names, sorted.
 std::span<const std::string_view> ObjectModelNames();
 
-// The object and how it is used. Fails where there is none of that name.
+// Builds the object with its use. Fails if the name is unknown.
 Result<stage::Prop> BuildObjectModel(std::string_view name);
 
 }  // namespace lararium::import

@@ -1,5 +1,5 @@
-// How each of the objects is used: the text that a designer would write beside a
-// model (docs/file-formats.md, "Objects").
+// The use of each built-in object: the text that a designer would write beside a model
+// (docs/file-formats.md, "Objects").
 
 #include <algorithm>
 #include <array>
@@ -137,7 +137,7 @@ constexpr ObjectUseEntry kUses[] = {
                                {"t": 2.6, "at": [0.12, 1.13, -0.46], "turn": [-84, 0, 0]},
                                {"t": 3.5, "at": [0.20, 0.98, -0.34]}]}},
  "carry": {"hands": {"right": "handle"}, "at": [0.20, 0.98, -0.34]}})"},
-    // Stirs and serves what is sunk into a counter of 0.95 m, in front of its holder.
+    // Stirs and serves from a vessel in a counter of 0.95 m, in front of its holder.
     {"ladle", R"({"schema": 1,
  "grips": {"handle": {"at": [0.068, 0.27, 0.0], "palm": [-1, 0, 0], "fingers": [0, 0.1, -1], "pose": "ladle"}},
  "actions": {"stir": {"held": true, "hands": {"right": "handle"}, "duration": 6.0,

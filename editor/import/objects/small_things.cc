@@ -1,4 +1,4 @@
-// What is eaten, paid with, written on, and what burns.
+// Small objects: food, coins, writing tablets, lamps and fires.
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -10,8 +10,8 @@
 namespace lararium::import::model {
 namespace {
 
-// A flame: brightest low in its middle. Its radiance is that of a white wall in a
-// room, times a few: it must not outshine a picture.
+// A flame, brightest low in its middle. Its radiance is a few times that of a white wall in a
+// room, so that it does not outshine an image.
 stage::PropMesh Flame(const glm::vec3& foot, float height) {
   const float h = 100.0f * height;
   stage::PropMesh flame = Potted({{0, 0},
@@ -28,7 +28,7 @@ stage::PropMesh Flame(const glm::vec3& foot, float height) {
   return flame;
 }
 
-// Normals after the vertices were pushed about.
+// Recomputes normals after vertices were moved.
 void RenewNormals(stage::PropMesh& mesh) {
   geometry::TriangleMesh triangles{mesh.positions, {}, mesh.indices};
   geometry::ComputeNormals(triangles);
@@ -37,7 +37,7 @@ void RenewNormals(stage::PropMesh& mesh) {
 
 }  // namespace
 
-// A panis quadratus as they were found: eight wedges round a middle.
+// A panis quadratus like those found: eight wedges around a middle.
 stage::Prop Loaf() {
   stage::PropMesh mesh =
       Potted({{0, 0},
@@ -64,7 +64,7 @@ stage::Prop Loaf() {
   return OnePiece("loaf", std::move(mesh));
 }
 
-// A few sestertii, some on top of one another.
+// A few sestertii, partly stacked.
 stage::Prop Coins() {
   const Paint brass = MetalPaint({0.50f, 0.36f, 0.14f}, {0.20f, 0.14f, 0.07f}, 311);
   const stage::PropMesh coin = Potted({{0, 0},
@@ -108,7 +108,7 @@ stage::Prop Tablet() {
   return OnePiece("tablet", std::move(mesh));
 }
 
-// Of clay, burning.
+// A burning lamp of clay.
 stage::Prop OilLamp() {
   const Paint clay = ClayPaint(kTerracotta, 331);
   stage::PropMesh mesh = Potted({{0, 0},
@@ -135,7 +135,7 @@ stage::Prop OilLamp() {
   return prop;
 }
 
-// A candelabrum of bronze on three feet with a plate on top.
+// A bronze candelabrum on three feet with a plate on top.
 stage::Prop LampStand() {
   const Paint bronze = MetalPaint(kBronze, kPatina, 341);
   stage::PropMesh mesh = Potted({{0, 12},
@@ -163,7 +163,7 @@ stage::Prop LampStand() {
   return OnePiece("lamp_stand", std::move(mesh));
 }
 
-// Charcoal glowing in an iron pan.
+// Glowing charcoal in an iron pan.
 stage::Prop Brazier() {
   const Paint iron = MetalPaint({0.10f, 0.09f, 0.085f}, {0.14f, 0.07f, 0.04f}, 351);
   stage::PropMesh mesh = Potted({{0, 24},
@@ -188,7 +188,7 @@ stage::Prop Brazier() {
   stage::PropMesh coals;
   stage::PropMesh glow;
   for (int i = 0; i < 46; ++i) {
-    const float turn = 2.39996f * static_cast<float>(i);  // the golden angle spreads them evenly
+    const float turn = 2.39996f * static_cast<float>(i);  // The golden angle spreads them evenly.
     const float out = 0.165f * std::sqrt(static_cast<float>(i) / 46.0f);
     const glm::vec3 at(out * std::cos(turn), 0.292f + 0.012f * std::sin(5.0f * turn),
                        out * std::sin(turn));

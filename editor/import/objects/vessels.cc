@@ -1,4 +1,4 @@
-// What the kitchen keeps, pours and serves in.
+// Vessels in which the kitchen keeps, pours and serves.
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -34,7 +34,7 @@ stage::PropMesh BentRod(std::vector<glm::vec3> points_cm, float radius_cm, const
 }
 
 namespace model {
-// Dressel 2-4, for wine, in a ring of clay that keeps it upright.
+// A Dressel 2-4 amphora for wine, in a ring of clay that keeps it upright.
 stage::Prop Amphora() {
   const Paint clay = ClayPaint(kPaleClay, 11);
   stage::PropMesh mesh = Potted({{0, 4},
@@ -76,7 +76,7 @@ stage::Prop Amphora() {
   return OnePiece("amphora", std::move(mesh));
 }
 
-// Of coarse ware, with a lid to lift.
+// A jar of coarse ware with a removable lid.
 stage::Prop StorageJar() {
   const Paint clay = ClayPaint(kTerracotta, 21);
   stage::Prop prop = OnePiece("storage_jar", Potted({{0, 0},
@@ -131,7 +131,7 @@ stage::Prop Jug() {
                                  {0, 1}},
                                 clay);
   for (glm::vec3& p : mesh.positions) {
-    // The lip is drawn out to the front and pressed in beside.
+    // The lip is extended to the front and pressed in beside it.
     const float high = glm::smoothstep(0.215f, 0.25f, p.y);
     const float front = glm::smoothstep(0.0f, 0.04f, -p.z);
     p.z -= 0.022f * high * front;
@@ -167,7 +167,7 @@ stage::Prop Ladle() {
   return OnePiece("ladle", std::move(mesh));
 }
 
-// Red gloss ware with a foot.
+// A footed cup of red gloss ware.
 stage::Prop Cup() {
   return OnePiece("cup", Potted({{0, 0.4f},
                                  {2.0f, 0.4f, true},
@@ -184,7 +184,7 @@ stage::Prop Cup() {
                                 ClayPaint(kSigillata, 51)));
 }
 
-// Thin-walled ware.
+// A beaker of thin-walled ware.
 stage::Prop Beaker() {
   return OnePiece("beaker", Potted({{0, 0},
                                     {2.1f, 0, true},
@@ -217,7 +217,7 @@ stage::Prop Bowl() {
                                  ClayPaint(kTerracotta, 71)));
 }
 
-// With figs on it.
+// A plate of figs.
 stage::Prop Plate() {
   stage::PropMesh mesh = Potted({{0, 0.6f},
                                  {5, 0.6f, true},
@@ -270,7 +270,7 @@ stage::Prop Mortar() {
   return OnePiece("mortar", std::move(mesh));
 }
 
-// A situla whose bail swings.
+// A situla with a swinging bail.
 stage::Prop Bucket() {
   const Paint bronze = MetalPaint(kBronze, kPatina, 101);
   stage::Prop prop = OnePiece("bucket", Potted({{0, 0.6f},

@@ -1,6 +1,6 @@
 #pragma once
 
-// One function for each object that is modelled here. Private to objects/.
+// One function for each object modelled in code. Private to objects/.
 
 #include <string>
 #include <string_view>
@@ -23,15 +23,15 @@ inline const glm::vec3 kOak(0.26f, 0.155f, 0.08f);
 
 // A prop of one part with one mesh.
 stage::Prop OnePiece(std::string name, stage::PropMesh mesh);
-// Adds a part that moves against the first.
+// Adds a part that moves relative to the first.
 void AddPart(std::string name, const glm::vec3& origin, stage::PropMesh mesh, stage::Prop& prop);
 
-// Turned outline given as {radius, height} in centimetres.
+// A turned surface; the outline gives {radius, height} in centimetres.
 stage::PropMesh Potted(std::vector<OutlinePoint> outline_cm, const Paint& paint);
-// A rod through points in centimetres, of one thickness.
+// A rod of constant thickness through points in centimetres.
 stage::PropMesh BentRod(std::vector<glm::vec3> points_cm, float radius_cm, const Paint& paint);
 
-// The text of its NAME.object.json; empty: scenery.
+// The text of its NAME.object.json; empty for scenery.
 std::string_view ObjectModelUse(std::string_view name);
 
 namespace model {

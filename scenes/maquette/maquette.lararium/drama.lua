@@ -1,5 +1,5 @@
--- A quiet moment at the counter: the keeper comes along behind it and turns to
--- the visitor, while a guest waits in front.
+-- A quiet moment at the counter: the keeper walks behind it and turns to the
+-- visitor, while a guest waits in front.
 
 local keeper = actor("keeper")
 local guest = actor("guest")

@@ -2,14 +2,14 @@
 --
 --   0:00  dawn: the lamp is lit, the bread is fresh, the labourer has his first wine
 --   0:30  a patrician comes in, asks what it costs and orders the dearest
---   1:25  the keeper speaks to the visitor. Whoever looks at him or stays near is served;
+--   1:25  the keeper speaks to the visitor. A visitor who looks at him or stays near is served;
 --         otherwise two guests quarrel about whom to vote for
 --   2:35  the patrician pays and leaves, water is carried
 --   3:20  the daughter prays before the painted shrine, the keeper says farewell
 --   4:00  life goes on
 --
--- What is timed stands in tracks, which the timeline shows; what depends on others or on
--- the visitor is script.
+-- Actions with fixed times are in tracks, which the timeline shows. Actions that depend on
+-- other actors or on the visitor are in the script.
 
 drama{when_lost = "hold", patience = 2, length = 235}
 
@@ -23,7 +23,7 @@ local girl = actor("girl") -- Vetutia, their daughter
 
 track{
   captions = {{id = "title", at = 0.5, length = 5, line = "titulus"}},
-  -- For visitors who do not see well; more of them stand where the script knows of a pause.
+  -- For visitors who do not see well. The script adds others where it knows of a pause.
   descriptions = {
     {at = 0, line = "d_bar"},
     {at = 9.6, line = "d_people"},
@@ -31,7 +31,7 @@ track{
   },
   lights = {
     -- Embers of the night before, fanned, then left alone.
-    -- By day they are a faint warmth on who stands beside them.
+    -- By day they are only a faint warm light on people beside them.
     {id = "embers", at = 0, length = 44, light = "brazier", level = 0.1},
     {id = "fanned", at = 44, length = 8, light = "brazier", level = 0.4, seconds = 6, ease = "smooth"},
     {id = "ashes", at = 52, length = 600, light = "brazier", level = 0.1, seconds = 8, ease = "smooth"},
@@ -50,7 +50,7 @@ track{
   },
 }
 
--- ---- the beginning, by the clock -----------------------------------------------------
+-- ---- the beginning, with fixed times -------------------------------------------------
 
 track{actor = "keeper",
   walks = {
@@ -142,13 +142,13 @@ track{actor = "patrician",
   },
 }
 
--- ---- words of this drama -------------------------------------------------------------
+-- ---- functions of this drama ---------------------------------------------------------
 
--- One speaks at a time.
+-- Only one actor speaks at a time.
 local floor = {taken = false}
 local leave = {__close = function() floor.taken = false end}
 
--- Says a line, with its height on the stroke of a gesture.
+-- Says a line whose stroke coincides with the stroke of a gesture.
 local function speak(who, line, gesture)
   while floor.taken do
     wait(0.1)
@@ -163,8 +163,8 @@ local function speak(who, line, gesture)
   wait(0.4)
 end
 
--- What somebody was told to do may not be possible just then: life goes on. The author
--- hears of it from the editor's check.
+-- A task may be impossible at the moment: the drama continues. The editor's check reports it to
+-- the author.
 local function try(task, ...)
   local done, problem = pcall(task, ...)
   if not done then
@@ -173,7 +173,7 @@ local function try(task, ...)
   return done, problem
 end
 
--- Waits until the visitor looks at somebody again, but not for ever.
+-- Waits until the visitor looks at an actor again, at most `patience` seconds.
 local function attended(who, patience)
   who:look_at("visitor")
   race(function()
@@ -191,7 +191,7 @@ end
 
 -- ---- the order, from marker to cup ---------------------------------------------------
 
--- Pours into a cup that stands before him.
+-- The keeper fills a cup that stands in front of him.
 local function pour(cup, x)
   keeper:take("jug")
   keeper:walk_to{x = x, z = -1.93, heading = 180}
@@ -318,7 +318,7 @@ local function quarrel()
   end
 end
 
--- ---- what goes on meanwhile ----------------------------------------------------------
+-- ---- meanwhile -----------------------------------------------------------------------
 
 local function household()
   wait(2)
@@ -405,7 +405,7 @@ local function carry_water()
   try(function() labourer:use("counter", "lean") end)
 end
 
--- The child goes to the counter, out of everybody's way, and looks after who leaves.
+-- The child makes room at the counter and watches the patrician leave.
 local function make_room()
   try(girl.walk_to, girl, {x = 0.05, z = -0.45, heading = 0})
   girl:look_at(patrician)
@@ -440,7 +440,7 @@ local function farewell()
   keeper:look_at()
 end
 
--- Once the story is told.
+-- After the end of the story.
 local function life_goes_on()
   together(function()
     while true do
@@ -474,9 +474,9 @@ local function life_goes_on()
   end)
 end
 
--- ---- who notices the visitor ---------------------------------------------------------
+-- ---- reactions to the visitor --------------------------------------------------------
 
--- Whoever comes nearer is seen; whoever comes too near is made room for.
+-- Actors notice a visitor who comes near, and step aside from one who comes too near.
 local function notice()
   on(visitor:near("counter", 3, {leave = 4}), function()
     server:look_at("visitor")

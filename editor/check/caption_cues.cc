@@ -1,0 +1,78 @@
+#include "editor/check/caption_cues.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace lararium::editor {
+namespace {
+
+// The line that a cue of the complete drama belongs to: among the lines being said then, or
+// still readable, the one that began last.
+const SaidLine* FindSaid(const std::vector<SaidLine>& said, double time) {
+  constexpr double kEarly = 0.1;  // Seconds that a cue may precede its line.
+  constexpr double kLate = 4.0;   // Seconds that a cue may follow the end of its line.
+  const SaidLine* found = nullptr;
+  for (const SaidLine& line : said) {
+    if (time >= line.begin - kEarly && time < line.begin + line.seconds + kLate &&
+        (found == nullptr || line.begin >= found->begin)) {
+      found = &line;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<bake::FileCue> CuesOf(const std::vector<SaidLine>& said,
+                                  const stage::CaptionBook& book,
+                                  const std::string& language) {
+  std::vector<bake::FileCue> cues;
+  for (const SaidLine& line : said) {
+    const auto languages = book.lines.find(line.line);
+    const auto found = languages == book.lines.end() ? decltype(languages->second.end())()
+                                                     : languages->second.find(language);
+    if (languages == book.lines.end() || found == languages->second.end()) {
+      continue;
+    }
+    int number = 0;
+    for (const stage::CaptionCue& cue : found->second) {
+      if (line.cut && cue.begin >= line.seconds) {
+        break;
+      }
+      const double end = line.cut ? std::min(cue.end, line.seconds) : cue.end;
+      cues.push_back({line.line + "/" + std::to_string(++number), line.begin + cue.begin,
+                      line.begin + end, cue.text});
+    }
+  }
+  std::stable_sort(cues.begin(), cues.end(),
+                   [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  for (size_t i = 0; i + 1 < cues.size(); ++i) {
+    cues[i].end = std::max(std::min(cues[i].end, cues[i + 1].begin), cues[i].begin + 0.001);
+  }
+  return cues;
+}
+
+std::map<std::string, std::vector<bake::FileCue>> CuesByLine(const std::vector<bake::FileCue>& cues,
+                                                             const std::vector<SaidLine>& said,
+                                                             std::vector<std::string>& warnings) {
+  std::map<std::string, std::vector<bake::FileCue>> lines;
+  std::map<std::string, double> first;
+  for (const SaidLine& line : said) {
+    first.emplace(line.line, line.begin);
+  }
+  for (const bake::FileCue& cue : cues) {
+    const SaidLine* line = FindSaid(said, cue.begin);
+    if (line == nullptr) {
+      char text[64];
+      std::snprintf(text, sizeof(text), "nobody speaks at %.2f s: '", cue.begin);
+      warnings.push_back(text + cue.text + "'");
+    } else if (first[line->line] == line->begin) {
+      std::vector<bake::FileCue>& own = lines[line->line];
+      const double begin = std::max(cue.begin - line->begin, own.empty() ? 0.0 : own.back().end);
+      own.push_back({"", begin, std::max(cue.end - line->begin, begin + 0.001), cue.text});
+    }
+  }
+  return lines;
+}
+
+}  // namespace lararium::editor

@@ -1,0 +1,58 @@
+#pragma once
+
+// Parsing of arguments that several subcommands share.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "editor/document/named_entries.h"
+#include "shared/core/status.h"
+#include "shared/geometry/transform.h"
+#include "shared/stage/picks.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::editor {
+
+// A position on the stage in metres, from three numbers.
+Result<Eigen::Vector3d> ParsePosition(const std::string& option,
+                                      const std::vector<double>& numbers);
+
+// The rotation for a heading, optionally followed by tilt and roll; degrees.
+Eigen::Quaterniond RotationOf(const std::vector<double>& degrees);
+
+// Describes a pose in the form that options accept, to the millimetre and tenth of a degree:
+// "at 1.000,0.000,-2.000, turned 90.0,0.0,0.0 degrees, scaled by 0.5000". Omits an identity
+// rotation and a scale of 1.
+std::string DescribePose(const geometry::Similarity3& stage_from_thing);
+// The part of DescribePose for the rotation.
+std::string DescribeTurn(const Eigen::Quaterniond& rotation);
+
+// Parses the complete text as one number; nullopt if it is not a number.
+std::optional<double> ParseNumber(std::string_view text);
+
+// Finds a keyframe in the map of a place. Errors name `option`.
+Result<const vision::Keyframe*> FindKeyframe(const vision::SceneDatabase& map,
+                                             const std::string& place,
+                                             const std::string& frame,
+                                             uint32_t session);
+
+// A pixel in a training image of a place.
+Result<stage::Pick> PickInImage(const vision::SceneDatabase& map,
+                                const std::string& place,
+                                const std::string& frame,
+                                uint32_t session,
+                                const Eigen::Vector2d& pixel);
+
+// Parses a pick from "FRAME,x,y"; the name of the frame may contain commas.
+Result<stage::Pick> ParsePick(const vision::SceneDatabase& map,
+                              const std::string& place,
+                              uint32_t session,
+                              const std::string& option,
+                              const std::string& text);
+
+}  // namespace lararium::editor

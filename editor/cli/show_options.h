@@ -1,0 +1,42 @@
+#pragma once
+
+// Options of the subcommands that produce images, video and bundles from a project.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/check/dry_run.h"
+#include "editor/jobs/portrait.h"
+#include "editor/jobs/reference.h"
+
+namespace lararium::editor {
+
+struct BakeOptions {
+  std::filesystem::path project;
+};
+
+struct RenderOptions {
+  std::filesystem::path project;
+  std::string place;
+  std::filesystem::path video;
+  std::vector<double> intrinsics;
+  std::filesystem::path out;
+  std::filesystem::path sound;
+  bool evidence = false;  // Colours that show the certainty of objects.
+};
+
+struct ExportOptions {
+  std::filesystem::path project;
+  std::filesystem::path out;
+  std::optional<int> points = {};   // Limit for the points of each place.
+  std::filesystem::path sign = {};  // Secret key file; empty: the bundle is not signed.
+};
+
+struct KeyOptions {
+  std::filesystem::path name;  // Name of the pair: NAME.key and NAME.pub.
+};
+
+}  // namespace lararium::editor

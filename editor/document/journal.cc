@@ -1,0 +1,317 @@
+#include "editor/document/journal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "shared/core/file.h"
+
+namespace lararium::editor {
+namespace {
+
+constexpr std::string_view kMagic = "lararium journal 2\n";
+// Version 1 had no records of lines. Both magics have the same length.
+constexpr std::string_view kFirstMagic = "lararium journal 1\n";
+constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
+
+// FNV-1a, 64 bits (Fowler, Noll, Vo): enough to detect a truncated record.
+uint64_t CheckSum(std::string_view bytes) {
+  uint64_t sum = 14695981039346656037u;
+  for (const char c : bytes) {
+    sum = (sum ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  }
+  return sum;
+}
+
+// "kind number... bytes sum\n", the payload and a newline.
+std::string Record(std::string_view header, std::string_view payload) {
+  std::string record(header);
+  record += ' ' + std::to_string(payload.size()) + ' ' + std::to_string(CheckSum(payload)) + '\n';
+  record += payload;
+  record += '\n';
+  return record;
+}
+
+std::string Dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string EditHeader(std::string_view kind, const drama::TextEdit& edit) {
+  return std::string(kind) + ' ' + std::to_string(edit.offset) + ' ' +
+         std::to_string(edit.removed.size());
+}
+
+// Iterates over the records of a journal.
+class Records {
+ public:
+  explicit Records(std::string_view text) : text_(text) {}
+
+  struct Entry {
+    std::string_view kind;
+    std::vector<uint64_t> numbers;  // The numbers between the kind and the payload's length.
+    std::string_view payload;
+  };
+
+  // nullopt at the end, or where the rest is truncated; see torn().
+  std::optional<Entry> Next() {
+    if (text_.empty()) {
+      return std::nullopt;
+    }
+    torn_ = true;
+    const size_t line_end = text_.find('\n');
+    if (line_end == std::string_view::npos) {
+      return std::nullopt;
+    }
+    std::string_view line = text_.substr(0, line_end);
+    Entry entry;
+    entry.kind = line.substr(0, line.find(' '));
+    line.remove_prefix(entry.kind.size());
+    while (!line.empty()) {
+      line.remove_prefix(1);
+      uint64_t number = 0;
+      const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+      if (error != std::errc() || (end != line.data() + line.size() && *end != ' ')) {
+        return std::nullopt;
+      }
+      entry.numbers.push_back(number);
+      line.remove_prefix(static_cast<size_t>(end - line.data()));
+    }
+    if (entry.numbers.size() < 2) {
+      return std::nullopt;
+    }
+    const uint64_t sum = entry.numbers.back();
+    entry.numbers.pop_back();
+    const uint64_t bytes = entry.numbers.back();
+    entry.numbers.pop_back();
+    const size_t begin = line_end + 1;
+    if (bytes >= text_.size() - begin || text_[begin + bytes] != '\n') {
+      return std::nullopt;
+    }
+    entry.payload = text_.substr(begin, bytes);
+    if (CheckSum(entry.payload) != sum) {
+      return std::nullopt;
+    }
+    text_.remove_prefix(begin + bytes + 1);
+    torn_ = false;
+    return entry;
+  }
+
+  bool torn() const { return torn_; }
+
+ private:
+  std::string_view text_;
+  bool torn_ = false;
+};
+
+// Returns false where the patch does not fit: nlohmann-json throws then.
+bool Patch(Json& json, std::string_view text) {
+  try {
+    json = json.patch(Json::parse(text));
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
+bool Patch(std::string& text, const Records::Entry& entry) {
+  if (entry.numbers.size() != 2) {
+    return false;
+  }
+  const uint64_t offset = entry.numbers[0];
+  const uint64_t removed = entry.numbers[1];
+  if (removed > entry.payload.size() || offset > text.size() ||
+      text.compare(offset, removed, entry.payload.substr(0, removed)) != 0) {
+    return false;
+  }
+  text.replace(offset, removed, entry.payload.substr(removed));
+  return true;
+}
+
+// The state after applying the records of a journal.
+struct Replay {
+  Json project;
+  std::string script;
+  std::optional<std::string> lines;
+  int edits = 0;
+
+  // Returns false where the record does not fit the earlier ones.
+  bool Take(const Records::Entry& entry) {
+    // The first state of the table of lines, not an edit.
+    if (entry.kind == "lines") {
+      lines = entry.payload;
+      return true;
+    }
+    ++edits;
+    return entry.kind == "project-patch" ? Patch(project, entry.payload)
+           : entry.kind == "script-edit" ? Patch(script, entry)
+           : entry.kind == "lines-edit"  ? lines && Patch(*lines, entry)
+                                         : false;
+  }
+};
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path file,
+                 const ProjectDocument& project,
+                 std::shared_ptr<const std::string> script)
+    : file_(std::move(file)), syncer_([this](std::stop_token stop) {
+        while (const std::optional<int> descriptor = written_.Take(stop)) {
+          // Another thread may have closed the descriptor since; that is harmless.
+          ::fdatasync(*descriptor);
+        }
+      }) {
+  Begin(project, std::move(script));
+}
+
+Journal::~Journal() { Close(); }
+
+void Journal::Close() {
+  if (descriptor_ >= 0) {
+    ::fdatasync(descriptor_);
+    ::close(descriptor_);
+    descriptor_ = -1;
+  }
+}
+
+void Journal::Begin(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
+  grown_ = 0;
+  project_ = FormatProject(project);
+  script_ = std::move(script);
+  lines_ = project.lines;
+  lines_text_ = lines_ == nullptr ? "" : bake::FormatLinesCsv(*lines_);
+}
+
+std::string Journal::Beginning() const {
+  return std::string(kMagic) + Record("project", Dump(project_)) + Record("script", *script_) +
+         (lines_ == nullptr ? "" : Record("lines", lines_text_));
+}
+
+Status Journal::Restart(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
+  Close();
+  failed_ = true;
+  Begin(project, std::move(script));
+  // A record without changes marks the initial state as unsaved.
+  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file_, Beginning() + Record("project-patch", "[]")));
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor_ < 0) {
+    return Status::Error(file_.string(), std::string("cannot be written: ") + std::strerror(errno));
+  }
+  failed_ = false;
+  return Status();
+}
+
+void Journal::Discard(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
+  Close();
+  failed_ = false;
+  Begin(project, std::move(script));
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
+Status Journal::Append(std::string_view header, std::string_view payload) {
+  if (failed_) {
+    return Status();  // The error was already reported.
+  }
+  if (descriptor_ < 0) {
+    LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file_, Beginning()));
+    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  }
+  const std::string record = Record(header, payload);
+  size_t written = 0;
+  while (descriptor_ >= 0 && written < record.size()) {
+    const ssize_t count = ::write(descriptor_, record.data() + written, record.size() - written);
+    if (count < 0 && errno != EINTR) {
+      break;
+    }
+    written += count > 0 ? static_cast<size_t>(count) : 0;
+  }
+  if (written < record.size()) {
+    failed_ = true;
+    return Status::Error(file_.string(),
+                         std::string("edits cannot be kept: ") + std::strerror(errno),
+                         "make room on the disk and save");
+  }
+  grown_ += record.size();
+  written_.Put(descriptor_);
+  return Status();
+}
+
+Status Journal::NoteProject(const ProjectDocument& now) {
+  Json next = FormatProject(now);
+  const Json patch = Json::diff(project_, next);
+  if (!patch.empty()) {
+    LARARIUM_RETURN_IF_ERROR(Append("project-patch", Dump(patch)));
+    project_ = std::move(next);
+  }
+  return NoteLines(now);
+}
+
+// A table that cannot be read at the moment is not an edit: the last known lines stay.
+Status Journal::NoteLines(const ProjectDocument& now) {
+  if (now.lines == lines_ || now.lines == nullptr) {
+    return Status();
+  }
+  std::string text = bake::FormatLinesCsv(*now.lines);
+  if (lines_ == nullptr) {
+    LARARIUM_RETURN_IF_ERROR(Append("lines", text));
+  } else if (const drama::TextEdit edit = drama::Difference(lines_text_, text);
+             !edit.removed.empty() || !edit.inserted.empty()) {
+    LARARIUM_RETURN_IF_ERROR(Append(EditHeader("lines-edit", edit), edit.removed + edit.inserted));
+  }
+  lines_ = now.lines;
+  lines_text_ = std::move(text);
+  return Status();
+}
+
+Status Journal::NoteScript(const drama::TextEdit& edit) {
+  return Append(EditHeader("script-edit", edit), edit.removed + edit.inserted);
+}
+
+Result<std::optional<JournalContent>> LoadJournal(const std::filesystem::path& file,
+                                                  const bake::LineTable* lines) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    return std::optional<JournalContent>();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxBytes));
+  const auto damaged = [&](std::string_view problem) {
+    return Status::Error(file.string(), problem);
+  };
+  if (!text.starts_with(kMagic) && !text.starts_with(kFirstMagic)) {
+    return damaged("was not written by this version of Lararium");
+  }
+  Records records(std::string_view(text).substr(kMagic.size()));
+  const auto project = records.Next();
+  const auto script = records.Next();
+  if (!project || project->kind != "project" || !script || script->kind != "script") {
+    return damaged("is damaged at its beginning");
+  }
+  Replay replay;
+  LARARIUM_ASSIGN_OR_RETURN(replay.project, ParseJson(project->payload, file.string()));
+  replay.script = script->payload;
+  JournalContent content;
+  const std::string lines_in_file = lines == nullptr ? "" : bake::FormatLinesCsv(*lines);
+  while (const auto entry = records.Next()) {
+    if (!replay.Take(*entry)) {
+      return damaged("holds an edit that does not fit those before it");
+    }
+    content.lines_are_ours |= replay.lines == lines_in_file;
+  }
+  content.edits = replay.edits;
+  content.torn = records.torn();
+  content.script = std::move(replay.script);
+  LARARIUM_ASSIGN_OR_RETURN(content.project, ParseProject(replay.project, file.string()));
+  if (replay.lines) {
+    LARARIUM_ASSIGN_OR_RETURN(bake::LineTable table,
+                              bake::ParseLinesCsv(*replay.lines, file.string()));
+    content.project.lines = std::make_shared<const bake::LineTable>(std::move(table));
+  }
+  return std::optional<JournalContent>(std::move(content));
+}
+
+}  // namespace lararium::editor

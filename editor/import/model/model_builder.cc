@@ -1,0 +1,80 @@
+#include "editor/import/model/model_builder.h"
+
+#include <utility>
+
+#include "editor/import/model/model_bind_pose.h"
+#include "editor/import/model/model_clips.h"
+#include "editor/import/model/model_face.h"
+#include "editor/import/model/model_meshes.h"
+#include "editor/import/model/model_parts.h"
+#include "editor/import/model/model_placement.h"
+#include "editor/import/model/model_skeleton.h"
+#include "editor/import/model/model_springs.h"
+#include "editor/import/model/model_surfaces.h"
+
+namespace lararium::import {
+namespace {
+
+void DescribeRig(const ModelRig& rig, BuiltModel& built) {
+  built.is_human = rig.map.IsHuman();
+  built.bones = NamesOf(rig.bones, rig.map);
+  built.bone_table = Preview(rig.bones, rig.map);
+  built.joints = NamedBones(rig.bones, rig.map);
+  built.bone_names = rig.bones.names;
+}
+
+// Adds everything that a figure has in addition to skeleton and clips.
+Status AddBody(const ModelScene& model,
+               const BindPose& bind,
+               std::span<const Part> parts,
+               const ModelSkeleton& skeleton,
+               BuiltModel& built) {
+  human::Human& human = built.human;
+  ModelSurfaces surfaces = ReadSurfaces(model, parts, built.notes);
+  human.meshes = BuildMeshes(parts, skeleton, surfaces);
+  human.materials = std::move(surfaces.materials);
+  built.images = std::move(surfaces.images);
+  built.uses = std::move(surfaces.uses);
+  LARARIUM_ASSIGN_OR_RETURN(ModelMorphs morphs, ReadMorphs(model, parts, skeleton));
+  human.face = BuildFace(model, morphs, skeleton, built.notes);
+  human.morphs = std::move(morphs.targets);
+  human.springs = BuildSprings(model, skeleton);
+  human.capsules = BuildCapsules(model, bind, skeleton);
+  return Status();
+}
+
+std::string CreditsOf(const ModelScene& model, const ImportOptions& options) {
+  return options.credits.empty() && model.vrm ? model.vrm->credits : options.credits;
+}
+
+}  // namespace
+
+Result<BuiltModel> BuildModel(const ModelScene& model,
+                              const ImportOptions& options,
+                              Content content) {
+  BuiltModel built;
+  LARARIUM_ASSIGN_OR_RETURN(const BindPose bind, FindBindPose(model));
+  std::vector<Part> parts;
+  if (content == Content::kFigure) {
+    LARARIUM_ASSIGN_OR_RETURN(parts, GatherParts(model, bind));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const ModelRig rig,
+                            FindRig(model, bind, content, options.bones, built.notes));
+  DescribeRig(rig, built);
+  LARARIUM_ASSIGN_OR_RETURN(const glm::mat4 actor_from_scene,
+                            PlaceFigure(model, parts, rig, options.metres_per_unit, built.notes));
+  LARARIUM_ASSIGN_OR_RETURN(ModelSkeleton skeleton,
+                            BuildSkeleton(model, bind, parts, rig, actor_from_scene));
+  if (content == Content::kFigure) {
+    LARARIUM_RETURN_IF_ERROR(AddBody(model, bind, parts, skeleton, built));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(built.human.clips,
+                            SampleClips(model, bind, skeleton, options.keys_per_second));
+  built.human.skeleton = std::move(skeleton.joints);
+  built.human.name = options.name.empty() ? model.file.stem().string() : options.name;
+  built.human.credits = CreditsOf(model, options);
+  LARARIUM_RETURN_IF_ERROR(built.human.Validate(model.place()));
+  return built;
+}
+
+}  // namespace lararium::import

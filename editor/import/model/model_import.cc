@@ -1,0 +1,191 @@
+#include "editor/import/model/model_import.h"
+
+#include <cstring>
+#include <functional>
+#include <glm/matrix.hpp>
+#include <span>
+
+#include "editor/import/model/model_builder.h"
+#include "editor/import/model/model_isolation.h"
+#include "editor/import/model/model_scene.h"
+#include "editor/import/model/model_textures.h"
+#include "editor/import/model/root_motion.h"
+#include "shared/core/memory.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr size_t kMaxMeshVertices = 2'000'000;
+
+using Bytes = std::vector<std::byte>;
+using Work = std::function<Result<Bytes>()>;
+
+Result<BuiltModel> Build(const std::filesystem::path& file,
+                         const ImportOptions& options,
+                         Content content) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<ModelScene> model, ReadModelScene(file));
+  return BuildModel(*model, options, content);
+}
+
+Result<BuiltModel> BuildInChild(const std::filesystem::path& file,
+                                const ImportOptions& options,
+                                Content content) {
+  const Work work = [&]() -> Result<Bytes> {
+    LARARIUM_ASSIGN_OR_RETURN(const BuiltModel model, Build(file, options, content));
+    return PackModel(model);
+  };
+  LARARIUM_ASSIGN_OR_RETURN(const Bytes bytes, RunInChild(file.string(), work));
+  return UnpackModel(bytes, file.string());
+}
+
+// A texture that cannot be used adds a note, and its material gets none.
+void AddTextures(const std::string& place, BuiltModel& model, ImportedHuman& imported) {
+  std::vector<int16_t> texture_of(model.images.size(), human::Material::kNone);
+  for (size_t i = 0; i < model.images.size(); ++i) {
+    auto texture = PrepareTexture(model.images[i].encoded, model.images[i].name, place);
+    if (texture.ok()) {
+      texture_of[i] = static_cast<int16_t>(imported.human.textures.size());
+      imported.human.textures.push_back(
+          std::make_shared<const human::Texture>(*std::move(texture)));
+    } else {
+      imported.notes.push_back(texture.message());
+    }
+    Release(model.images[i].encoded);
+  }
+  const auto texture = [&](int image) {
+    return image < 0 ? human::Material::kNone : texture_of[static_cast<size_t>(image)];
+  };
+  for (size_t m = 0; m < model.uses.size(); ++m) {
+    imported.human.materials[m].colour_texture = texture(model.uses[m].colour);
+    imported.human.materials[m].normal_texture = texture(model.uses[m].normal);
+  }
+}
+
+Result<ImportedHuman> Import(const std::filesystem::path& file,
+                             const ImportOptions& options,
+                             Content content) {
+  if ((options.metres_per_unit && !(*options.metres_per_unit > 0.0f)) ||
+      !(options.keys_per_second > 0.0f) || options.keys_per_second > 1000.0f) {
+    return Status::Error(file.string(), "the import's scale and key rate must be above 0");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(BuiltModel model, options.in_child_process
+                                                  ? BuildInChild(file, options, content)
+                                                  : Build(file, options, content));
+  ImportedHuman imported;
+  imported.human = std::move(model.human);
+  imported.bones = std::move(model.bones);
+  imported.is_human = model.is_human;
+  imported.bone_table = std::move(model.bone_table);
+  imported.joints = std::move(model.joints);
+  imported.bone_names = std::move(model.bone_names);
+  imported.notes = std::move(model.notes);
+  AddTextures(file.string(), model, imported);
+  LARARIUM_RETURN_IF_ERROR(imported.human.Validate(file.string()));
+  return imported;
+}
+
+Result<geometry::TriangleMesh> MergeMeshes(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<ModelScene> model, ReadModelScene(file));
+  const SceneNodes& nodes = model->nodes;
+  std::vector<glm::mat4> scene_from_node(nodes.size());
+  nodes.Globals(nodes.local, scene_from_node);
+  geometry::TriangleMesh result;
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    for (unsigned i = 0; i < nodes.nodes[n]->mNumMeshes; ++i) {
+      const aiMesh& mesh = *model->scene->mMeshes[nodes.nodes[n]->mMeshes[i]];
+      const auto first = static_cast<uint32_t>(result.positions.size());
+      if (first + size_t{mesh.mNumVertices} > kMaxMeshVertices) {
+        return Status::Error(
+            file.string(), "there are more than " + std::to_string(kMaxMeshVertices) + " vertices");
+      }
+      for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+        result.positions.emplace_back(scene_from_node[n] *
+                                      glm::vec4(ToGlm(mesh.mVertices[v]), 1.0f));
+      }
+      for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        for (unsigned k = 0; face.mNumIndices == 3 && k < 3; ++k) {
+          result.indices.push_back(first + face.mIndices[k]);
+        }
+      }
+    }
+  }
+  return result;
+}
+
+Result<Bytes> PackMesh(const geometry::TriangleMesh& mesh) {
+  const uint64_t count = mesh.positions.size();
+  Bytes bytes(sizeof(count));
+  std::memcpy(bytes.data(), &count, sizeof(count));
+  const auto positions = std::as_bytes(std::span(mesh.positions));
+  const auto indices = std::as_bytes(std::span(mesh.indices));
+  bytes.insert(bytes.end(), positions.begin(), positions.end());
+  bytes.insert(bytes.end(), indices.begin(), indices.end());
+  return bytes;
+}
+
+Result<geometry::TriangleMesh> UnpackMesh(std::span<const std::byte> bytes,
+                                          const std::string& place) {
+  uint64_t count = 0;
+  geometry::TriangleMesh mesh;
+  if (bytes.size() >= sizeof(count)) {
+    std::memcpy(&count, bytes.data(), sizeof(count));
+    bytes = bytes.subspan(sizeof(count));
+  }
+  if (count > kMaxMeshVertices || count * sizeof(glm::vec3) > bytes.size()) {
+    return Status::Error(place, "its reader returned invalid data");
+  }
+  mesh.positions.resize(count);
+  const size_t position_bytes = count * sizeof(glm::vec3);
+  if (count > 0) {
+    std::memcpy(static_cast<void*>(mesh.positions.data()), bytes.data(), position_bytes);
+  }
+  bytes = bytes.subspan(position_bytes);
+  mesh.indices.resize(bytes.size() / sizeof(uint32_t));
+  if (!mesh.indices.empty()) {
+    std::memcpy(mesh.indices.data(), bytes.data(), mesh.indices.size() * sizeof(uint32_t));
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Result<ImportedHuman> ImportPerson(const std::filesystem::path& file,
+                                   const ImportOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(ImportedHuman imported, Import(file, options, Content::kFigure));
+  for (human::Clip& clip : imported.human.clips) {
+    TakeRootMotion(imported.human.skeleton, clip);
+  }
+  return imported;
+}
+
+Result<human::Human> ImportHuman(const std::filesystem::path& file, const ImportOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(ImportedHuman imported, ImportPerson(file, options));
+  return std::move(imported.human);
+}
+
+Result<ImportedHuman> ImportMotion(const std::filesystem::path& file,
+                                   const ImportOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(ImportedHuman imported, Import(file, options, Content::kMotion));
+  if (imported.human.clips.empty()) {
+    return Status::Error(file.string(), "there is no animation in it", "export it with one");
+  }
+  return imported;
+}
+
+Result<geometry::TriangleMesh> ImportMesh(const std::filesystem::path& file) {
+  const Work work = [&]() -> Result<Bytes> {
+    LARARIUM_ASSIGN_OR_RETURN(const geometry::TriangleMesh mesh, MergeMeshes(file));
+    return PackMesh(mesh);
+  };
+  LARARIUM_ASSIGN_OR_RETURN(const Bytes bytes, RunInChild(file.string(), work));
+  LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh result, UnpackMesh(bytes, file.string()));
+  if (result.indices.empty()) {
+    return Status::Error(file.string(), "there is no triangle in it");
+  }
+  LARARIUM_RETURN_IF_ERROR(result.Validate(file.string()));
+  geometry::ComputeNormals(result);
+  return result;
+}
+
+}  // namespace lararium::import

@@ -1,0 +1,106 @@
+#include "editor/import/model/model_textures.h"
+
+#include <algorithm>
+#include <exception>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "editor/import/model/model_gltf.h"
+#include "shared/image/decode.h"
+#include "shared/image/encode.h"
+#include "shared/image/image_header.h"
+
+namespace lararium::import {
+namespace {
+
+constexpr uint64_t kMaxPixels = uint64_t{1} << 26;
+constexpr int kJpegQuality = 92;
+
+bool HasHoles(const cv::Mat& image) {
+  cv::Mat alpha;
+  cv::extractChannel(image, alpha, 3);
+  double least = 0.0;
+  cv::minMaxIdx(alpha, &least);
+  return least < 255.0;
+}
+
+Result<std::vector<std::byte>> Encode(cv::Mat image) {
+  const int longer = std::max(image.cols, image.rows);
+  if (longer > kMaxTextureSide) {
+    const double scale = static_cast<double>(kMaxTextureSide) / longer;
+    const cv::Size size(std::max(1, cvRound(image.cols * scale)),
+                        std::max(1, cvRound(image.rows * scale)));
+    cv::resize(image, image, size, 0.0, 0.0, cv::INTER_AREA);
+  }
+  if (HasHoles(image)) {
+    return image::EncodePng(image);
+  }
+  cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
+  return image::EncodeJpeg(image, kJpegQuality);
+}
+
+// Decodes percent escapes such as %20 in file names.
+std::string Unescaped(std::string_view uri) {
+  std::string text;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0;
+    text += escaped ? static_cast<char>(std::stoi(std::string(uri.substr(i + 1, 2)), nullptr, 16))
+                    : uri[i];
+    i += escaped ? 2 : 0;
+  }
+  std::replace(text.begin(), text.end(), '\\', '/');
+  return text;
+}
+
+}  // namespace
+
+std::filesystem::path FindTexture(const std::filesystem::path& model, std::string_view uri) {
+  if (uri.size() > 4096) {
+    return {};
+  }
+  const std::string path = Unescaped(uri);
+  const std::filesystem::path folder = model.parent_path();
+  const std::string bare =
+      path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
+  std::vector<std::filesystem::path> candidates;
+  if (IsSafeRelativePath(path)) {
+    candidates.push_back(folder / path);
+  }
+  if (IsSafeRelativePath(bare)) {
+    candidates.push_back(folder / bare);
+    candidates.push_back(folder / "textures" / bare);
+    candidates.push_back(folder / (model.stem().string() + ".fbm") / bare);
+  }
+  for (const std::filesystem::path& candidate : candidates) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(candidate, error)) {
+      return candidate;
+    }
+  }
+  return {};
+}
+
+Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
+                                      const std::string& name,
+                                      const std::string& place) {
+  const std::string at = place + ": texture '" + name + "'";
+  const std::optional<image::ImageHeader> size = image::ReadImageHeader(encoded);
+  if (!size) {
+    return Status::Error(at, "is neither PNG, JPEG nor BMP, or is damaged", "convert it to PNG");
+  }
+  if (size->width == 0 || size->height == 0 || size->width > 65'535 || size->height > 65'535 ||
+      uint64_t{size->width} * size->height > kMaxPixels) {
+    return Status::Error(
+        at, "has " + std::to_string(size->width) + " x " + std::to_string(size->height) + " pixels",
+        "scale it down");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, image::DecodeImage(encoded, image::Channels::kBgra, at));
+  human::Texture texture{name, {}};
+  LARARIUM_ASSIGN_OR_RETURN(texture.encoded, Encode(std::move(image)));
+  LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
+  return texture;
+}
+
+}  // namespace lararium::import

@@ -1,0 +1,62 @@
+#include "editor/import/wardrobe/garment.h"
+
+#include <utility>
+
+#include "editor/import/wardrobe/draped.h"
+#include "editor/import/wardrobe/finish.h"
+#include "editor/import/wardrobe/sandals.h"
+#include "editor/import/wardrobe/tunic.h"
+#include "editor/import/wardrobe/wrap.h"
+
+namespace lararium::import {
+namespace {
+
+Result<DrapedGarment> Drape(const GarmentPattern& pattern,
+                            const FittedBody& body,
+                            std::span<const DrapedGarment> worn,
+                            const Progress& progress) {
+  switch (pattern.kind) {
+    case GarmentKind::kTunic:
+    case GarmentKind::kStola:
+      return DrapeTunic(pattern, body, worn, progress);
+    case GarmentKind::kApron:
+      return DrapeApron(pattern, body, worn, progress);
+    case GarmentKind::kToga:
+    case GarmentKind::kPalla:
+      return DrapeMantle(pattern, body, worn, progress);
+    case GarmentKind::kSandals:
+      return CutSandals(pattern, body);
+  }
+  return Status::Error("garment", "is of an unknown kind");
+}
+
+Status Continue(const Progress& progress) {
+  return progress.Cancelled() ? Status::Error("garments", "cancelled before they were cut")
+                              : Status();
+}
+
+}  // namespace
+
+Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> patterns,
+                                         const FittedBody& body,
+                                         const Progress& progress) {
+  std::vector<DrapedGarment> worn;
+  for (const GarmentPattern& pattern : patterns) {
+    LARARIUM_ASSIGN_OR_RETURN(DrapedGarment draped, Drape(pattern, body, worn, progress));
+    LARARIUM_RETURN_IF_ERROR(Continue(progress));
+    worn.push_back(std::move(draped));
+  }
+  const std::vector<DrapedGarment> whole = worn;
+  for (size_t i = 0; i + 1 < worn.size(); ++i) {
+    LeaveOutCovered(std::span(worn).subspan(i + 1), body, worn[i]);
+  }
+  std::vector<Garment> garments;
+  for (size_t i = 0; i < worn.size(); ++i) {
+    LARARIUM_RETURN_IF_ERROR(Continue(progress));
+    LARARIUM_ASSIGN_OR_RETURN(Garment garment, FinishGarment(worn[i], whole[i], patterns[i], body));
+    garments.push_back(std::move(garment));
+  }
+  return garments;
+}
+
+}  // namespace lararium::import

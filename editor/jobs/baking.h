@@ -1,0 +1,80 @@
+#pragma once
+
+// Generates products from the project's sources ahead of a show: the light of each place, the
+// meshes of its occluders, the people of the cast, the objects. Each product stores the hash of all
+// its inputs and is generated again only when that changes.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/document/project.h"
+#include "editor/jobs/shared_people.h"
+#include "shared/core/progress.h"
+#include "shared/core/status.h"
+#include "shared/geometry/triangle_mesh.h"
+#include "shared/human/human.h"
+#include "shared/light/glossy_map.h"
+#include "shared/light/probe_blend.h"
+#include "shared/stage/prop.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::editor {
+
+// The folder of the cast library, from which people are built by their recipes:
+// LARARIUM_CAST_LIBRARY, or else "cast-library" in a folder above the program.
+std::optional<std::filesystem::path> FindCastLibrary();
+
+struct BakeReport {
+  std::vector<std::string> baked;      // Names of the products that were generated.
+  std::vector<std::string> unchanged;  // Names of the products that were up to date.
+  std::vector<std::string> warnings;
+};
+
+enum class BakeWhat { kAll, kAllButPeople };
+
+// Generates products that are missing or stale. Stops at the first failure; products that were
+// finished before stay. A probe that cannot be read gives a warning, and uniform light replaces it.
+Result<BakeReport> Bake(const ProjectPaths& paths,
+                        const ProjectDocument& document,
+                        Progress& progress,
+                        BakeWhat what = BakeWhat::kAll);
+
+// The names of the cast members whose product is missing or stale.
+std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document);
+
+// Generates one person without light transfer, where it is missing or stale.
+Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
+
+//
+// These functions load products. They fail where a product was never baked.
+//
+// The light of each probe of the place. Uniform light of the given radiance replaces a probe that
+// could not be baked, and is the only light where the place has none.
+Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& paths,
+                                                        const PlaceDocument& place,
+                                                        float even_radiance);
+// The radiance of uniform light in which surfaces of a typical albedo look as bright as the map's
+// points do.
+float EvenRadiance(const vision::SceneDatabase& map);
+// The specular reflections on rough surfaces, for each probe. An entry is empty where a probe is
+// invalid or was not baked. The list is empty where the place has no probes.
+Result<std::vector<light::GlossyMap>> LoadBakedReflections(const ProjectPaths& paths,
+                                                           const PlaceDocument& place);
+Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
+                                             const PlaceDocument& place,
+                                             const OccluderDocument& occluder);
+// With the light transfer, if that is up to date.
+Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member);
+// The person in limited detail, shared with everything else that shows it (SharePerson).
+Result<show::CastMember> ShareBakedHuman(const ProjectPaths& paths,
+                                         const CastDocument& member,
+                                         float finest);
+// The plain figure, for a member that was not baked.
+Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& member);
+// The file that LoadBakedHuman() reads.
+std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocument& member);
+Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object);
+
+}  // namespace lararium::editor

@@ -1,0 +1,124 @@
+#include "editor/jobs/exporting.h"
+
+#include <optional>
+#include <utility>
+
+#include "editor/bake/caption_font.h"
+#include "editor/export/export.h"
+#include "editor/jobs/baking.h"
+#include "editor/jobs/credits.h"
+#include "editor/jobs/lines.h"
+#include "editor/jobs/paradata.h"
+#include "editor/jobs/sounds.h"
+#include "editor/jobs/staging.h"
+#include "editor/train/budget.h"
+#include "shared/bundle/signature.h"
+#include "shared/core/file.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::editor {
+
+namespace {
+
+Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
+                                         const PlaceDocument& place,
+                                         const MapBudget& budget) {
+  exporter::PlaceContent content;
+  LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
+  LARARIUM_RETURN_IF_ERROR(map.picks.problem);
+  vision::SceneDatabase packed =
+      train::Prune(*map.database, {.max_points = budget.max_points,
+                                   .max_descriptors_per_point = budget.max_descriptors_per_point,
+                                   .image_coverage = budget.image_coverage});
+  packed.descriptor_sessions.clear();  // Only needed to remove sessions, which players never do.
+  content.scene = vision::SerializeSceneDatabase(packed);
+  LARARIUM_ASSIGN_OR_RETURN(content.place,
+                            StagePlace(paths, place, *map.database, map.picks.map_from_picked));
+  LARARIUM_ASSIGN_OR_RETURN(content.glossy, LoadBakedReflections(paths, place));
+  return content;
+}
+
+// Packs the lines, and the texts of the paradata.
+Status PackTexts(const ProjectPaths& paths,
+                 const ProjectDocument& document,
+                 exporter::ExportContent& content) {
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));
+  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
+  for (const SpokenLine& spoken : spoken_lines) {
+    exporter::SpokenContent packed;
+    packed.line = spoken.line->id;
+    packed.speaker = spoken.line->speaker;
+    packed.language = spoken.language;
+    LARARIUM_ASSIGN_OR_RETURN(packed.visemes, ReadText(spoken.visemes));
+    LARARIUM_ASSIGN_OR_RETURN(packed.sound, ReadBytes(spoken.sound));
+    content.lines.push_back(std::move(packed));
+  }
+  for (const std::string& language : lines.spoken) {
+    LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
+                              MakeCaptions(paths, document, lines, language));
+    content.spoken.push_back({language, stage::FormatCaptions(book)});
+  }
+  for (const std::string& language : lines.captions) {
+    LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
+                              MakeDescriptions(paths, document, lines, language));
+    if (!book.lines.empty()) {
+      content.descriptions.push_back({language, stage::FormatCaptions(book)});
+    }
+  }
+  content.captions = lines.captions;
+  LARARIUM_ASSIGN_OR_RETURN(const stage::Paradata paradata, LoadParadata(paths));
+  if (!paradata.empty()) {
+    content.paradata = stage::FormatParadata(paradata);
+  }
+  if (!lines.captions.empty() || !paradata.empty()) {
+    std::vector<Sentence> ignored;  // The check of the project reports these.
+    LARARIUM_ASSIGN_OR_RETURN(const render::CaptionFont font,
+                              MakeCaptionFont(lines, paradata, ignored));
+    LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFontFiles files, bake::FormatCaptionFont(font));
+    content.caption_metrics = std::move(files.metrics);
+    content.caption_atlas = std::move(files.atlas);
+  }
+  return Status();
+}
+
+}  // namespace
+
+Status ExportProject(const ProjectPaths& paths,
+                     const ProjectDocument& document,
+                     const ExportRequest& request,
+                     Progress& progress) {
+  std::optional<bundle::SecretKey> key;
+  if (!request.key.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(key, bundle::LoadSecretKey(request.key));
+  }
+  LARARIUM_RETURN_IF_ERROR(Bake(paths, document, progress).status());
+  exporter::ExportContent content;
+  content.title = document.title;
+  LARARIUM_ASSIGN_OR_RETURN(const Credits credits, MakeCredits(paths, document));
+  content.credits = credits.text;
+  LARARIUM_ASSIGN_OR_RETURN(content.drama, ReadText(paths.Drama()));
+  for (const PlaceDocument& place : document.places) {
+    progress.Report("packing", static_cast<double>(content.places.size()) /
+                                   static_cast<double>(document.places.size()));
+    if (progress.Cancelled()) {
+      return Status::Error("export", "cancelled");
+    }
+    LARARIUM_ASSIGN_OR_RETURN(exporter::PlaceContent packed,
+                              PackPlace(paths, place, request.budget));
+    content.places.push_back(std::move(packed));
+  }
+  for (const CastDocument& member : document.cast) {
+    LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> human,
+                              ReadBytes(BakedHumanFile(paths, member)));
+    content.cast.push_back({member.name, std::move(human)});
+  }
+  for (const ObjectDocument& object : document.objects) {
+    LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> prop, ReadBytes(paths.Prop(object.name)));
+    content.objects.push_back({object.name, std::move(prop), StageFromObject(object)});
+  }
+  LARARIUM_RETURN_IF_ERROR(PackTexts(paths, document, content));
+  LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
+  return exporter::ExportBundle(content, request.out, progress, key ? &*key : nullptr);
+}
+
+}  // namespace lararium::editor

@@ -1,0 +1,34 @@
+#pragma once
+
+// Exports a project as the bundle that visitors get.
+
+#include <filesystem>
+
+#include "editor/document/project.h"
+#include "shared/core/progress.h"
+#include "shared/core/status.h"
+
+namespace lararium::editor {
+
+// Limits that reduce a map for visitors: it locates equally well with fewer points, descriptors and
+// images (docs/benchmarks.md).
+struct MapBudget {
+  int max_points = 10'000;
+  int max_descriptors_per_point = 3;
+  double image_coverage = 0.98;
+};
+
+struct ExportRequest {
+  std::filesystem::path out;
+  MapBudget budget = {};
+  std::filesystem::path key = {};  // File of a secret key; empty: the bundle is not signed.
+};
+
+// Bakes stale products, packs all places, the cast and the drama, and signs the bundle. On an error
+// an existing bundle stays unchanged.
+Status ExportProject(const ProjectPaths& paths,
+                     const ProjectDocument& document,
+                     const ExportRequest& request,
+                     Progress& progress);
+
+}  // namespace lararium::editor

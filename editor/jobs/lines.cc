@@ -1,0 +1,290 @@
+#include "editor/jobs/lines.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include "editor/bake/caption_file.h"
+#include "editor/bake/caption_font.h"
+#include "editor/bake/caption_layout.h"
+#include "shared/bundle/show_manifest.h"
+#include "shared/core/file.h"
+#include "shared/show/evidence.h"
+#include "shared/stage/viseme_file.h"
+
+namespace lararium::editor {
+namespace {
+
+const CastDocument* FindActor(const ProjectDocument& document, std::string_view name) {
+  const auto found = std::find_if(document.cast.begin(), document.cast.end(),
+                                  [name](const CastDocument& m) { return m.name == name; });
+  return found == document.cast.end() ? nullptr : &*found;
+}
+
+Status CheckLanguages(const std::vector<std::string>& wanted,
+                      const std::vector<std::string>& known,
+                      const std::string& place) {
+  for (const std::string& language : wanted) {
+    if (std::find(known.begin(), known.end(), language) == known.end()) {
+      return Status::Error(place, "no line has a text in the language '" + language + "'",
+                           "add a column for it to lines.csv");
+    }
+  }
+  return Status();
+}
+
+Result<human::VisemeTrack> LoadVisemes(const SpokenLine& spoken) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(spoken.visemes, ignored)) {
+    return Status::Error(spoken.visemes.string(), "was not baked yet", "bake the project");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(spoken.visemes));
+  return stage::ParseVisemes(text, spoken.visemes.string());
+}
+
+// Reads captions with manual timing, LINE.LANGUAGE.srt or .vtt; empty where there are none.
+Result<std::vector<stage::CaptionCue>> LoadPlacedCaptions(const std::filesystem::path& folder,
+                                                          const std::string& stem) {
+  std::vector<stage::CaptionCue> cues;
+  for (const char* extension : {".srt", ".vtt"}) {
+    const std::filesystem::path file = folder / (stem + extension);
+    std::error_code ignored;
+    if (!cues.empty() || !std::filesystem::exists(file, ignored)) {
+      continue;
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<bake::FileCue> placed,
+                              bake::ParseCaptionFile(text, file.string()));
+    for (const bake::FileCue& cue : placed) {
+      cues.push_back({cue.begin, cue.end, cue.text});
+    }
+    LARARIUM_RETURN_IF_ERROR(stage::CheckCues(cues, file.string()));
+  }
+  return cues;
+}
+
+// The cues of a spoken line, with manual or automatic timing; empty where the line has no text for
+// them.
+Result<std::vector<stage::CaptionCue>> CuesOf(const ProjectPaths& paths,
+                                              const SpokenLine& spoken,
+                                              const human::VisemeTrack& visemes,
+                                              const std::string& captions) {
+  LARARIUM_ASSIGN_OR_RETURN(
+      std::vector<stage::CaptionCue> placed,
+      LoadPlacedCaptions(paths.Recordings(spoken.language), spoken.line->id + "." + captions));
+  const auto text = spoken.line->text.find(captions);
+  if (placed.empty() && text != spoken.line->text.end()) {
+    placed = bake::LayOutCaptions(text->second, visemes);
+  }
+  return placed;
+}
+
+Result<show::Speech> LoadLine(const SpokenLine& spoken,
+                              const stage::CaptionBook& book,
+                              const std::string& captions) {
+  show::Speech speech;
+  speech.name = spoken.line->id;
+  speech.describes = spoken.describes;
+  LARARIUM_ASSIGN_OR_RETURN(speech.visemes, LoadVisemes(spoken));
+  LARARIUM_ASSIGN_OR_RETURN(speech.sound, ReadBytes(spoken.sound));
+  const auto of_line = book.lines.find(speech.name);
+  if (of_line != book.lines.end()) {
+    const auto cues = of_line->second.find(captions);
+    if (cues != of_line->second.end()) {
+      speech.captions = cues->second;
+    }
+  }
+  return speech;
+}
+
+}  // namespace
+
+bool ProjectLines::IsName(const bake::Line& line, const ProjectDocument& document) {
+  return line.speaker.empty() && FindActor(document, line.id) != nullptr;
+}
+
+bool ProjectLines::Describes(const bake::Line& line, const ProjectDocument& document) {
+  return line.speaker == bundle::LineEntry::kDescription &&
+         FindActor(document, line.speaker) == nullptr;
+}
+
+Result<ProjectLines> LoadProjectLines(const ProjectPaths& paths, const ProjectDocument& document) {
+  ProjectLines lines;
+  LARARIUM_ASSIGN_OR_RETURN(lines.table, bake::LoadLines(paths.folder));
+  lines.spoken = document.speech.spoken;
+  lines.captions = document.speech.captions;
+  const std::vector<std::string>& known = lines.table.languages;
+  LARARIUM_RETURN_IF_ERROR(
+      CheckLanguages(lines.spoken, known, paths.Project().string() + ": speech.spoken"));
+  LARARIUM_RETURN_IF_ERROR(
+      CheckLanguages(lines.captions, known, paths.Project().string() + ": speech.captions"));
+  if (lines.spoken.empty() && !known.empty()) {
+    lines.spoken = {known.front()};
+  }
+  if (lines.captions.empty()) {
+    lines.captions = known;
+  }
+  return lines;
+}
+
+Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
+                                            const ProjectDocument& document,
+                                            const ProjectLines& lines) {
+  std::vector<SpokenLine> spoken;
+  for (const bake::Line& line : lines.table.lines) {
+    if (ProjectLines::IsName(line, document)) {
+      continue;
+    }
+    const CastDocument* speaker = FindActor(document, line.speaker);
+    const bool describes = ProjectLines::Describes(line, document);
+    const bake::VoiceSettings voice = describes            ? document.speech.description
+                                      : speaker != nullptr ? speaker->voice
+                                                           : bake::VoiceSettings();
+    for (const std::string& language : describes ? lines.captions : lines.spoken) {
+      const auto text = line.text.find(language);
+      if (text == line.text.end()) {
+        continue;
+      }
+      LARARIUM_ASSIGN_OR_RETURN(const auto recording,
+                                bake::FindRecording(paths.Recordings(language), line.id));
+      spoken.push_back(
+          {&line,
+           language,
+           describes,
+           {text->second, language, voice, recording.value_or(std::filesystem::path())},
+           paths.Speech(language, line.id + ".flac"),
+           paths.Speech(language, line.id + ".visemes.json")});
+    }
+  }
+  return spoken;
+}
+
+Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
+                                        const ProjectDocument& document,
+                                        const ProjectLines& lines,
+                                        const std::string& language) {
+  stage::CaptionBook book;
+  for (const bake::Line& line : lines.table.lines) {
+    if (ProjectLines::IsName(line, document)) {
+      book.names[line.id] = {line.text.begin(), line.text.end()};
+    }
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
+  for (const SpokenLine& spoken : spoken_lines) {
+    if (spoken.language != language || spoken.describes) {
+      continue;
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
+    for (const std::string& captions : lines.captions) {
+      LARARIUM_ASSIGN_OR_RETURN(std::vector<stage::CaptionCue> cues,
+                                CuesOf(paths, spoken, visemes, captions));
+      if (!cues.empty()) {
+        book.lines[spoken.line->id][captions] = std::move(cues);
+      }
+    }
+  }
+  return book;
+}
+
+Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
+                                            const ProjectDocument& document,
+                                            const ProjectLines& lines,
+                                            const std::string& language) {
+  stage::CaptionBook book;
+  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
+  for (const SpokenLine& spoken : spoken_lines) {
+    if (spoken.language == language && spoken.describes) {
+      LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
+      LARARIUM_ASSIGN_OR_RETURN(book.lines[spoken.line->id][language],
+                                CuesOf(paths, spoken, visemes, language));
+    }
+  }
+  return book;
+}
+
+Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
+                                            const stage::Paradata& paradata,
+                                            std::vector<Sentence>& warnings) {
+  std::set<uint32_t> characters = bake::CommonCharacters();
+  for (const bake::Line& line : lines.table.lines) {
+    for (const std::string& language : lines.captions) {
+      const auto text = line.text.find(language);
+      if (text != line.text.end()) {
+        bake::AddCharacters(text->second, characters);
+      }
+    }
+  }
+  for (const stage::Paradata::Claims& claims : paradata.claims) {
+    for (const auto& [name, claim] : claims) {
+      for (const auto& [language, text] : claim.text) {
+        bake::AddCharacters(text, characters);
+      }
+    }
+  }
+  for (const std::string& language : lines.captions) {
+    for (size_t i = 0; i < stage::kCertaintyCount; ++i) {
+      const auto certainty = static_cast<stage::Certainty>(i);
+      bake::AddCharacters(show::EvidenceWord(certainty, language), characters);
+    }
+  }
+  LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFontBake made,
+                            bake::BakeCaptionFont(bake::CaptionFontFile(), characters));
+  for (const uint32_t character : made.missing) {
+    char code[16];
+    std::snprintf(code, sizeof(code), "U+%04X", character);
+    warnings.push_back(Sentence("captions: the font has no character %s", {std::string(code)}));
+  }
+  return std::move(made.font);
+}
+
+Status AddLines(const ProjectPaths& paths,
+                const ProjectDocument& document,
+                const show::LanguageChoice& languages,
+                show::ShowContent& content) {
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));
+  const std::string place = paths.Project().string();
+  LARARIUM_ASSIGN_OR_RETURN(const std::string language,
+                            show::ChooseLanguage(lines.spoken, languages.spoken, "speech", place));
+  std::string captions;
+  if (languages.captions != show::kNoCaptions) {
+    LARARIUM_ASSIGN_OR_RETURN(
+        captions, show::ChooseLanguage(lines.captions, languages.captions, "captions", place));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(stage::CaptionBook book,
+                            MakeCaptions(paths, document, lines, language));
+  const std::string described = !captions.empty()        ? captions
+                                : lines.captions.empty() ? language
+                                                         : lines.captions.front();
+  LARARIUM_ASSIGN_OR_RETURN(stage::CaptionBook descriptions,
+                            MakeDescriptions(paths, document, lines, described));
+  book.lines.merge(descriptions.lines);
+  // Each line in the wanted language, otherwise in the first language that it has.
+  LARARIUM_ASSIGN_OR_RETURN(auto spoken, SpokenLines(paths, document, lines));
+  std::stable_partition(spoken.begin(), spoken.end(), [&](const SpokenLine& line) {
+    return line.language == (line.describes ? described : language);
+  });
+  for (const SpokenLine& line : spoken) {
+    const bool is_there =
+        std::any_of(content.speech.begin(), content.speech.end(),
+                    [&](const show::Speech& speech) { return speech.name == line.line->id; });
+    if (!is_there) {
+      LARARIUM_ASSIGN_OR_RETURN(content.speech.emplace_back(), LoadLine(line, book, captions));
+    }
+  }
+  content.language = captions.empty() ? language : captions;
+  if (!captions.empty() || !content.paradata.empty()) {
+    std::vector<Sentence> ignored;
+    LARARIUM_ASSIGN_OR_RETURN(content.caption_font,
+                              MakeCaptionFont(lines, content.paradata, ignored));
+  }
+  for (show::CastMember& member : content.cast) {
+    const auto names = book.names.find(member.name);
+    if (names != book.names.end() && names->second.contains(captions)) {
+      member.title = names->second.find(captions)->second;
+    }
+  }
+  return Status();
+}
+
+}  // namespace lararium::editor

@@ -1,0 +1,45 @@
+#pragma once
+
+// The sounds of a project: its own files, and the built-in ones that no file replaces.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "editor/document/missing_files.h"
+#include "editor/document/project.h"
+#include "shared/audio/sound_library.h"
+#include "shared/core/status.h"
+
+namespace lararium::editor {
+
+struct SoundFile {
+  std::string name;
+  std::filesystem::path file;
+  bool built_in = false;  // file is the path of the baked sound.
+};
+
+// Sorted by name. Of two files with the same name (bell.wav, bell.flac) the first.
+std::vector<SoundFile> FindSounds(const ProjectPaths& paths);
+
+// The encoded sounds for a show, without built-in ones that were not baked.
+Result<std::vector<audio::SoundData>> LoadSounds(const ProjectPaths& paths);
+
+// Each missing sound once. Objects that were not baked are skipped; in a script only literal names
+// are found, as in sound("bell").
+std::vector<MissingSound> FindMissingSounds(const ProjectPaths& paths,
+                                            const ProjectDocument& document,
+                                            std::string_view script);
+
+// Copies a recording into the project as the sound of that name. Fails where it cannot be decoded,
+// or where the name cannot be a file name.
+Status BringInSound(const ProjectPaths& paths,
+                    const std::string& name,
+                    const std::filesystem::path& file);
+
+// One Status for each sound that an object or a place uses but that does not exist.
+std::vector<Status> FindSilences(const ProjectPaths& paths, const ProjectDocument& document);
+
+}  // namespace lararium::editor

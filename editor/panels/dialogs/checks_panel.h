@@ -1,0 +1,15 @@
+#pragma once
+
+// The problems of the project, with links to where they are.
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+void ShowChecksTools(editor::Workspace& workspace);
+void ShowChecks(editor::Workspace& workspace, EditorState& state);
+// The number of known problems.
+int CountProblems(const editor::Workspace& workspace);
+
+}  // namespace lararium::panels

@@ -1,0 +1,590 @@
+#include "editor/panels/dialogs/dialogs.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "editor/document/document_fields.h"
+#include "editor/import/cast/cast_presets.h"
+#include "editor/import/objects/object_models.h"
+#include "editor/jobs/training.h"
+#include "editor/panels/dialogs/export_panel.h"
+#include "editor/panels/dialogs/key_list.h"
+#include "editor/panels/dialogs/training_report_panel.h"
+#include "editor/panels/inspector/occluder_inspector.h"
+#include "editor/panels/viewport/check_point_panel.h"
+#include "editor/panels/viewport/pick_view.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
+constexpr std::array<const char*, 6> kModels = {".glb", ".gltf", ".fbx", ".dae", ".obj", ".ply"};
+// For objects and for people.
+constexpr std::array<const char*, 8> kAllModels = {".glb", ".gltf", ".vrm", ".fbx",
+                                                   ".dae", ".obj",  ".ply", ".x"};
+constexpr std::array<const char*, 7> kFigures = {".json", ".glb", ".gltf", ".vrm",
+                                                 ".fbx",  ".dae", ".x"};
+constexpr std::array<const char*, 2> kProbes = {".exr", ".hdr"};
+constexpr std::array<const char*, 4> kClips = {".bvh", ".fbx", ".glb", ".gltf"};
+constexpr std::array<const char*, 1> kBones = {".json"};
+
+// The last row of the open dialog; both buttons close it. Returns true when the action was chosen.
+bool DialogDone(EditorState& state, const char* action, const std::string& problem) {
+  const DialogAnswer answer = DialogButtons(action, problem);
+  if (answer != DialogAnswer::kNone) {
+    state.left.erase(state.dialog);
+    state.dialog = Dialog::kNone;
+  }
+  return answer == DialogAnswer::kAct;
+}
+
+bool Exists(const editor::ProjectPaths& paths, const std::string& file) {
+  std::error_code ignored;
+  return !file.empty() && std::filesystem::exists(paths.Resolve(file), ignored);
+}
+
+// Parses "600, 600, 320, 240"; empty where there are not 4 or 8 numbers.
+std::vector<double> ParseNumbers(const std::string& text) {
+  std::vector<double> numbers;
+  const char* at = text.c_str();
+  while (*at != '\0') {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(at, &end));
+    if (end == at) {
+      return {};
+    }
+    at = end;
+    while (*at == ',' || *at == ' ') {
+      ++at;
+    }
+  }
+  return numbers.size() == 4 || numbers.size() == 8 ? numbers : std::vector<double>();
+}
+
+std::string TrainProblem(const editor::Workspace& workspace, const DialogFields& fields) {
+  const std::string problem = NameProblem(fields.place);
+  return problem.empty() ? RecordingProblem(workspace.paths(), fields) : problem;
+}
+
+// The recording of the input, with its intrinsics. Opens the recording, because the intrinsics need
+// its image size.
+Result<editor::SessionDocument> ChosenRecording(const editor::Workspace& workspace,
+                                                const DialogFields& fields) {
+  editor::SessionDocument recording;
+  recording.source = {
+      fields.images ? editor::SourceDocument::Kind::kImages : editor::SourceDocument::Kind::kVideo,
+      workspace.paths().Shorten(workspace.paths().Resolve(fields.file))};
+  if (const std::vector<double> numbers = ParseNumbers(fields.intrinsics); !numbers.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const auto source,
+                              editor::OpenSource(workspace.paths(), recording.source));
+    LARARIUM_ASSIGN_OR_RETURN(
+        recording.intrinsics,
+        geometry::CameraModel::FromNumbers(numbers, source->width(), source->height()));
+  }
+  return recording;
+}
+
+// Returns true when the user wants to calibrate the camera.
+bool TrainDialog(editor::Workspace& workspace, EditorState& state) {
+  DialogFields& fields = state.fields;
+  Hint(
+      Tr("Learns the place from a recording: walk sideways around it, slowly, with everything in "
+         "view that visitors will see."));
+  bool calibrate = false;
+  if (BeginProperties("train")) {
+    PropertyLabel(Tr("Place"));
+    ImGui::InputText("##place", &fields.place);
+    calibrate =
+        RecordingFields(workspace.paths().folder, fields, Tr(kFromVideo), Tr(kFromVideoHint));
+    EndProperties();
+  }
+  if (editor::IsPlainName(fields.place)) {
+    const editor::ProjectDocument& document = workspace.document();
+    Hint(Text(document.FindPlace(fields.place) != nullptr
+                  ? Tr("%s is trained anew; its picks keep the stage where it is.")
+              : document.places.empty() ? Tr("%s will be the place of the drama.")
+                                        : Tr("%s will be another place of the drama."),
+              fields.place.c_str()));
+  }
+  if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
+    state.dialog = Dialog::kFilm;
+    return false;
+  }
+  if (DialogDone(state, Tr("Train"), TrainProblem(workspace, fields))) {
+    TrainRecording(workspace, fields);
+  }
+  return calibrate;
+}
+
+// Returns true when the user wants to calibrate the camera.
+bool AddSessionDialog(editor::Workspace& workspace, EditorState& state) {
+  DialogFields& fields = state.fields;
+  Hint(
+      Tr("Merges a recording of the place in other light into the map, so that "
+         "visitors are located in both. The stage stays where it is."));
+  bool calibrate = false;
+  if (BeginProperties("add session")) {
+    calibrate = RecordingFields(workspace.paths().folder, fields, Tr("as the map's camera"),
+                                Tr("Empty: it was filmed with the camera of the map."));
+    EndProperties();
+  }
+  if (DialogDone(state, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
+    const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
+    if (recording.ok()) {
+      workspace.AddSession(*recording);
+    } else {
+      workspace.Tell(editor::Message::Level::kError, recording.message());
+    }
+  }
+  return calibrate;
+}
+
+template <typename Entry>
+bool Taken(const std::vector<Entry>& entries, const std::string& name) {
+  return std::any_of(entries.begin(), entries.end(),
+                     [&](const Entry& entry) { return entry.name == name; });
+}
+
+std::string DocumentPath(const editor::Workspace& workspace, const std::string& typed) {
+  return typed.empty() ? "" : workspace.paths().Shorten(workspace.paths().Resolve(typed));
+}
+
+// A name that is not in use: "box", "box2" and so on.
+template <typename Entry>
+std::string FreeName(const std::vector<Entry>& known, const std::string& kind) {
+  std::string name = kind;
+  for (int number = 2; Taken(known, name); ++number) {
+    name = kind + std::to_string(number);
+  }
+  return name;
+}
+
+// The kind and the sizes of a shape.
+void ShapeFields(editor::Workspace& workspace, editor::OccluderShape& shape) {
+  std::vector<const char*> kinds;
+  for (const editor::ShapeEntry& entry : editor::ShapeEntries()) {
+    kinds.push_back(Tr(entry.label));
+  }
+  PropertyLabel(Tr("Shape"));
+  int kind = static_cast<int>(shape.kind);
+  if (Segmented("shape", kinds, kind)) {
+    shape = editor::ShapeEntries()[static_cast<size_t>(kind)].usual;
+  }
+  ShapeSizes(workspace, shape);
+}
+
+// A shape or a model. Without a name it is named after its kind.
+void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
+  if (workspace.place() == nullptr) {
+    state.dialog = Dialog::kNone;
+    return;
+  }
+  DialogFields& fields = state.fields;
+  Hint(Tr("It is real, and hides who is behind it."));
+  const char* const ways[] = {Tr("Shape"), Tr("Model")};
+  int way = fields.own_model ? 1 : 0;
+  if (Segmented("way", ways, way)) {
+    fields.own_model = way == 1;
+  }
+  ImGui::Dummy(ImVec2(0, Px(2)));  // Such a row leaves no space below it.
+  const std::vector<editor::OccluderDocument>& known = workspace.place()->occluders;
+  const std::string usual_name =
+      fields.own_model ? "" : FreeName(known, editor::EntryOf(fields.shape.kind).name);
+  if (BeginProperties("occluder")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
+    if (fields.own_model) {
+      PropertyLabel(Tr("File"));
+      PathField("file", fields.file, workspace.paths().folder, kModels);
+    } else {
+      ShapeFields(workspace, fields.shape);
+    }
+    EndProperties();
+  }
+  Hint(fields.own_model ? Tr("In stage axes and metres where possible.")
+                        : Tr("It is put on the stage's floor, where the camera looks."));
+  editor::OccluderDocument occluder;
+  occluder.name = fields.name.empty() ? usual_name : fields.name;
+  std::string problem = NameProblem(occluder.name);
+  if (problem.empty() && Taken(known, occluder.name)) {
+    problem = Tr("That name is taken.");
+  }
+  if (problem.empty() && fields.own_model && !Exists(workspace.paths(), fields.file)) {
+    problem = Tr("Choose a file that exists.");
+  }
+  if (DialogDone(state, Tr("Add"), problem)) {
+    if (fields.own_model) {
+      occluder.file = DocumentPath(workspace, fields.file);
+    } else {
+      occluder = editor::NewOccluder(occluder.name, fields.shape);
+      const auto& picture = workspace.picture();
+      occluder.stage_from_mesh.translation =
+          editor::FloorBefore(picture != nullptr ? picture->camera_from_stage : std::nullopt);
+    }
+    workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
+                        [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
+    state.selection = {Selection::Kind::kOccluder, occluder.name};
+  }
+  if (workspace.loaded().database != nullptr &&
+      ImGui::Button(Tr("Draw it on the training images instead"), ImVec2(-FLT_MIN, 0))) {
+    state.dialog = Dialog::kNone;
+    DrawNewOccluder(workspace, state);
+  }
+}
+
+// Copies a recipe into the project, where its sliders change it; a model stays where it is.
+void LoadFigure(editor::Workspace& workspace,
+                const std::string& file,
+                editor::CastDocument& member) {
+  if (!file.ends_with(".json")) {
+    member.model = DocumentPath(workspace, file);
+    return;
+  }
+  Result<import::CastRecipe> recipe = import::LoadCastRecipe(workspace.paths().Resolve(file));
+  if (recipe.ok()) {
+    member.recipe = *std::move(recipe);
+  } else {
+    workspace.Tell(editor::Message::Level::kError, recipe.message());
+  }
+}
+
+// The presets as pictures; a second click on the selected one deselects it. Returns true when the
+// choice has changed.
+bool PresetGrid(editor::Workspace& workspace, EditorState& state) {
+  DialogFields& fields = state.fields;
+  const std::vector<std::string> names = import::CastPresetNames();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const auto columns = static_cast<float>(std::max<size_t>(names.size(), 1));
+  const float side =
+      std::floor((ImGui::GetContentRegionAvail().x - (columns - 1.0f) * gap) / columns);
+  bool changed = false;
+  workspace.cast_pictures().WantPresets();
+  for (const std::string& name : names) {
+    ImGui::PushID(name.c_str());
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const float height = side + ImGui::GetTextLineHeight() + Px(6);
+    ImGui::BeginGroup();
+    ShowThumbnail(state.pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
+                  side);
+    DimText(name);
+    ImGui::EndGroup();
+    ImGui::SetCursorScreenPos(from);
+    if (ImGui::InvisibleButton("choose", ImVec2(side, height))) {
+      fields.preset = fields.preset == name ? "" : name;
+      changed = true;
+    }
+    const bool chosen = fields.preset == name;
+    if (chosen || ImGui::IsItemHovered()) {
+      ImGui::GetWindowDrawList()->AddRect(from, ImVec2(from.x + side, from.y + side),
+                                          Packed(chosen ? Colours().accent : Colours().dim),
+                                          ImGui::GetStyle().FrameRounding, 0,
+                                          Px(chosen ? 3.0f : 1.0f));
+    }
+    ImGui::SameLine(0, gap);
+    ImGui::PopID();
+  }
+  ImGui::NewLine();
+  return changed;
+}
+
+std::string CastProblem(const editor::Workspace& workspace, const DialogFields& fields) {
+  const std::string problem = NameProblem(fields.name);
+  if (!problem.empty()) {
+    return problem;
+  }
+  if (Taken(workspace.document().cast, fields.name)) {
+    return Tr("That name is taken.");
+  }
+  if (!fields.preset.empty() && !fields.file.empty()) {
+    return Tr("Choose a preset or a file.");
+  }
+  return fields.file.empty() || Exists(workspace.paths(), fields.file)
+             ? ""
+             : Tr("Choose a file that exists.");
+}
+
+void CastDialog(editor::Workspace& workspace, EditorState& state) {
+  Hint(
+      Tr("One of the people that come with the editor, a recipe of your own (.json), or a rigged "
+         "figure to import. Without any: the plain figure that is built in."));
+  DialogFields& fields = state.fields;
+  const std::string before = fields.preset;
+  if (PresetGrid(workspace, state) && fields.name == before) {
+    fields.name = fields.preset;
+  }
+  if (BeginProperties("cast")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputText("##name", &fields.name);
+    PropertyLabel(Tr("File"));
+    PathField("file", fields.file, workspace.paths().folder, kFigures);
+    EndProperties();
+  }
+  if (DialogDone(state, Tr("Add"), CastProblem(workspace, fields))) {
+    editor::CastDocument member;
+    member.name = fields.name;
+    member.preset = fields.preset;
+    LoadFigure(workspace, fields.file, member);
+    workspace.Edit(Text(Tr("add %s"), member.name.c_str()),
+                   [&](editor::ProjectDocument& document) { document.cast.push_back(member); });
+    state.selection = {Selection::Kind::kActor, member.name};
+  }
+}
+
+// The choice of a built-in object.
+void BuiltInObject(DialogFields& fields) {
+  const auto name_of = [](void*, int index, const char** text) {
+    *text = import::ObjectModelNames()[static_cast<size_t>(index)].data();
+    return true;
+  };
+  ImGui::Combo("##model", &fields.model, name_of, nullptr,
+               static_cast<int>(import::ObjectModelNames().size()));
+}
+
+// A built-in object or a model. Without a name it is named after its model.
+void ObjectDialog(editor::Workspace& workspace, EditorState& state) {
+  Hint(Tr("A thing that people of the drama use. Where it stands is chosen afterwards."));
+  DialogFields& fields = state.fields;
+  const char* const ways[] = {Tr("Built in"), Tr("A model of your own")};
+  int way = fields.own_model ? 1 : 0;
+  if (Segmented("way", ways, way)) {
+    fields.own_model = way == 1;
+  }
+  ImGui::Dummy(ImVec2(0, Px(2)));  // Such a row leaves no space below it.
+  editor::ObjectDocument object;
+  if (BeginProperties("object")) {
+    PropertyLabel(Tr("Model"));
+    if (fields.own_model) {
+      PathField("file", fields.file, workspace.paths().folder, kModels);
+      object.file = DocumentPath(workspace, fields.file);
+    } else {
+      BuiltInObject(fields);
+      object.model = import::ObjectModelNames()[static_cast<size_t>(fields.model)];
+    }
+    EndProperties();
+  }
+  const std::vector<editor::ObjectDocument>& known = workspace.document().objects;
+  const std::string kind = object.model + std::filesystem::path(object.file).stem().string();
+  const std::string usual_name = editor::IsPlainName(kind) ? FreeName(known, kind) : "";
+  if (BeginProperties("name")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
+    EndProperties();
+  }
+  if (fields.own_model) {
+    Hint(
+        Tr("In metres, upright, as it stands. How people use it is said in NAME.object.json beside "
+           "it; without that file it only stands there."));
+  }
+  object.name = fields.name.empty() ? usual_name : fields.name;
+  std::string problem = NameProblem(object.name);
+  if (fields.own_model && !Exists(workspace.paths(), fields.file)) {
+    problem = Tr("Choose a file that exists.");
+  } else if (problem.empty() && Taken(known, object.name)) {
+    problem = Tr("That name is taken.");
+  }
+  if (DialogDone(state, Tr("Add"), problem)) {
+    workspace.Edit(Text(Tr("add %s"), object.name.c_str()),
+                   [&](editor::ProjectDocument& document) { document.objects.push_back(object); });
+    state.selection = {Selection::Kind::kObject, object.name};
+  }
+}
+
+void ProbeDialog(editor::Workspace& workspace, EditorState& state) {
+  Hint(
+      Tr("An equirectangular HDR photograph, twice as wide as high, its centre looking along the "
+         "stage's -Z. Where and when it was taken is said afterwards."));
+  DialogFields& fields = state.fields;
+  if (BeginProperties("probe")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputText("##name", &fields.name);
+    PropertyLabel(Tr("File"));
+    PathField("file", fields.file, workspace.paths().folder, kProbes);
+    EndProperties();
+  }
+  std::string problem = NameProblem(fields.name);
+  if (problem.empty() && Taken(workspace.place()->probes, fields.name)) {
+    problem = Tr("That name is taken.");
+  }
+  if (problem.empty() && !Exists(workspace.paths(), fields.file)) {
+    problem = Tr("Choose a file that exists.");
+  }
+  if (DialogDone(state, Tr("Add"), problem)) {
+    editor::ProbeDocument probe;
+    probe.name = fields.name;
+    probe.file = DocumentPath(workspace, fields.file);
+    workspace.EditPlace(Text(Tr("add %s"), probe.name.c_str()),
+                        [&](editor::PlaceDocument& place) { place.probes.push_back(probe); });
+    state.selection = {Selection::Kind::kProbe, probe.name};
+  }
+}
+
+// Adapts a dialog that never calibrates a camera.
+template <void (*show)(editor::Workspace&, EditorState&)>
+bool Plain(editor::Workspace& workspace, EditorState& state) {
+  show(workspace, state);
+  return false;
+}
+
+// Asks before long work is stopped.
+void LeaveDialog(editor::Workspace& workspace, EditorState& state) {
+  Hint(workspace.tasks().Running(editor::Workspace::kTraining)
+           ? Tr("The place is being trained. Leaving stops that: the place keeps the map that it "
+                "has.")
+           : Tr("The show is being exported. Leaving stops that: nothing is written."));
+  switch (DialogButtons(Tr("Stay"), "", Tr("Stop it and leave"))) {
+    case DialogAnswer::kNone:
+      break;
+    case DialogAnswer::kAct:
+      state.dialog = Dialog::kNone;
+      break;
+    case DialogAnswer::kCancel:
+      state.stops_work = true;
+      break;
+  }
+}
+
+struct DialogEntry {
+  Dialog dialog;
+  const char* title;
+  bool (*show)(editor::Workspace&, EditorState&);
+};
+
+constexpr DialogEntry kDialogs[] = {
+    {Dialog::kTrain, TrLater("Train a place"), TrainDialog},
+    {Dialog::kTrainingReport, TrLater("The training's report"), Plain<TrainingReportDialog>},
+    {Dialog::kAddSession, TrLater("Add a session"), AddSessionDialog},
+    {Dialog::kExport, TrLater("Export the show"), Plain<ExportDialog>},
+    {Dialog::kOccluder, TrLater("Add an occluder"), Plain<OccluderDialog>},
+    {Dialog::kProbe, TrLater("Light probe"), Plain<ProbeDialog>},
+    {Dialog::kCast, TrLater("Add a person"), Plain<CastDialog>},
+    {Dialog::kObject, TrLater("Add an object"), Plain<ObjectDialog>},
+    {Dialog::kCheckPoint, TrLater("Add a check point"), Plain<CheckPointDialog>},
+    {Dialog::kLeave, TrLater("Work is not done"), Plain<LeaveDialog>}};
+
+}  // namespace
+
+std::span<const char* const> ExtensionsOf(editor::FileKind kind) {
+  switch (kind) {
+    case editor::FileKind::kVideo:
+      return kVideos;
+    case editor::FileKind::kImages:
+      return {};
+    case editor::FileKind::kModel:
+      return kAllModels;
+    case editor::FileKind::kProbe:
+      return kProbes;
+    case editor::FileKind::kClip:
+      return kClips;
+    case editor::FileKind::kBones:
+      return kBones;
+    case editor::FileKind::kSound:
+      return editor::SoundExtensions();
+  }
+  return {};
+}
+
+void WarningText(const std::string& text) {
+  if (!text.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+  }
+}
+
+std::string NameProblem(const std::string& name) {
+  return editor::IsPlainName(name) ? "" : Tr("The name takes letters, digits, _ and -.");
+}
+
+std::string RecordingProblem(const editor::ProjectPaths& paths, const DialogFields& fields) {
+  if (!Exists(paths, fields.file)) {
+    return Tr("Choose a recording that exists.");
+  }
+  if (!fields.intrinsics.empty() && ParseNumbers(fields.intrinsics).empty()) {
+    return Tr("Intrinsics are 4 or 8 numbers.");
+  }
+  return "";
+}
+
+bool RecordingFields(const std::filesystem::path& folder,
+                     DialogFields& fields,
+                     const char* no_intrinsics,
+                     const char* no_intrinsics_hint) {
+  PropertyLabel(Tr("Recording"));
+  const char* const kinds[] = {Tr("Video"), Tr("Folder of images")};
+  int kind = fields.images ? 1 : 0;
+  if (Segmented("kind", kinds, kind)) {
+    fields.images = kind == 1;
+  }
+  PropertyLabel(fields.images ? Tr("Folder") : Tr("File"));
+  PathField("file", fields.file, folder, fields.images ? std::span<const char* const>() : kVideos);
+  PropertyLabel(Tr("Intrinsics"));
+  const char* const calibrate = Tr("Calibrate\xe2\x80\xa6");
+  const float button = WidestButton(std::array{calibrate}, 0.0f);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button -
+                          ImGui::GetStyle().ItemSpacing.x);
+  ImGui::InputTextWithHint("##intrinsics", no_intrinsics, &fields.intrinsics);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s\n%s", Tr("fx, fy, cx, cy, k1, k2, p1, p2 in pixels of the recording."),
+                      no_intrinsics_hint);
+  }
+  ImGui::SameLine();
+  const bool wanted = ImGui::Button(calibrate, ImVec2(button, 0));
+  Tooltip(Tr("Measures them, and their errors, with a printed chessboard."));
+  return wanted;
+}
+
+void TrainRecording(editor::Workspace& workspace, const DialogFields& fields) {
+  const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
+  if (!recording.ok()) {
+    workspace.Tell(editor::Message::Level::kError, recording.message());
+    return;
+  }
+  workspace.TrainFrom(fields.place, *recording);
+}
+
+bool OpenDialog(EditorState& state, Dialog dialog) {
+  state.dialog = dialog;
+  const auto left = state.left.find(dialog);
+  state.fields = left != state.left.end() ? left->second : DialogFields();
+  return left != state.left.end();
+}
+
+bool ShowDialogs(editor::Workspace& workspace, EditorState& state) {
+  if (state.dialog == Dialog::kNone && workspace.TakeNewReport()) {
+    state.dialog = Dialog::kTrainingReport;
+  }
+  if (state.dialog == Dialog::kKeys && !ShowKeyList(state.keys)) {
+    state.dialog = Dialog::kNone;
+  }
+  for (const DialogEntry& entry : kDialogs) {
+    if (state.dialog != entry.dialog) {
+      continue;
+    }
+    bool open = true;
+    bool calibrate = false;
+    // Copied before Escape restores the text of a field.
+    const DialogFields typed = state.fields;
+    ShowModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
+      calibrate = entry.show(workspace, state);
+      open = state.dialog == entry.dialog && !calibrate;
+    });
+    if (!open && !calibrate && state.dialog == entry.dialog) {  // A dialog can open another one.
+      state.left[entry.dialog] = typed;
+      state.dialog = Dialog::kNone;
+    }
+    return calibrate;
+  }
+  return false;
+}
+
+}  // namespace lararium::panels

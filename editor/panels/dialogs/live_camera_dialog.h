@@ -1,0 +1,22 @@
+#pragma once
+
+// The choice of the live camera for the camera view.
+
+#include "editor/panels/viewport/camera_field.h"
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+class LiveCameraDialog {
+ public:
+  // Shows the dialog while Dialog::kLiveCamera is open. state.fields.camera: the suggested camera.
+  void Show(editor::Workspace& workspace, EditorState& state);
+
+ private:
+  void ShowContent(editor::Workspace& workspace, EditorState& state);
+
+  CameraField field_;
+};
+
+}  // namespace lararium::panels

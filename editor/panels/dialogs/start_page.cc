@@ -1,0 +1,450 @@
+#include "editor/panels/dialogs/start_page.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/document/project.h"
+#include "editor/document/user_folders.h"
+#include "editor/panels/dialogs/dialogs.h"
+#include "editor/panels/dialogs/key_list.h"
+#include "editor/panels/dialogs/look.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kListCheckInterval = 2.0;  // seconds
+constexpr float kWidestPage = 1180.0f;      // Logical pixels, for the whole page.
+constexpr float kActions = 240.0f;
+constexpr float kCard = 264.0f;
+constexpr float kPad = 10.0f;  // Inside a card.
+constexpr float kGap = 18.0f;  // Between cards.
+constexpr const char* kSuffix = ".lararium";
+
+// The path with "~" for the user's home.
+std::string FolderText(const fs::path& folder) {
+  const std::string text = folder.string();
+  const std::string home = editor::HomeFolder().string() + "/";
+  return home.size() > 2 && text.starts_with(home) ? "~/" + text.substr(home.size()) : text;
+}
+
+// The folder for new projects: that of the project that was opened last.
+fs::path UsualFolder(const editor::RecentProjects& recent) {
+  for (const editor::RecentProject& project : recent.entries()) {
+    if (project.Exists()) {
+      return project.folder.parent_path();
+    }
+  }
+  return editor::HomeFolder();
+}
+
+std::string FolderProblem(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    return Tr("Choose a folder that exists.");
+  }
+  return editor::RecentProject{folder, "", 0}.Exists()
+             ? ""
+             : Tr("There is no project.json in this folder: choose one called NAME.lararium.");
+}
+
+bool WideButton(const char* label, bool important) {
+  if (important) {
+    ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
+  }
+  const bool chosen = ImGui::Button(label, ImVec2(-FLT_MIN, Px(38)));
+  if (important) {
+    ImGui::PopStyleColor();
+  }
+  return chosen;
+}
+
+// The part of a picture that fills a rectangle with another aspect ratio.
+std::pair<ImVec2, ImVec2> Cover(const cv::Mat& picture, const ImVec2& size) {
+  const float picture_ratio = static_cast<float>(picture.cols) / static_cast<float>(picture.rows);
+  const float ratio = size.x / size.y;
+  const float u = std::min(1.0f, ratio / picture_ratio);
+  const float v = std::min(1.0f, picture_ratio / ratio);
+  return {ImVec2(0.5f - 0.5f * u, 0.5f - 0.5f * v), ImVec2(0.5f + 0.5f * u, 0.5f + 0.5f * v)};
+}
+
+// Whether the keyboard focus is on the item with this label, wherever the pointer is.
+bool HasKeyboard(const char* label) {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  return !g.NavDisableHighlight && g.NavId == ImGui::GetID(label);
+}
+
+}  // namespace
+
+void StartPage::Look(const editor::RecentProjects& recent) {
+  if (looked_ >= 0.0 && ImGui::GetTime() < looked_ + kListCheckInterval) {
+    return;
+  }
+  looked_ = ImGui::GetTime();
+  for (const editor::RecentProject& project : recent.entries()) {
+    Face& face = faces_[project.folder];
+    face.exists = project.Exists();
+    if (face.picture == nullptr) {
+      if (std::optional<cv::Mat> picture = editor::LoadProjectPicture(project.folder)) {
+        face.picture = std::make_shared<const cv::Mat>(std::move(*picture));
+      }
+    }
+  }
+}
+
+void StartPage::HandleKeys(const editor::RecentProjects& recent,
+                           std::span<const KeyPress> keys,
+                           StartChoice& choice) {
+  for (const KeyPress& press : keys) {
+    const KeyAction action = ActionOf(KeyScope::kAlways, press);
+    if (action == KeyAction::kQuit) {
+      choice.kind = StartChoice::Kind::kQuit;
+    }
+    if (dialog_ != Open::kNothing) {
+      continue;
+    }
+    if (action == KeyAction::kKeyList) {
+      OpenDialog(Open::kKeys, recent);
+      continue;
+    }
+    constexpr std::pair<KeyAction, Open> kOpens[] = {{KeyAction::kNewProject, Open::kVideo},
+                                                     {KeyAction::kNewFromImages, Open::kImages},
+                                                     {KeyAction::kNewFromCamera, Open::kCamera},
+                                                     {KeyAction::kNewEmpty, Open::kEmpty},
+                                                     {KeyAction::kOpenProject, Open::kProject}};
+    for (const auto& [opens, dialog] : kOpens) {
+      if (ActionOf(KeyScope::kStart, press) == opens) {
+        OpenDialog(dialog, recent);
+      }
+    }
+  }
+}
+
+void StartPage::OpenDialog(Open dialog, const editor::RecentProjects& recent) {
+  dialog_ = dialog;
+  fields_ = {};
+  fields_.images = dialog == Open::kImages;
+  problem_.clear();
+  folder_ = UsualFolder(recent).string();
+}
+
+void StartPage::ShowActions(const editor::RecentProjects& recent,
+                            bool has_sample,
+                            editor::Settings& settings,
+                            StartChoice& choice) {
+  ImGui::PushFont(ThemeFonts().title);
+  ImGui::TextUnformatted("Lararium");
+  ImGui::PopFont();
+  Hint(Tr("People of the past, where they lived."));
+  ImGui::Dummy(ImVec2(0, Px(12)));
+  if (WideButton(Tr("New from video\xe2\x80\xa6"), true)) {
+    OpenDialog(Open::kVideo, recent);
+  }
+  if (WideButton(Tr("New from images\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kImages, recent);
+  }
+  if (WideButton(Tr("New from camera\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kCamera, recent);
+  }
+  if (WideButton(Tr("New, empty\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kEmpty, recent);
+  }
+  ImGui::Dummy(ImVec2(0, Px(8)));
+  if (WideButton(Tr("Open\xe2\x80\xa6"), false)) {
+    OpenDialog(Open::kProject, recent);
+  }
+  ImGui::BeginDisabled(!has_sample);
+  if (WideButton(Tr("Open the sample"), false)) {
+    choice.kind = StartChoice::Kind::kSample;
+  }
+  ImGui::EndDisabled();
+  Tooltip(has_sample ? Tr("Your own copy of a small place with two people, and a tour "
+                          "of it: change whatever you like.")
+                     : Tr("The sample was not installed with this program."));
+  ImGui::Dummy(ImVec2(0, Px(20)));
+  ShowLook(settings);
+}
+
+void StartPage::ShowPicture(const editor::RecentProject& project,
+                            const Face& face,
+                            const ImVec2& size) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 to(from.x + size.x, from.y + size.y);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (face.picture != nullptr) {
+    const auto [first, last] = Cover(*face.picture, size);
+    draw.AddImageRounded(pictures_.Show(project.folder.string(), face.picture), from, to, first,
+                         last, IM_COL32(255, 255, 255, face.exists ? 255 : 90),
+                         ImGui::GetStyle().FrameRounding);
+  } else {
+    draw.AddRectFilled(from, to, Packed(Colours().frame), ImGui::GetStyle().FrameRounding);
+    const char* text = Tr("No picture yet");
+    const ImVec2 extent = ImGui::CalcTextSize(text);
+    draw.AddText(ImVec2(from.x + 0.5f * (size.x - extent.x), from.y + 0.5f * (size.y - extent.y)),
+                 Packed(Colours().dim), text);
+  }
+  ImGui::Dummy(size);
+}
+
+void StartPage::ShowCard(editor::RecentProjects& recent,
+                         const editor::RecentProject& project,
+                         float width,
+                         StartChoice& choice) {
+  const Face& face = faces_[project.folder];
+  const float inner = width - 2 * Px(kPad);
+  const float picture = inner * 9.0f / 16.0f;
+  const float height = 2 * Px(kPad) + picture + 2 * ImGui::GetTextLineHeightWithSpacing() +
+                       ImGui::GetFrameHeightWithSpacing() + Px(2);
+  ImGui::PushID(project.folder.c_str());
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 to(from.x + width, from.y + height);
+  ImGui::BeginDisabled(!face.exists);
+  const bool clicked = ImGui::InvisibleButton("open", ImVec2(width, height));
+  ImGui::EndDisabled();
+  ImGui::SetItemAllowOverlap();  // The buttons of the card lie over it.
+  const bool hovered = face.exists && ImGui::IsItemHovered();
+  Tooltip(project.folder);
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      from, to, Packed(hovered ? Colours().hover : Colours().panel), Px(6));
+  ImGui::SetCursorScreenPos(ImVec2(from.x + Px(kPad), from.y + Px(kPad)));
+  ImGui::BeginGroup();
+  ShowPicture(project, face, ImVec2(inner, picture));
+  if (face.exists) {
+    Heading(Elided(project.title, inner).c_str());
+  } else {
+    DimText(Elided(project.title, inner));
+  }
+  DimText(ElidedFront(FolderText(project.folder), inner));
+  if (face.exists) {
+    DimText(DateText(project.opened));
+    ImGui::SameLine(inner - ImGui::CalcTextSize(Tr("Forget")).x - Px(8));
+  } else if (ImGui::SmallButton(Tr("Locate\xe2\x80\xa6"))) {
+    OpenDialog(Open::kLocate, recent);
+    missing_ = project.folder;
+  }
+  bool forget = false;
+  if (!face.exists) {
+    ImGui::SameLine();
+    forget = ImGui::SmallButton(Tr("Forget"));
+    ImGui::SameLine();
+    ImGui::TextColored(Colours().warning, "%s", Tr("not there"));
+  } else if (hovered || HasKeyboard(Tr("Forget"))) {
+    forget = ImGui::SmallButton(Tr("Forget"));
+    Tooltip(Tr("Takes it off this list. The project itself stays."));
+  } else {
+    ImGui::NewLine();
+  }
+  ImGui::EndGroup();
+  ImGui::SetCursorScreenPos(from);
+  ImGui::Dummy(ImVec2(width, height));
+  ImGui::PopID();
+  if (forget) {
+    const fs::path folder = project.folder;  // The list changes below.
+    problem_ = recent.Forget(folder).message();
+  } else if (clicked) {
+    choice.kind = StartChoice::Kind::kOpen;
+    choice.project = project.folder;
+  }
+}
+
+void StartPage::ShowRecent(editor::RecentProjects& recent, StartChoice& choice) {
+  Heading(Tr("Recent projects"));
+  ImGui::Dummy(ImVec2(0, Px(2)));
+  if (recent.entries().empty()) {
+    Hint(
+        Tr("None yet. Film a place for half a minute and begin with New from video, or look "
+           "around in the sample first."));
+    return;
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(8), Px(4)));
+  const float room = ImGui::GetContentRegionAvail().x;
+  const int columns = std::max(1, static_cast<int>((room + Px(kGap)) / Px(kCard + kGap)));
+  const float width = std::min(
+      room, (room - static_cast<float>(columns - 1) * Px(kGap)) / static_cast<float>(columns));
+  // Copied, because cards change the list.
+  const std::vector<editor::RecentProject> entries = recent.entries();
+  for (size_t i = 0; i < entries.size(); ++i) {
+    if (i % static_cast<size_t>(columns) != 0) {
+      ImGui::SameLine(0.0f, Px(kGap));
+    } else if (i > 0) {
+      ImGui::Dummy(ImVec2(0, Px(kGap) - 2 * ImGui::GetStyle().ItemSpacing.y));
+    }
+    ShowCard(recent, entries[i], width, choice);
+  }
+  ImGui::PopStyleVar();
+}
+
+const char* StartPage::TitleOf(Open dialog) {
+  switch (dialog) {
+    case Open::kVideo:
+      return Tr("New from video");
+    case Open::kImages:
+      return Tr("New from images");
+    case Open::kCamera:
+      return Tr("New from camera");
+    case Open::kEmpty:
+      return Tr("New, empty");
+    case Open::kProject:
+      return Tr("Open a project");
+    case Open::kLocate:
+      return Tr("Locate the project");
+    case Open::kNothing:
+    case Open::kKeys:
+      break;
+  }
+  return "";
+}
+
+std::string StartPage::NewProblem(const fs::path& parent) const {
+  std::error_code ignored;
+  const std::string problem = NameProblem(fields_.name);
+  if (!problem.empty()) {
+    return problem;
+  }
+  if (!fs::is_directory(parent, ignored)) {
+    return Tr("Choose a folder that exists.");
+  }
+  if (fs::exists(parent / (fields_.name + kSuffix), ignored)) {
+    return Tr("A project of that name is there already.");
+  }
+  const bool recorded = dialog_ == Open::kVideo || dialog_ == Open::kImages;
+  return recorded ? RecordingProblem({parent}, fields_) : "";
+}
+
+void StartPage::NewDialog(StartChoice& choice) {
+  const bool filming = dialog_ == Open::kCamera;
+  const bool empty = dialog_ == Open::kEmpty;
+  Hint(empty     ? Tr("A project without a place: train one later, or write the drama first.")
+       : filming ? Tr("Films the place with a camera, says meanwhile what to do next and what is "
+                      "still missing, and learns the place from that.")
+                 : Tr("Learns a place from a recording: walk sideways around it, slowly, with "
+                      "everything in view that visitors will see."));
+  if (BeginProperties("new")) {
+    PropertyLabel(Tr("Name"));
+    ImGui::InputText("##name", &fields_.name);
+    PropertyLabel(Tr("In the folder"));
+    PathField("folder", folder_, editor::HomeFolder(), {});
+    if (!filming && !empty &&
+        RecordingFields(folder_, fields_, Tr(kFromVideo), Tr(kFromVideoHint))) {
+      calibration_.Open();
+    }
+    EndProperties();
+  }
+  const fs::path parent = editor::HomeFolder() / folder_;
+  const char* action = empty ? Tr("Make") : filming ? Tr("Film") : Tr("Train");
+  const DialogAnswer answer = DialogButtons(action, NewProblem(parent));
+  if (answer == DialogAnswer::kAct) {
+    choice.kind = StartChoice::Kind::kNew;
+    choice.begin = empty     ? StartChoice::Begin::kEmpty
+                   : filming ? StartChoice::Begin::kFilming
+                             : StartChoice::Begin::kRecording;
+    choice.project = parent / (fields_.name + kSuffix);
+    choice.fields = fields_;
+    choice.fields.place = fields_.name;
+    choice.fields.file = (parent / fields_.file).string();
+  }
+  if (answer != DialogAnswer::kNone) {
+    dialog_ = Open::kNothing;
+  }
+}
+
+void StartPage::ProjectDialog(editor::RecentProjects& recent, StartChoice& choice) {
+  const bool locate = dialog_ == Open::kLocate;
+  Hint(locate ? Text(Tr("Where is the project now that was in %s?"), missing_.c_str())
+              : Tr("A project is a folder with project.json in it, called NAME.lararium."));
+  if (BeginProperties("project")) {
+    PropertyLabel(Tr("Folder"));
+    PathField("folder", folder_, editor::HomeFolder(), {});
+    EndProperties();
+  }
+  const fs::path project = editor::HomeFolder() / folder_;
+  const DialogAnswer answer =
+      DialogButtons(locate ? Tr("Locate") : Tr("Open"), FolderProblem(project));
+  if (answer != DialogAnswer::kNone) {
+    dialog_ = Open::kNothing;
+  }
+  if (answer == DialogAnswer::kAct && locate) {
+    problem_ = recent.Move(missing_, project).message();
+    looked_ = -1.0;
+  } else if (answer == DialogAnswer::kAct) {
+    choice.kind = StartChoice::Kind::kOpen;
+    choice.project = project;
+  }
+}
+
+void StartPage::ShowDialog(editor::RecentProjects& recent,
+                           std::span<const KeyPress> keys,
+                           StartChoice& choice) {
+  if (dialog_ == Open::kKeys && !ShowKeyList(keys)) {
+    dialog_ = Open::kNothing;
+  }
+  if (dialog_ == Open::kNothing || dialog_ == Open::kKeys) {
+    return;
+  }
+  if (calibration_.is_open()) {
+    calibration_.Show({editor::HomeFolder() / folder_}, pictures_, fields_);
+    return;
+  }
+  bool open = true;
+  ShowModal(Label(TitleOf(dialog_), "dialog").c_str(), 560, open, [&] {
+    if (dialog_ == Open::kProject || dialog_ == Open::kLocate) {
+      ProjectDialog(recent, choice);
+    } else {
+      NewDialog(choice);
+    }
+    open = dialog_ != Open::kNothing && !calibration_.is_open();
+  });
+  if (!open && !calibration_.is_open()) {
+    dialog_ = Open::kNothing;
+  }
+}
+
+StartChoice StartPage::Show(editor::RecentProjects& recent,
+                            std::span<const KeyPress> keys,
+                            bool has_sample,
+                            editor::Settings& settings) {
+  StartChoice choice;
+  HandleKeys(recent, keys, choice);
+  Look(recent);
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->WorkPos);
+  ImGui::SetNextWindowSize(viewport->WorkSize);
+  const float width = std::min(viewport->WorkSize.x - 2 * Px(24), Px(kWidestPage));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                      ImVec2(0.5f * (viewport->WorkSize.x - width), Px(40)));
+  ImGui::Begin("Start", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::PopStyleVar();
+  ImGui::BeginChild("actions", ImVec2(Px(kActions), 0), false, ImGuiWindowFlags_NavFlattened);
+  ShowActions(recent, has_sample, settings, choice);
+  ImGui::EndChild();
+  ImGui::SameLine(0.0f, Px(48));
+  ImGui::BeginChild("recent", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
+  if (!problem_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
+    ImGui::TextWrapped("%s", problem_.c_str());
+    ImGui::PopStyleColor();
+    ImGui::Dummy(ImVec2(0, Px(8)));
+  }
+  ShowRecent(recent, choice);
+  ImGui::EndChild();
+  ShowDialog(recent, keys, choice);
+  ImGui::End();
+  if (choice.kind != StartChoice::Kind::kNothing) {
+    problem_.clear();
+  }
+  return choice;
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,110 @@
+#include "editor/panels/dialogs/tour_card.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+constexpr float kCardWidth = 380.0f;  // logical pixels
+
+void ShowProgress(const Tour& tour) {
+  const float shown = static_cast<float>(tour.number() + (tour.finished() ? 1 : 0));
+  const float all = static_cast<float>(TourSteps().size());
+  ImGui::ProgressBar(shown / all, ImVec2(-FLT_MIN, Px(5)), "");
+}
+
+void ShowStep(const TourStep& step) {
+  Heading(Tr(step.title));
+  std::string text = Tr(step.text);
+  if (step.key != KeyAction::kNone) {
+    text += Text(Tr(" Key: %s."), KeyText(step.key).c_str());
+  }
+  ImGui::TextWrapped("%s", text.c_str());
+}
+
+}  // namespace
+
+TourFacts FactsOf(const editor::Workspace& workspace, const EditorState& state) {
+  TourFacts facts;
+  facts.trained = workspace.loaded().database != nullptr;
+  facts.picture = workspace.picture() != nullptr;
+  facts.playing = workspace.playing();
+  facts.around = state.view == ViewKind::kAround;
+  facts.matches = state.show_matches;
+  facts.person = state.selection.kind == Selection::Kind::kActor;
+  facts.script = workspace.script().revision();
+  facts.can_redo = workspace.commands().CanRedo();
+  facts.checked = workspace.checked();
+  facts.dirty = workspace.commands().dirty();
+  facts.exported = workspace.exported() != nullptr;
+  if (const editor::PlaceDocument* place = workspace.place()) {
+    const geometry::Similarity3& stage = place->picked_from_stage;
+    facts.stage = Text("%g %g %g %g %g %g %g %g", stage.scale, stage.translation.x(),
+                       stage.translation.y(), stage.translation.z(), stage.rotation.w(),
+                       stage.rotation.x(), stage.rotation.y(), stage.rotation.z());
+    for (const editor::ProbeDocument& probe : place->probes) {
+      const Eigen::Quaterniond& q = probe.stage_from_probe;
+      facts.light += Text("%g %g %g %g ", q.w(), q.x(), q.y(), q.z());
+    }
+  }
+  return facts;
+}
+
+void ShowTourCard(const editor::Workspace& workspace, EditorState& state, Tour& tour) {
+  if (tour.step() == nullptr) {
+    return;
+  }
+  const TourFacts facts = FactsOf(workspace, state);
+  tour.Update(facts);
+  // Placed over the end of the timeline's tracks, where it hides neither picture nor map nor the
+  // beginnings of lists. The user can move it.
+  const ImGuiViewport& window = *ImGui::GetMainViewport();
+  const float x = std::max(window.WorkSize.x - Px(744), 0.0f);
+  const float y = window.WorkSize.y - Px(52);
+  ImGui::SetNextWindowPos(ImVec2(window.WorkPos.x + x, window.WorkPos.y + y), ImGuiCond_Appearing,
+                          ImVec2(0.0f, 1.0f));
+  ImGui::SetNextWindowSize(ImVec2(Px(kCardWidth), 0));
+  const std::string title = Label(Tr("Tour"), "tour");
+  bool open = true;
+  state.keyboard.Before(Region::kTour);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, Colours().panel);
+  ImGui::PushStyleColor(ImGuiCol_Border, Colours().accent);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, Px(1));
+  if (ImGui::Begin(title.c_str(), &open,
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                       ImGuiWindowFlags_NoSavedSettings)) {
+    state.keyboard.Begin(Region::kTour);
+    ShowProgress(tour);
+    if (tour.finished()) {
+      ImGui::TextWrapped("%s", Tr("That was the tour. Film a place of your own and begin with New "
+                                  "from video on the start page."));
+      open &= !ImGui::Button(Tr("Close"));
+    } else {
+      ShowStep(*tour.step());
+      ImGui::Dummy(ImVec2(0, Px(2)));
+      if (ImGui::Button(Tr("Skip"))) {
+        tour.Skip(facts);
+      }
+      ImGui::SameLine();
+      open &= !ImGui::Button(Tr("End the tour"));
+    }
+    state.keyboard.End(Region::kTour);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor(2);
+  if (!open) {
+    tour.End();
+  }
+}
+
+}  // namespace lararium::panels

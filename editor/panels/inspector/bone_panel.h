@@ -1,0 +1,14 @@
+#pragma once
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// A table of the joints and bones of an imported figure: how each was found and what is doubtful.
+// Each row can be changed.
+void ShowBones(editor::Workspace& workspace,
+               EditorState& state,
+               const editor::CastDocument& member);
+
+}  // namespace lararium::panels

@@ -1,0 +1,112 @@
+#include "editor/panels/inspector/cast_inspector.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <string>
+
+#include "editor/document/cast_document.h"
+#include "editor/panels/inspector/bone_panel.h"
+#include "editor/panels/inspector/clips_panel.h"
+#include "editor/panels/inspector/recipe_panel.h"
+#include "editor/panels/inspector/voice_panel.h"
+#include "editor/panels/viewport/portrait_view.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+
+namespace lararium::panels {
+namespace {
+
+bool ShowPlainFigure(editor::Workspace& workspace, editor::CastDocument& member) {
+  bool changed = NumberProperty(workspace, TrIn("person", "Height"), member.height, 0.005,
+                                editor::kMinHeight, editor::kMaxHeight, "%.2f m");
+  changed |= ColourProperty(workspace, Tr("Tunic"), member.tunic);
+  return changed;
+}
+
+// With the first change, a preset becomes the project's own recipe.
+RecipeChange ShowRecipeOf(editor::Workspace& workspace,
+                          EditorState& state,
+                          editor::CastDocument& member) {
+  Result<std::optional<import::CastRecipe>> recipe = editor::RecipeOf(member);
+  if (!recipe.ok()) {
+    Hint(recipe.message());
+    return {};
+  }
+  RecipeChange change = ShowRecipe(workspace, state, **recipe);
+  if (change.any()) {
+    member.recipe = **recipe;
+    member.preset.clear();
+  }
+  return change;
+}
+
+std::string KindOf(const editor::CastDocument& member) {
+  if (!member.preset.empty()) {
+    return Text(Tr("From the preset %s."), member.preset.c_str());
+  }
+  if (member.recipe) {
+    return Tr("Built from a recipe of this project.");
+  }
+  return member.model.empty() ? Tr("The plain figure that is built in.")
+                              : Text(Tr("Imported: %s"), member.model.c_str());
+}
+
+RecipeChange ShowFigure(editor::Workspace& workspace,
+                        EditorState& state,
+                        editor::CastDocument& member) {
+  if (member.recipe || !member.preset.empty()) {
+    return ShowRecipeOf(workspace, state, member);
+  }
+  RecipeChange change;
+  if (!member.model.empty()) {
+    ShowBones(workspace, state, member);
+  } else if (BeginProperties("plain figure")) {
+    if (ShowPlainFigure(workspace, member)) {
+      change.Drag(Tr("figure"));
+    }
+    EndProperties();
+  }
+  return change;
+}
+
+}  // namespace
+
+void ShowActor(editor::Workspace& workspace,
+               EditorState& state,
+               const editor::CastDocument& member) {
+  Heading(member.name.c_str());
+  Hint(KindOf(member));
+  ShowPortrait(workspace, state, member, !member.model.empty());
+  // The rest scrolls below the portrait, so that changes are always visible.
+  constexpr float kLeast = 220.0f;  // logical pixels
+  const float height = std::max(ImGui::GetContentRegionAvail().y, Px(kLeast));
+  ImGui::BeginChild("figure", ImVec2(0, height), false, ImGuiWindowFlags_NavFlattened);
+  editor::CastDocument edited = member;
+  RecipeChange change = ShowFigure(workspace, state, edited);
+  ShowVoice(workspace, edited, change);
+  if (change.any()) {
+    workspace.Edit(
+        Text(Tr("%s of %s"), change.what.c_str(), member.name.c_str()),
+        [&edited](editor::ProjectDocument& document) {
+          std::replace_if(
+              document.cast.begin(), document.cast.end(),
+              [&](const auto& m) { return m.name == edited.name; }, edited);
+        },
+        change.gesture);
+  }
+  ShowClips(workspace, state, member);
+  Hint(Tr("Where people stand and what they do is written in the drama."));
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.Edit(Text(Tr("remove %s"), member.name.c_str()),
+                   [name = member.name](editor::ProjectDocument& document) {
+                     std::erase_if(document.cast, [&](const auto& m) { return m.name == name; });
+                   });
+    state.selection = {};
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,239 @@
+#include "editor/panels/inspector/clips_panel.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "editor/document/cast_edits.h"
+#include "editor/panels/dialogs/dialogs.h"
+#include "editor/panels/widgets/icons.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+
+namespace lararium::panels {
+namespace {
+
+constexpr const char* kMotions[] = {".bvh", ".fbx", ".glb", ".gltf", ".vrm"};
+constexpr float kLabels = 70.0f;  // logical pixels
+constexpr float kAddingWidth = 460.0f;
+
+// "12, 40": the lines of the script that contain the word; empty: none.
+std::string LinesOf(const editor::Workspace& workspace, const std::string& word) {
+  constexpr size_t kMost = 6;
+  const std::vector<size_t> lines = editor::LinesThatSay(workspace.script().text(), word);
+  std::string text;
+  for (size_t i = 0; i < std::min(lines.size(), kMost); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(lines[i]);
+  }
+  return text + (lines.size() > kMost ? "\xe2\x80\xa6" : "");
+}
+
+class ClipsPanel {
+ public:
+  ClipsPanel(editor::Workspace& workspace, EditorState& state, const editor::CastDocument& member)
+      : workspace_(workspace), state_(state), member_(member) {}
+
+  void Show() {
+    for (const editor::ClipDocument& clip : member_.clips) {
+      ImGui::PushID(clip.name.c_str());
+      ShowClip(clip);
+      ImGui::PopID();
+    }
+    if (member_.clips.empty()) {
+      Hint(Tr("Recorded motions that are carried over to the figure, beside those that it has."));
+    }
+    ShowAdding();
+  }
+
+ private:
+  void Edit(const std::string& what, const std::function<Status(editor::CastDocument&)>& change) {
+    workspace_.Edit(Text(Tr("%s of %s"), what.c_str(), member_.name.c_str()),
+                    [&](editor::ProjectDocument& document) {
+                      for (editor::CastDocument& known : document.cast) {
+                        if (known.name == member_.name) {
+                          Tell(change(known));
+                        }
+                      }
+                    });
+  }
+
+  void Tell(const Status& status) {
+    if (!status.ok()) {
+      workspace_.Tell(editor::Message::Level::kError, status.message());
+    }
+  }
+
+  // Warns about lines of the drama that use the name. They are not rewritten, because the drama
+  // belongs to the author.
+  void WarnOfUses(const std::string& name) {
+    if (const std::string lines = LinesOf(workspace_, name); !lines.empty()) {
+      workspace_.Tell(editor::Message::Level::kWarning,
+                      Text(Tr("The drama still says \"%s\": line %s of the script."), name.c_str(),
+                           lines.c_str()));
+    }
+  }
+
+  void Rename(const std::string& name, const std::string& to) {
+    if (const Status status = editor::CheckClipName(member_, to); !status.ok()) {
+      Tell(status);
+      return;
+    }
+    Edit(Text(Tr("rename the clip %s"), name.c_str()),
+         [&](editor::CastDocument& known) { return editor::RenameClip(name, to, known); });
+    WarnOfUses(name);
+  }
+
+  void Remove(const std::string& name) {
+    Edit(Text(Tr("remove the clip %s"), name.c_str()),
+         [&](editor::CastDocument& known) { return editor::RemoveClip(name, known); });
+    WarnOfUses(name);
+  }
+
+  void ShowHeader(const editor::ClipDocument& clip) {
+    const float button = ImGui::GetFrameHeight();
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    std::string name = clip.name;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
+    if (ImGui::InputText("##name", &name, ImGuiInputTextFlags_EnterReturnsTrue) &&
+        name != clip.name) {
+      Rename(clip.name, name);
+    }
+    Tip(Tr("As the drama calls it: Enter renames it"));
+    ImGui::SameLine(0, gap);
+    const bool remove = ImGui::Button("\xc3\x97", ImVec2(button, 0));
+    if (ImGui::IsItemHovered()) {
+      const std::string lines = LinesOf(workspace_, clip.name);
+      Tip(lines.empty() ? std::string(Tr("Remove it; its file stays"))
+                        : Text(Tr("Remove it; its file stays. The drama says \"%s\": line %s of "
+                                  "the script"),
+                               clip.name.c_str(), lines.c_str()));
+    }
+    if (remove) {
+      Remove(clip.name);
+    }
+  }
+
+  void ShowClip(const editor::ClipDocument& clip) {
+    ShowHeader(clip);
+    if (BeginProperties("clip", kLabels)) {
+      PropertyLabel(Tr("File"));
+      ImGui::AlignTextToFramePadding();
+      ImGui::TextUnformatted(ElidedFront(clip.file, ImGui::GetContentRegionAvail().x).c_str());
+      Tip(clip.file);
+      PropertyText(Tr("Length"), LengthOf(clip.name));
+      PropertyLabel(Tr("Loops"));
+      bool loops = clip.loops;
+      if (ImGui::Checkbox("##loops", &loops)) {
+        SetLoops(clip, loops);
+      }
+      Tip(Tr("It begins again where it ends, until the drama wants something else"));
+      EndProperties();
+    }
+    ImGui::Separator();
+  }
+
+  // Known after the dry run of the drama.
+  std::string LengthOf(const std::string& name) const {
+    const editor::DramaRun* run = workspace_.drama_run();
+    const double seconds = run != nullptr ? run->words.ClipSeconds(member_.name, name) : 0.0;
+    return seconds > 0.0 ? Text("%.2f s", seconds) : "\xe2\x80\x93";
+  }
+
+  void SetLoops(editor::ClipDocument clip, bool loops) {
+    clip.loops = loops;
+    Edit(Text(Tr("loop of the clip %s"), clip.name.c_str()), [&](editor::CastDocument& known) {
+      std::replace_if(
+          known.clips.begin(), known.clips.end(),
+          [&](const auto& other) { return other.name == clip.name; }, clip);
+      return Status();
+    });
+  }
+
+  // ---- Adding a motion ----
+
+  std::string NewName() const {
+    const DialogFields& fields = state_.fields;
+    return fields.name.empty() ? std::filesystem::path(fields.file).stem().string() : fields.name;
+  }
+
+  // Why it cannot be added yet; empty: it can.
+  std::string NewProblem() const {
+    const std::string& file = state_.fields.file;
+    std::error_code ignored;
+    if (file.empty()) {
+      return Tr("It needs a file: BVH, FBX, glTF or VRM.");
+    }
+    if (!std::filesystem::is_regular_file(workspace_.paths().Resolve(file), ignored)) {
+      return Tr("There is no such file.");
+    }
+    if (std::string problem = NameProblem(NewName()); !problem.empty()) {
+      return problem;
+    }
+    return editor::CheckClipName(member_, NewName()).ok() ? "" : Tr("That name is taken.");
+  }
+
+  void ShowAdding() {
+    if (ImGui::Button(Tr("Add a clip\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
+      state_.fields = {};
+      ImGui::OpenPopup("new clip");
+    }
+    Tip(Tr("A recorded motion of a BVH, FBX, glTF or VRM file, carried over to the figure"));
+    ImGui::SetNextWindowSize(ImVec2(Px(kAddingWidth), 0));
+    if (ImGui::BeginPopup("new clip")) {
+      ShowNewClip();
+      ImGui::EndPopup();
+    }
+  }
+
+  void ShowNewClip() {
+    DialogFields& fields = state_.fields;
+    if (BeginProperties("new clip")) {
+      PropertyLabel(Tr("File"));
+      PathField("file", fields.file, workspace_.paths().folder, kMotions);
+      PropertyLabel(Tr("Name"));
+      const std::string as_file = fields.file.empty() ? Tr("as the file") : NewName();
+      ImGui::InputTextWithHint("##name", as_file.c_str(), &fields.name);
+      Tip(Tr("As the drama calls it; empty: as the file is called"));
+      EndProperties();
+    }
+    const DialogAnswer answer = DialogButtons(Tr("Add"), NewProblem());
+    if (answer == DialogAnswer::kAct) {
+      Add();
+    }
+    if (answer != DialogAnswer::kNone) {
+      ImGui::CloseCurrentPopup();
+    }
+  }
+
+  void Add() {
+    const std::filesystem::path file = workspace_.paths().Resolve(state_.fields.file);
+    const editor::ClipDocument clip{NewName(), workspace_.paths().Shorten(file), false};
+    Edit(Text(Tr("add the clip %s"), clip.name.c_str()),
+         [&](editor::CastDocument& known) { return editor::AddClip(clip, known); });
+  }
+
+  editor::Workspace& workspace_;
+  EditorState& state_;
+  const editor::CastDocument& member_;
+};
+
+}  // namespace
+
+void ShowClips(editor::Workspace& workspace,
+               EditorState& state,
+               const editor::CastDocument& member) {
+  if (Fold(Label(Tr("Clips"), "clips"), false)) {
+    ClipsPanel(workspace, state, member).Show();
+  }
+}
+
+}  // namespace lararium::panels

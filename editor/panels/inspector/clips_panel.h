@@ -1,0 +1,14 @@
+#pragma once
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// The recorded motions of a cast member: name, length and whether they repeat. Adds and removes
+// motions.
+void ShowClips(editor::Workspace& workspace,
+               EditorState& state,
+               const editor::CastDocument& member);
+
+}  // namespace lararium::panels

@@ -1,0 +1,598 @@
+#include "editor/panels/inspector/inspector.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "editor/document/place_edits.h"
+#include "editor/panels/inspector/cast_inspector.h"
+#include "editor/panels/inspector/light_panel.h"
+#include "editor/panels/inspector/object_inspector.h"
+#include "editor/panels/inspector/occluder_inspector.h"
+#include "editor/panels/inspector/place_inspector.h"
+#include "editor/panels/inspector/project_inspector.h"
+#include "editor/panels/viewport/check_point_panel.h"
+#include "editor/panels/viewport/gizmo_view.h"
+#include "editor/panels/viewport/pick_view.h"
+#include "editor/panels/viewport/picks_list.h"
+#include "editor/panels/viewport/place_cards.h"
+#include "editor/panels/viewport/trackball_view.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+#include "editor/panels/widgets/wrapped_field.h"
+#include "shared/core/units.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using geometry::Similarity3;
+
+void ShowProject(editor::Workspace& workspace, EditorState& state) {
+  Heading(Tr("Project"));
+  if (!BeginProperties("project")) {
+    return;
+  }
+  std::string title = workspace.document().title;
+  PropertyLabel(Tr("Title"));
+  if (ImGui::InputText("##title", &title)) {
+    workspace.Edit(
+        Tr("title"), [&](editor::ProjectDocument& document) { document.title = title; }, "title");
+  }
+  if (ImGui::IsItemDeactivated()) {
+    workspace.EndGesture();
+  }
+  std::string credits = workspace.document().credits;
+  PropertyLabel(Tr("Credits"));
+  if (WrappedField("credits", credits, 4, 16)) {
+    workspace.Edit(
+        Tr("credits"), [&](editor::ProjectDocument& document) { document.credits = credits; },
+        "credits");
+  }
+  if (ImGui::IsItemDeactivated()) {
+    workspace.EndGesture();
+  }
+  PropertyText(Tr("Drama"), workspace.paths().Drama().filename().string());
+  EndProperties();
+  ShowLanguages(workspace);
+  ShowSounds(workspace, state);
+}
+
+std::string SourceText(const editor::SourceDocument& source) {
+  return source.empty() ? Tr("none") : source.path;
+}
+
+void ShowMap(const editor::Workspace& workspace, const vision::SceneDatabase& database) {
+  const geometry::CameraModel& camera = database.camera;
+  const editor::TrainingReport* training = workspace.loaded().report.get();
+  if (training != nullptr) {
+    PropertyText(Tr("Frames"), Text(Tr("%d of %d located"), training->located, training->frames));
+  }
+  PropertyText(Tr("Keyframes"), std::to_string(database.keyframes.size()));
+  PropertyText(Tr("Points"), std::to_string(database.points.size()));
+  PropertyText(Tr("Error"), Text("%.3f px", database.mean_reprojection_error_px));
+  PropertyText(Tr("Image"), Text("%d \xc3\x97 %d", camera.width, camera.height));
+  std::string focal = Text("%.1f, %.1f px", camera.fx, camera.fy);
+  const bool estimated = training != nullptr && training->focal_deviation_px.has_value();
+  if (estimated) {
+    focal = Text("%.1f \xc2\xb1 %.1f px", camera.fx, *training->focal_deviation_px);
+  }
+  PropertyText(Tr("Focal"), focal);
+  if (estimated && ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s",
+                      Tr("Estimated from the video itself; \xc2\xb1 is a standard deviation."));
+  }
+  PropertyText(Tr("Centre"), Text("%.1f, %.1f px", camera.cx, camera.cy));
+  PropertyText(Tr("Distortion"), Text("%.4f, %.4f", camera.k1, camera.k2));
+}
+
+const char* ScaleSource(const editor::LoadedPlace& loaded) {
+  if (!loaded.measured) {
+    return Tr("being measured");
+  }
+  if (loaded.measures.tags) {
+    return Tr("tags in the images");
+  }
+  return loaded.picks.solution ? Tr("the picked length") : Tr("a guess");
+}
+
+// The source of the stage's scale, and its error.
+void ShowScale(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+  Heading(Tr("Metres"));
+  const editor::LoadedPlace& loaded = workspace.loaded();
+  editor::TagsDocument tags = place.tags.value_or(editor::TagsDocument());
+  bool changed = false;
+  if (BeginProperties("scale")) {
+    PropertyText(Tr("From"), ScaleSource(loaded));
+    if (loaded.measures.tags) {
+      const train::TagScale& scale = *loaded.measures.tags;
+      PropertyText(Tr("Tags"),
+                   Text(Tr("%zu, %zu left out"), scale.tags.size(), scale.left_out.size()));
+      PropertyText(Tr("Uncertainty"), Text("\xc2\xb1 %.2f %%", 100.0 * scale.deviation));
+      PropertyText(Tr("Residual"), Text(Tr("%.2f %% of the sides"), 100.0 * scale.spread));
+    }
+    if (loaded.picks.solution) {
+      const stage::StageSolution& solution = *loaded.picks.solution;
+      PropertyText(Tr("Known length"), Text(Tr("%.3f m, measured %.3f m"), place.picks.length_m,
+                                            solution.measured_length_m));
+      PropertyText(Tr("for each px"), Text("\xc2\xb1 %.2f cm (%.2f %%)",
+                                           100.0 * solution.length_spread * place.picks.length_m,
+                                           100.0 * solution.length_spread));
+    }
+    if (place.picked_from_stage.scale != 1.0) {
+      PropertyText(Tr("By hand"), Text("\xc3\x97 %.4f", place.picked_from_stage.scale));
+    }
+    if (place.tags) {
+      PropertyLabel(Tr("Family"));
+      if (ImGui::BeginCombo("##family", tags.family.c_str())) {
+        for (const std::string_view family : train::TagFamilies()) {
+          if (ImGui::Selectable(std::string(family).c_str(), family == tags.family)) {
+            tags.family = family;
+            changed = true;
+          }
+        }
+        ImGui::EndCombo();
+      }
+      changed |=
+          NumberProperty(workspace, Tr("Tag size"), tags.size_m, 0.001, 0.001, 100.0, "%.4f m");
+    }
+    EndProperties();
+  }
+  if (changed) {
+    workspace.EditPlace(
+        Tr("tags"), [&](editor::PlaceDocument& p) { p.tags = tags; }, "tags");
+  }
+  if (!loaded.measures.tag_problem.ok()) {
+    Hint(loaded.measures.tag_problem.message());
+  }
+  if (!place.tags) {
+    Hint(
+        Tr("An AprilTag of known size in view of the recording gives the metres without picking."));
+    if (ImGui::Button(Tr("Take the metres from tags"), ImVec2(-FLT_MIN, 0))) {
+      workspace.EditPlace(Tr("metres from tags"), [](editor::PlaceDocument& p) {
+        p.tags = editor::TagsDocument();
+        p.tags->size_m = 0.1;
+      });
+    }
+  } else if (ImGui::Button(Tr("Do without tags"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Tr("do without tags"), [](editor::PlaceDocument& p) { p.tags.reset(); });
+  }
+}
+
+// A description of the command, or why it is not possible.
+const char* AboutLayingOnFloor(const editor::LoadedPlace& loaded) {
+  if (loaded.database == nullptr) {
+    return Tr("The place has to be trained first: its floor is looked for in the map.");
+  }
+  if (!loaded.measured) {
+    return Tr("The floor is still being looked for in the map.");
+  }
+  if (!loaded.measures.floor) {
+    return Tr("No large level surface was found among the points.");
+  }
+  return Tr("Levels the stage and lays it on the floor that was found in the map");
+}
+
+void LayOnFloorButton(editor::Workspace& workspace) {
+  ImGui::BeginDisabled(!workspace.loaded().measures.floor.has_value());
+  if (ImGui::Button(Tr("Lay the stage on the floor"), ImVec2(-FLT_MIN, 0))) {
+    workspace.LayStageOnFloor();
+  }
+  ImGui::EndDisabled();
+  Tooltip(AboutLayingOnFloor(workspace.loaded()));
+}
+
+void ShowFloor(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+  Heading(Tr("Floor"));
+  const editor::LoadedPlace& loaded = workspace.loaded();
+  if (!loaded.measures.floor) {
+    Hint(Tr("No large level surface was found among the points."));
+    return;
+  }
+  const train::FloorPlane& floor = *loaded.measures.floor;
+  const Similarity3 map_from_stage = loaded.picks.map_from_picked * place.picked_from_stage;
+  if (BeginProperties("floor")) {
+    PropertyText(Tr("Points"), std::to_string(floor.points));
+    PropertyText(Tr("Spread"), Text("%.1f mm", 1000.0 * floor.spread / map_from_stage.scale));
+    PropertyText(Tr("Level to"), Text("%.2f\xc2\xb0", kDegreesPerRadian * floor.tilt_deviation));
+    const double cosine = floor.normal.dot(map_from_stage.rotation * Eigen::Vector3d::UnitY());
+    const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double height = floor.Height(map_from_stage.translation) / map_from_stage.scale;
+    PropertyText(Tr("Stage"), Text(height < 0.0 ? Tr("%.1f mm below, tilted %.2f\xc2\xb0")
+                                                : Tr("%.1f mm above, tilted %.2f\xc2\xb0"),
+                                   1000.0 * std::abs(height), kDegreesPerRadian * tilt));
+    EndProperties();
+  }
+  LayOnFloorButton(workspace);
+}
+
+void TakeOverOccluders(editor::Workspace& workspace, const editor::PlaceDocument& from) {
+  workspace.EditPlace(
+      Text(Tr("take over the occluders of %s"), from.name.c_str()),
+      [&](editor::PlaceDocument& place) { editor::TakeOverOccluders(from, place); });
+}
+
+// The choice of another place.
+void ShowOtherPlaces(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+  const std::shared_ptr<const editor::ProjectDocument> document = workspace.commands().snapshot();
+  const ImVec2 wide(-FLT_MIN, 0);
+  for (const editor::PlaceDocument& other : document->places) {
+    const bool has_models = std::any_of(other.occluders.begin(), other.occluders.end(),
+                                        [](const auto& occluder) { return !occluder.drawn(); });
+    const std::string label = Text(Tr("Take over the occluders of %s"), other.name.c_str());
+    if (other.name != place.name && has_models && ImGui::Button(label.c_str(), wide)) {
+      TakeOverOccluders(workspace, other);
+    }
+  }
+  const std::string remove = Text(Tr("Remove %s from the project"), place.name.c_str());
+  if (ImGui::Button(remove.c_str(), wide)) {
+    workspace.Edit(Text(Tr("remove %s"), place.name.c_str()), [&](editor::ProjectDocument& edited) {
+      std::erase_if(edited.places, [&](const auto& p) { return p.name == place.name; });
+    });
+  }
+  Hint(Tr("Its files stay on the disk, and undo brings it back."));
+}
+
+// A button that asks first, because the map is written without the recording and this cannot be
+// undone.
+void RemoveSessionButton(editor::Workspace& workspace, uint32_t session, const std::string& name) {
+  ImGui::PushID(static_cast<int>(session));
+  ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kTraining));
+  if (ImGui::Button(Tr("Remove\xe2\x80\xa6"))) {
+    ImGui::OpenPopup("remove");
+  }
+  ImGui::EndDisabled();
+  // Beside the button, not over it.
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetItemRectMin().x - Px(8), ImGui::GetItemRectMin().y),
+                          ImGuiCond_Appearing, ImVec2(1, 0));
+  ImGui::SetNextWindowSize(ImVec2(Px(320), 0));
+  if (ImGui::BeginPopup("remove")) {
+    Heading(Text(Tr("Remove %s from the map?"), name.c_str()).c_str());
+    Hint(
+        Tr("Its keyframes go, with the points that too few others see and what was picked in its "
+           "images. Undo does not bring them back: adding the recording again does."));
+    const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+    if (ImGui::Button(Tr("Cancel"), ImVec2(half, 0))) {
+      ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button(Tr("Remove"), ImVec2(half, 0))) {
+      workspace.RemoveSession(session);
+      ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+  }
+  ImGui::PopID();
+}
+
+void ShowTraining(editor::Workspace& workspace, EditorState& state) {
+  if (workspace.loaded().report != nullptr &&
+      ImGui::Button(Tr("The training's report\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
+    state.dialog = Dialog::kTrainingReport;
+  }
+  if (workspace.loaded().has_former) {
+    ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kTraining));
+    if (ImGui::Button(Tr("Put the former map back"), ImVec2(-FLT_MIN, 0))) {
+      workspace.RestorePreviousMap();
+    }
+    ImGui::EndDisabled();
+    Tooltip(
+        Tr("The map from before the last training. Doing so again changes "
+           "back to the one at hand."));
+  }
+}
+
+// The recordings of the map with their results.
+void ShowSessions(editor::Workspace& workspace,
+                  const editor::PlaceDocument& place,
+                  const train::MapStatistics& statistics) {
+  Heading(Tr("Sessions"));
+  for (uint32_t session = 0; session <= place.added.size(); ++session) {
+    const std::string name = SessionName(place, session);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(Elided(name, ImGui::GetContentRegionAvail().x).c_str());
+    if (ImGui::IsItemHovered()) {
+      const editor::SourceDocument& source =
+          session == 0 ? place.training : place.added[session - 1].source;
+      ImGui::SetTooltip("%s", SourceText(source).c_str());
+    }
+    ImGui::AlignTextToFramePadding();
+    DimText(Text(Tr("%u keyframes, %u points"), statistics.session_keyframes[session],
+                 statistics.session_points[session]));
+    if (session > 0) {
+      SameLineIfFits(std::array{Tr("Remove\xe2\x80\xa6")});
+      RemoveSessionButton(workspace, session, name);
+    }
+  }
+}
+
+void ShowPlace(editor::Workspace& workspace,
+               EditorState& state,
+               const editor::PlaceDocument& place) {
+  Heading(place.name.c_str());
+  const auto database = workspace.loaded().database;
+  if (BeginProperties("place")) {
+    PropertyText(TrIn("recording", "Training"), SourceText(place.training));
+    PropertyText(Tr("Preview"), place.preview.empty() ? Tr("the training") : place.preview.path);
+    if (database != nullptr) {
+      ShowMap(workspace, *database);
+    } else {
+      PropertyText(Tr("State"), Tr("not trained"));
+    }
+    EndProperties();
+  }
+  ShowRecordingToLookAt(workspace, state, place);
+  if (database != nullptr) {
+    ShowTraining(workspace, state);
+    ShowSessions(workspace, place, *workspace.loaded().statistics);
+    ShowScale(workspace, place);
+    ShowFloor(workspace, place);
+  }
+  ShowPlaceSound(workspace, state, place);
+  ImGui::Dummy(ImVec2(0, Px(6)));
+  ShowPlaceName(workspace, state, place);
+  ShowOtherPlaces(workspace, place);
+}
+
+void ShowStage(editor::Workspace& workspace,
+               EditorState& state,
+               const editor::PlaceDocument& place) {
+  Heading(Tr("Stage"));
+  Hint(Tr("Moved by hand on top of the picks, in their metres."));
+  Similarity3 transform = place.picked_from_stage;
+  bool changed = false;
+  if (BeginProperties("stage")) {
+    changed = TransformProperties(workspace, transform);
+    EndProperties();
+  }
+  changed |= ShowTrackball(workspace, state, transform.rotation);
+  if (changed) {
+    MoveSelected(workspace, state.selection, transform, "inspector stage");
+  }
+  LayOnFloorButton(workspace);
+  if (ImGui::Button(Tr("Back to the picks"), ImVec2(-FLT_MIN, 0))) {
+    MoveSelected(workspace, state.selection, Similarity3(), "");
+  }
+}
+
+const stage::AnchorReport* FindReport(const editor::Workspace& workspace, const std::string& name) {
+  const auto& solution = workspace.loaded().picks.solution;
+  if (!solution) {
+    return nullptr;
+  }
+  const auto found = std::find_if(solution->anchors.begin(), solution->anchors.end(),
+                                  [&](const auto& report) { return report.name == name; });
+  return found == solution->anchors.end() ? nullptr : &*found;
+}
+
+// Columns: anchor, number of picks, residual, largest angle.
+void ShowAnchorTable(editor::Workspace& workspace,
+                     EditorState& state,
+                     const editor::PlaceDocument& place) {
+  if (!ImGui::BeginTable("anchors", 4, ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  ImGui::TableSetupColumn(Tr("Point"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(TrIn("column", "Picks"), ImGuiTableColumnFlags_WidthFixed, Px(46));
+  ImGui::TableSetupColumn(Tr("Error"), ImGuiTableColumnFlags_WidthFixed, Px(66));
+  ImGui::TableSetupColumn(Tr("Angle"), ImGuiTableColumnFlags_WidthFixed, Px(56));
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
+  ImGui::TableHeadersRow();
+  ImGui::PopStyleColor();
+  const std::span<const AnchorEntry> entries = AnchorEntries();
+  for (size_t i = 0; i < entries.size(); ++i) {
+    const stage::Anchor& anchor = place.picks.*entries[i].anchor;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (ImGui::Selectable(Tr(entries[i].label), state.anchor == static_cast<int>(i),
+                          ImGuiSelectableFlags_SpanAllColumns)) {
+      state.anchor = static_cast<int>(i);
+      state.view = ViewKind::kPicks;
+    }
+    ImGui::TableNextColumn();
+    ImGui::Text("%zu", anchor.picks.size());
+    const stage::AnchorReport* report = FindReport(workspace, anchor.name);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(report != nullptr ? Text("%.2f px", report->error_px).c_str() : "-");
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(
+        report != nullptr ? Text("%.1f\xc2\xb0", report->angle * kDegreesPerRadian).c_str() : "-");
+  }
+  ImGui::EndTable();
+}
+
+// Lists picks that this map does not use.
+void ShowLeftOut(const editor::Workspace& workspace) {
+  if (!workspace.loaded().picks.solution) {
+    return;
+  }
+  for (const stage::AnchorReport& report : workspace.loaded().picks.solution->anchors) {
+    if (!report.left_out.empty()) {
+      std::string text =
+          Text(Tr("%s: left out, in frames that are no keyframes now:"), report.name.c_str());
+      for (const std::string& frame : report.left_out) {
+        text += " " + frame;
+      }
+      Hint(text);
+    }
+  }
+}
+
+void ShowPicks(editor::Workspace& workspace,
+               EditorState& state,
+               const editor::PlaceDocument& place) {
+  Heading(Tr("Picks"));
+  Hint(Tr("Points of the place, clicked in two or more training images, tie the stage to it."));
+  ShowAnchorTable(workspace, state, place);
+  if (BeginProperties("length")) {
+    double length = place.picks.length_m;
+    if (NumberProperty(workspace, Tr("Length"), length, 0.01, 1e-3, 1e4, "%.3f m")) {
+      workspace.EditPlace(
+          Tr("known length"), [&](editor::PlaceDocument& p) { p.picks.length_m = length; },
+          "length");
+    }
+    if (const auto& solution = workspace.loaded().picks.solution) {
+      PropertyText(Tr("Uncertainty"), Text(Tr("%.2f cm (%.2f %%) for each px"),
+                                           100.0 * solution->length_spread * place.picks.length_m,
+                                           100.0 * solution->length_spread));
+      if (workspace.loaded().measures.tags) {
+        PropertyText(Tr("By the tags"), Text("%.3f m", solution->measured_length_m));
+      }
+    }
+    EndProperties();
+  }
+  Hint(Tr(
+      "The length lies between the two length points; without them, between origin and forward."));
+  ShowLeftOut(workspace);
+  ShowPicksList(workspace, state);
+  if (state.view != ViewKind::kPicks) {
+    if (ImGui::Button(Tr("Pick in the training images"), ImVec2(-FLT_MIN, 0))) {
+      state.view = ViewKind::kPicks;
+    }
+  } else {
+    const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(state.anchor)];
+    const bool any = !(place.picks.*entry.anchor).picks.empty();
+    ImGui::BeginDisabled(!any);
+    const std::string label = Text(Tr("Clear the picks of %s"), Tr(entry.label));
+    if (ImGui::Button(label.c_str(), ImVec2(-FLT_MIN, 0))) {
+      workspace.EditPlace(Tr("clear picks"),
+                          [&](editor::PlaceDocument& p) { (p.picks.*entry.anchor).picks.clear(); });
+    }
+    ImGui::EndDisabled();
+  }
+}
+
+void ShowNudge(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+  Heading(Tr("Camera nudge"));
+  Hint(Tr(
+      "Moves the camera along its own axes: right, down, forward. In the camera view: arrow keys, "
+      "Page Up and Page Down; with Shift ten times as far."));
+  if (!BeginProperties("nudge")) {
+    return;
+  }
+  Eigen::Vector3d nudge = place.camera_nudge;
+  if (VectorProperty(workspace, Tr("Metres"), nudge, 0.001, "%.3f")) {
+    workspace.EditPlace(
+        Tr("nudge the camera"), [&](editor::PlaceDocument& p) { p.camera_nudge = nudge; }, "nudge");
+  }
+  EndProperties();
+  if (ImGui::Button(Tr("Back to zero"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Tr("reset the nudge"),
+                        [](editor::PlaceDocument& p) { p.camera_nudge.setZero(); });
+  }
+}
+
+void ShowProbe(editor::Workspace& workspace, EditorState& state, editor::ProbeDocument probe) {
+  Heading(probe.name.c_str());
+  Hint(Tr(
+      "The light at a point of the stage and a time of day. Between probes it is blended, by where "
+      "somebody stands and by the drama's time of day."));
+  bool changed = false;
+  if (BeginProperties("probe")) {
+    PropertyText(Tr("File"), probe.file);
+    changed = VectorProperty(workspace, Tr("Position"), probe.position, 0.01, "%.2f");
+    changed |= NumberProperty(workspace, Tr("Time of day"), probe.hour, 0.05, 0.0, 24.0, "%.2f h");
+    EndProperties();
+  }
+  if (changed) {
+    workspace.EditPlace(
+        Tr("light probe"),
+        [&](editor::PlaceDocument& p) {
+          for (editor::ProbeDocument& other : p.probes) {
+            if (other.name == probe.name) {
+              other = probe;
+            }
+          }
+        },
+        "probe " + probe.name);
+  }
+  ShowLightPanel(workspace, state, probe);
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Text(Tr("remove %s"), probe.name.c_str()), [&](editor::PlaceDocument& p) {
+      std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });
+    });
+    state.selection = {};
+  }
+}
+
+template <typename Entry>
+const Entry* FindByName(const std::vector<Entry>& entries, const std::string& name) {
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const Entry& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void ShowInspector(editor::Workspace& workspace, EditorState& state) {
+  using Kind = Selection::Kind;
+  // Keeps the document alive: an edit below can replace it.
+  const auto document = workspace.commands().snapshot();
+  const editor::PlaceDocument* place = workspace.place();
+  const std::string& name = state.selection.name;
+  if (state.selection.kind != Kind::kActor) {
+    workspace.cast_pictures().Look("", {}, {});
+  }
+  if (state.selection.kind == Kind::kProject) {
+    ShowProject(workspace, state);
+    return;
+  }
+  if (state.selection.kind == Kind::kActor) {
+    if (const auto* member = FindByName(document->cast, name)) {
+      ShowActor(workspace, state, *member);
+    }
+    return;
+  }
+  if (state.selection.kind == Kind::kObject) {
+    if (const auto* object = FindByName(document->objects, name)) {
+      ShowObject(workspace, state, *object);
+    }
+    return;
+  }
+  if (place == nullptr) {
+    Hint(Tr("Add a place to begin: choose Train\xe2\x80\xa6 and name a recording of it."));
+    return;
+  }
+  switch (state.selection.kind) {
+    case Kind::kPlace:
+      ShowPlace(workspace, state, *place);
+      break;
+    case Kind::kStage:
+      ShowStage(workspace, state, *place);
+      break;
+    case Kind::kPicks:
+      ShowPicks(workspace, state, *place);
+      break;
+    case Kind::kNudge:
+      ShowNudge(workspace, *place);
+      break;
+    case Kind::kProbe:
+      if (const auto* probe = FindByName(place->probes, name)) {
+        ShowProbe(workspace, state, *probe);
+      }
+      break;
+    case Kind::kOccluder:
+      if (const auto* occluder = FindByName(place->occluders, name)) {
+        ShowOccluder(workspace, state, *occluder);
+      }
+      break;
+    case Kind::kCheckPoint:
+      if (const auto* point = FindByName(document->check_points, name)) {
+        ShowCheckPoint(workspace, state, *point);
+      }
+      break;
+    case Kind::kProject:
+    case Kind::kActor:
+    case Kind::kObject:
+      break;
+  }
+}
+
+}  // namespace lararium::panels

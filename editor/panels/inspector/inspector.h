@@ -1,0 +1,11 @@
+#pragma once
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// Shows the properties of the selected object.
+void ShowInspector(editor::Workspace& workspace, EditorState& state);
+
+}  // namespace lararium::panels

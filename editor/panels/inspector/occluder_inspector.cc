@@ -1,0 +1,205 @@
+#include "editor/panels/inspector/occluder_inspector.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "editor/jobs/drawn_occluder.h"
+#include "editor/panels/viewport/align_panel.h"
+#include "editor/panels/viewport/gizmo_view.h"
+#include "editor/panels/viewport/picks_list.h"
+#include "editor/panels/viewport/trackball_view.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using geometry::Similarity3;
+
+void ShowSizes(editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
+  editor::OccluderShape shape = *occluder.shape;
+  PropertyText(Tr("Shape"), Tr(editor::EntryOf(shape.kind).label));
+  if (ShapeSizes(workspace, shape)) {
+    workspace.EditOccluder(
+        Text(Tr("size of %s"), occluder.name.c_str()), occluder.name,
+        [&](editor::OccluderDocument& edited) { edited.shape = shape; }, "occluder size");
+  }
+}
+
+// The pose of a model or a shape.
+void ShowPlaced(editor::Workspace& workspace,
+                const EditorState& state,
+                const editor::OccluderDocument& occluder) {
+  Similarity3 transform = occluder.stage_from_mesh;
+  bool changed = false;
+  if (BeginProperties("occluder")) {
+    if (occluder.shape) {
+      ShowSizes(workspace, occluder);
+    } else {
+      PropertyText(Tr("File"), occluder.file);
+    }
+    changed = TransformProperties(workspace, transform);
+    EndProperties();
+  }
+  if (changed) {
+    MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
+                 "inspector occluder");
+  }
+}
+
+// A trackball for rotation in the axes of the view.
+void ShowBall(editor::Workspace& workspace,
+              const EditorState& state,
+              const editor::OccluderDocument& occluder) {
+  if (!Fold(Label(Tr("Turn by hand"), "ball"), false)) {
+    return;
+  }
+  Similarity3 world_from_mesh = workspace.place()->picked_from_stage * occluder.stage_from_mesh;
+  if (ShowTrackball(workspace, state, world_from_mesh.rotation)) {
+    MoveSelected(workspace, state.selection, world_from_mesh, "ball of an occluder");
+  }
+}
+
+// Columns: corner, number of picks, residual.
+void ShowCornerTable(const editor::OccluderDocument& occluder,
+                     const std::vector<stage::AnchorReport>& reports) {
+  if (!ImGui::BeginTable("corners", 3, ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  ImGui::TableSetupColumn(Tr("Corner"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(Tr("Images"), ImGuiTableColumnFlags_WidthFixed, Px(64));
+  ImGui::TableSetupColumn(Tr("Error"), ImGuiTableColumnFlags_WidthFixed, Px(76));
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
+  ImGui::TableHeadersRow();
+  ImGui::PopStyleColor();
+  for (size_t i = 0; i < occluder.corners.size(); ++i) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::Text("%zu", i + 1);
+    ImGui::TableNextColumn();
+    ImGui::Text("%zu", occluder.corners[i].picks.size());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(i < reports.size() ? Text("%.2f px", reports[i].error_px).c_str() : "-");
+  }
+  ImGui::EndTable();
+}
+
+// The corners of a drawn occluder.
+void ShowCorners(editor::Workspace& workspace,
+                 EditorState& state,
+                 const editor::OccluderDocument& occluder) {
+  const double units = workspace.loaded().picks.map_from_picked.scale *
+                       workspace.place()->picked_from_stage.scale;  // Map units per metre.
+  if (workspace.loaded().database != nullptr) {
+    const auto drawn = editor::DrawOccluder(occluder, *workspace.loaded().database, units);
+    if (BeginProperties("drawn")) {
+      double depth = occluder.depth;
+      if (NumberProperty(workspace, Tr("Depth"), depth, 0.01, 0.0, editor::kMaxDepth, "%.2f m")) {
+        workspace.EditOccluder(
+            Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
+            [&](editor::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
+      }
+      Tooltip(Tr("How far it goes on behind the face that you drew; 0: the face alone."));
+      if (drawn.ok()) {
+        PropertyText(Tr("Error"), Text("%.2f px", drawn->error_px));
+        PropertyText(Tr("Uneven by"), Text("%.1f cm", 100.0 * drawn->unevenness / units));
+      }
+      bool flat = occluder.flat;
+      PropertyLabel(Tr("Flat"));
+      if (ImGui::Checkbox("##flat", &flat)) {
+        workspace.EditOccluder(Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
+                               [&](editor::OccluderDocument& edited) { edited.flat = flat; });
+      }
+      Tooltip(Tr("Lays the corners onto the plane that fits them best"));
+      EndProperties();
+    }
+    ShowCornerTable(occluder, drawn.ok() ? drawn->corners : std::vector<stage::AnchorReport>());
+    if (!drawn.ok()) {
+      ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
+      ImGui::TextWrapped("%s", drawn.message().c_str());
+      ImGui::PopStyleColor();
+    }
+  }
+  ShowPicksList(workspace, state);
+  if (state.view != ViewKind::kPicks &&
+      ImGui::Button(Tr("Draw on the training images"), ImVec2(-FLT_MIN, 0))) {
+    state.view = ViewKind::kPicks;
+  }
+  ImGui::BeginDisabled(occluder.corners.empty());
+  if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditOccluder(Tr("remove a corner"), occluder.name,
+                           [](editor::OccluderDocument& edited) { edited.corners.pop_back(); });
+  }
+  ImGui::EndDisabled();
+}
+
+void ShowEffects(editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
+  struct Effect {
+    bool editor::OccluderDocument::*does;
+    const char* label;
+    const char* tip;
+    const char* command;
+  };
+  static constexpr Effect kEffects[] = {
+      {&editor::OccluderDocument::receives_shadow, TrLater("Receives shadow"),
+       TrLater("Shadows of people are seen on it, and the light of lamps"),
+       TrLater("shadow on %s")},
+      {&editor::OccluderDocument::blocks_sound, TrLater("Blocks sound"),
+       TrLater("What sounds behind it is muffled"), TrLater("sound through %s")},
+      {&editor::OccluderDocument::blocks_walking, TrLater("Blocks walking"),
+       TrLater("People walk around it, at every place of the drama"), TrLater("ways through %s")}};
+  for (const Effect& effect : kEffects) {
+    bool on = occluder.*effect.does;
+    if (CheckRow(Tr(effect.label), on)) {
+      workspace.EditOccluder(Text(Tr(effect.command), occluder.name.c_str()), occluder.name,
+                             [&](editor::OccluderDocument& edited) { edited.*effect.does = on; });
+    }
+    Tooltip(Tr(effect.tip));
+  }
+}
+
+}  // namespace
+
+bool ShapeSizes(editor::Workspace& workspace, editor::OccluderShape& shape) {
+  bool changed = false;
+  for (const editor::ShapeSize& size : editor::EntryOf(shape.kind).sizes) {
+    const auto [least, most] = editor::RangeOf(shape, size);
+    changed |=
+        NumberProperty(workspace, Tr(size.label), shape.*size.value, 0.01, least, most, "%.3f m");
+  }
+  return changed;
+}
+
+void ShowOccluder(editor::Workspace& workspace,
+                  EditorState& state,
+                  const editor::OccluderDocument& occluder) {
+  Heading(occluder.name.c_str());
+  Hint(Tr("It is real, and hides who is behind it."));
+  if (occluder.drawn()) {
+    ShowCorners(workspace, state, occluder);
+  } else {
+    ShowPlaced(workspace, state, occluder);
+  }
+  if (occluder.kind() == editor::OccluderDocument::Kind::kModel) {
+    ShowAlignment(workspace, state, occluder);
+  }
+  ShowEffects(workspace, occluder);
+  if (!occluder.drawn()) {
+    ShowBall(workspace, state, occluder);
+  }
+  if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
+    workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
+                        [name = occluder.name](editor::PlaceDocument& p) {
+                          std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
+                        });
+    state.selection = {};
+  }
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// The inspector of a real object that hides people: how it was made, its pose, and its effects.
+void ShowOccluder(editor::Workspace& workspace,
+                  EditorState& state,
+                  const editor::OccluderDocument& occluder);
+
+// Rows for the sizes of a shape, each limited by the other sizes. Returns true while one changes.
+bool ShapeSizes(editor::Workspace& workspace, editor::OccluderShape& shape);
+
+}  // namespace lararium::panels

@@ -1,0 +1,26 @@
+#pragma once
+
+// The properties of a place besides its map: the recording of the camera view, its name, its
+// acoustics.
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// A button that opens the dialog for the recording of the camera view.
+void ShowRecordingToLookAt(editor::Workspace& workspace,
+                           EditorState& state,
+                           const editor::PlaceDocument& place);
+
+// The reverberation and the background sound.
+void ShowPlaceSound(editor::Workspace& workspace,
+                    EditorState& state,
+                    const editor::PlaceDocument& place);
+
+// Buttons that rename the place and move it to the front.
+void ShowPlaceName(editor::Workspace& workspace,
+                   EditorState& state,
+                   const editor::PlaceDocument& place);
+
+}  // namespace lararium::panels

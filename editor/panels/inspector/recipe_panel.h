@@ -1,0 +1,32 @@
+#pragma once
+
+// The sliders, parts and garments of a person's recipe.
+
+#include <string>
+
+#include "editor/import/cast/cast_recipe.h"
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// The changes that the widgets made in one frame.
+struct RecipeChange {
+  std::string what;     // The name of the command, for example "nose hump"; empty: no change.
+  std::string gesture;  // See CommandStack::Edit.
+
+  bool any() const { return !what.empty(); }
+  // A choice is one command; a drag of a slider is one command.
+  void Choose(const std::string& name) { *this = {name, ""}; }
+  void Drag(const std::string& name) { *this = {name, "recipe " + name}; }
+};
+
+// Shows the recipe and edits it.
+RecipeChange ShowRecipe(editor::Workspace& workspace,
+                        EditorState& state,
+                        import::CastRecipe& recipe);
+
+// Shows the part of the recipe below "Clothes".
+void ShowWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change);
+
+}  // namespace lararium::panels

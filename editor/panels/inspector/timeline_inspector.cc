@@ -1,0 +1,462 @@
+#include "editor/panels/inspector/timeline_inspector.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "editor/document/line_edits.h"
+#include "editor/panels/timeline/timeline_draw.h"
+#include "editor/panels/timeline/timeline_maths.h"
+#include "editor/panels/timeline/timeline_rows.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+#include "editor/panels/widgets/wrapped_field.h"
+#include "shared/bundle/show_manifest.h"
+#include "shared/human/face.h"
+#include "shared/stage/caption_file.h"
+
+namespace lararium::panels {
+
+using drama::LaneKind;
+using drama::TimelineItem;
+
+namespace {
+
+// The item that is shown, with its present fields.
+struct Item {
+  editor::Workspace& workspace;
+  EditorState& state;
+  TimelineItem at;
+  LaneKind kind = LaneKind::kMarkers;
+  std::string actor;
+  std::vector<drama::TimelineField> fields = {};
+
+  const Json* Find(const std::string& key) const {
+    const auto found = std::find_if(fields.rbegin(), fields.rend(),
+                                    [&](const auto& field) { return field.key == key; });
+    return found == fields.rend() ? nullptr : &found->value;
+  }
+  std::string TextOr(const std::string& key, const std::string& otherwise) const {
+    const Json* value = Find(key);
+    return value != nullptr && value->is_string() ? value->get<std::string>() : otherwise;
+  }
+  double NumberOr(const std::string& key, double otherwise) const {
+    const Json* value = Find(key);
+    return value != nullptr && value->is_number() ? value->get<double>() : otherwise;
+  }
+  void Set(const std::string& key, const Json& value) {
+    workspace.EditTimeline(
+        Text(Tr("set %s"), key.c_str()),
+        [&](drama::TimelineText& text) { return text.Set(at, key, value).status(); },
+        "timeline field " + key + std::to_string(at.lane) + "." + std::to_string(at.item));
+  }
+  void Unset(const std::string& key) {
+    workspace.EditTimeline(Text(Tr("clear %s"), key.c_str()),
+                           [&](drama::TimelineText& text) { return text.Unset(at, key).status(); });
+  }
+};
+
+void NumberField(Item& item,
+                 const char* label,
+                 const std::string& key,
+                 double otherwise,
+                 double speed,
+                 double min,
+                 double max,
+                 const char* format) {
+  double value = item.NumberOr(key, otherwise);
+  if (NumberProperty(item.workspace, label, value, speed, min, max, format)) {
+    item.Set(key, std::round(value * 1000.0) / 1000.0);
+  }
+}
+
+void TextField(Item& item, const char* label, const std::string& key) {
+  PropertyLabel(label);
+  std::string value = item.TextOr(key, "");
+  ImGui::PushID(key.c_str());
+  if (ImGui::InputText("##text", &value)) {
+    if (value.empty()) {
+      item.Unset(key);
+    } else {
+      item.Set(key, value);
+    }
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::PopID();
+}
+
+// A choice from a list of names, or a text field where the list is empty.
+void NameField(Item& item,
+               const char* label,
+               const std::string& key,
+               std::vector<std::string> names,
+               const char* none) {
+  const std::string value = item.TextOr(key, "");
+  if (names.empty()) {
+    TextField(item, label, key);
+    return;
+  }
+  PropertyLabel(label);
+  std::string chosen = value;
+  if (NameCombo(("##" + key).c_str(), chosen, names, none)) {
+    if (chosen.empty()) {
+      item.Unset(key);
+    } else {
+      item.Set(key, chosen);
+    }
+    item.workspace.EndGesture();
+  }
+}
+
+void BoolField(Item& item, const char* label, const std::string& key) {
+  const Json* value = item.Find(key);
+  bool on = value != nullptr && value->is_boolean() && value->get<bool>();
+  PropertyLabel(label);
+  ImGui::PushID(key.c_str());
+  if (ImGui::Checkbox("##on", &on)) {
+    if (on) {
+      item.Set(key, true);
+    } else {
+      item.Unset(key);
+    }
+    item.workspace.EndGesture();
+  }
+  ImGui::PopID();
+}
+
+// A point on the floor, {x =, z =, heading =}.
+void PointField(Item& item, const char* label, const std::string& key) {
+  const Json* value = item.Find(key);
+  Json point = value != nullptr && value->is_object() ? *value : Json::object();
+  PropertyLabel(label);
+  ImGui::PushID(key.c_str());
+  if (point.empty()) {
+    if (ImGui::Button(Tr("Set"))) {
+      item.Set(key, {{"x", 0.0}, {"z", 0.0}});
+      item.workspace.EndGesture();
+    }
+    ImGui::PopID();
+    return;
+  }
+  std::array<double, 2> place = {point.value("x", 0.0), point.value("z", 0.0)};
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - Px(8));
+  if (ImGui::DragScalarN("##place", ImGuiDataType_Double, place.data(), 2, 0.01f, nullptr, nullptr,
+                         "%.2f m")) {
+    point["x"] = std::round(place[0] * 1000.0) / 1000.0;
+    point["z"] = std::round(place[1] * 1000.0) / 1000.0;
+    item.Set(key, point);
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::SameLine();
+  if (ImGui::Button("\xc3\x97", ImVec2(ImGui::GetFrameHeight(), 0))) {
+    item.Unset(key);
+  }
+  Tooltip(Tr("Without it"));
+  double heading = point.value("heading", 0.0);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::DragScalar("##heading", ImGuiDataType_Double, &heading, 1.0f, nullptr, nullptr,
+                        "%.0f\xc2\xb0")) {
+    point["heading"] = std::round(heading * 10.0) / 10.0;
+    item.Set(key, point);
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::PopID();
+}
+
+const editor::StageWords* WordsOf(const editor::Workspace& workspace) {
+  return workspace.drama_run() != nullptr ? &workspace.drama_run()->words : nullptr;
+}
+
+template <typename List>
+std::vector<std::string> Names(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& entry : list) {
+    names.push_back(entry.name);
+  }
+  return names;
+}
+
+std::vector<std::string> ExpressionNames() {
+  std::vector<std::string> names;
+  for (int i = 0; i < human::kExpressionCount; ++i) {
+    names.emplace_back(human::NameOf(static_cast<human::Expression>(i)));
+  }
+  return names;
+}
+
+std::vector<std::string> ClipNames(const Item& item) {
+  const editor::StageWords* words = WordsOf(item.workspace);
+  const editor::StageWords::Person* person =
+      words != nullptr ? words->FindPerson(item.actor) : nullptr;
+  return person != nullptr ? Names(person->clips) : std::vector<std::string>();
+}
+
+std::vector<std::string> ThingNames(const editor::Workspace& workspace, bool burning) {
+  std::vector<std::string> names;
+  if (const editor::StageWords* words = WordsOf(workspace)) {
+    for (const editor::StageWords::Thing& thing : words->things) {
+      if (!burning || thing.burns) {
+        names.push_back(thing.name);
+      }
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> PeopleNames(const editor::Workspace& workspace) {
+  return Names(workspace.document().cast);
+}
+
+std::vector<std::string> TargetNames(const editor::Workspace& workspace) {
+  std::vector<std::string> names = {"visitor"};
+  for (const std::string& name : PeopleNames(workspace)) {
+    names.push_back(name);
+  }
+  for (const std::string& name : ThingNames(workspace, false)) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+void UseFields(Item& item) {
+  const editor::StageWords* words = WordsOf(item.workspace);
+  NameField(item, Tr("Object"), "object", ThingNames(item.workspace, false), nullptr);
+  std::vector<std::string> actions;
+  const editor::StageWords::Thing* thing =
+      words != nullptr ? words->FindThing(item.TextOr("object", "")) : nullptr;
+  if (thing != nullptr) {
+    actions = thing->actions;
+    actions.insert(actions.end(), {"take", "put", "give", "stand"});
+  }
+  NameField(item, Tr("Action"), "action", actions, nullptr);
+  const std::string action = item.TextOr("action", "");
+  if (action == "put") {
+    NameField(item, Tr("On"), "on", ThingNames(item.workspace, false), Tr("The floor"));
+    const editor::StageWords::Thing* on =
+        words != nullptr ? words->FindThing(item.TextOr("on", "")) : nullptr;
+    NameField(item, Tr("Surface"), "surface",
+              on != nullptr ? on->surfaces : std::vector<std::string>(), Tr("Any"));
+    if (on == nullptr) {
+      PointField(item, Tr("To"), "to");
+    }
+  } else if (action == "give") {
+    NameField(item, Tr("To whom"), "partner", PeopleNames(item.workspace), nullptr);
+  }
+}
+
+// The speaker of lines for this item.
+std::string SpeakerOf(const Item& item) {
+  return item.kind == LaneKind::kDescriptions ? bundle::LineEntry::kDescription : item.actor;
+}
+
+// The text of the line in one language.
+void LineText(Item& item, const bake::LineTable& table, const std::string& language) {
+  const std::string id = item.TextOr("line", "");
+  const bake::Line* line = table.Find(id);
+  std::string text;
+  if (line != nullptr && line->text.contains(language)) {
+    text = line->text.find(language)->second;
+  }
+  PropertyLabel(language.c_str());
+  ImGui::PushID(language.c_str());
+  if (WrappedField("says", text, 2, 6)) {
+    item.workspace.EditLines(Text(Tr("write %s"), id.c_str()),
+                             editor::WithText(table, id, SpeakerOf(item), language, text),
+                             "line " + id + " " + language);
+  }
+  EndGestureWithItem(item.workspace);
+  ImGui::PopID();
+}
+
+// A field for the tag of a new language; Enter adds it.
+void NewLanguage(Item& item, const bake::LineTable& table) {
+  std::string& tag = item.state.new_language;
+  PropertyLabel(Tr("Language"));
+  ImGui::InputTextWithHint("##language", Tr("la, it, en: then Enter"), &tag);
+  if (ImGui::IsItemDeactivatedAfterEdit() && stage::IsLanguageTag(tag)) {
+    bake::LineTable next = editor::WithLanguage(table, tag);
+    if (next != table) {
+      item.workspace.EditLines(Text(Tr("add the language %s"), tag.c_str()), std::move(next));
+    }
+    tag.clear();
+  }
+}
+
+// The choice of the line, and its text in each language.
+void LineFields(Item& item) {
+  const auto table = item.workspace.document().lines;  // Kept alive during the edit.
+  if (table == nullptr) {
+    TextField(item, Tr("Line"), "line");
+    return;
+  }
+  std::vector<std::string> ids;
+  for (const bake::Line& line : table->lines) {
+    ids.push_back(line.id);
+  }
+  const std::string id = item.TextOr("line", "");
+  if (table->Find(id) == nullptr) {
+    ids.insert(ids.begin(), id);
+  }
+  NameField(item, Tr("Line"), "line", ids, nullptr);
+  for (const std::string& language : table->languages) {
+    LineText(item, *table, language);
+  }
+  // The first language: the author starts with their own.
+  if (table->languages.empty()) {
+    LineText(item, *table, TrIn("the language's tag", "en"));
+  }
+  NewLanguage(item, *table);
+  PropertyLabel("");
+  if (ImGui::Button(Tr("Another line"))) {
+    const std::string next =
+        editor::FreeLineId(*table, SpeakerOf(item).empty() ? "text" : SpeakerOf(item));
+    item.workspace.EditLines(Text(Tr("add the line %s"), next.c_str()),
+                             editor::WithLine(*table, next, SpeakerOf(item)));
+    item.Set("line", next);
+    item.workspace.EndGesture();
+  }
+}
+
+void FieldsOfKind(Item& item) {
+  const editor::StageWords* words = WordsOf(item.workspace);
+  switch (item.kind) {
+    case LaneKind::kSpeech:
+    case LaneKind::kCaptions:
+      LineFields(item);
+      break;
+    case LaneKind::kDescriptions:
+      LineFields(item);
+      NumberField(item, Tr("Patience"), "patience", 5.0, 0.1, 0.0, 600.0, "%.1f s");
+      break;
+    case LaneKind::kGestures:
+      NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);
+      NameField(item, Tr("Part"), "part", {"upper", "arms", "head", "whole"}, Tr("Upper body"));
+      break;
+    case LaneKind::kWalks:
+      PointField(item, Tr("To"), "to");
+      PointField(item, Tr("Appears at"), "from");
+      NumberField(item, Tr("Speed"), "speed", 1.2, 0.01, 0.1, 10.0, "%.2f m/s");
+      BoolField(item, Tr("Hides"), "hide");
+      break;
+    case LaneKind::kUses:
+      UseFields(item);
+      break;
+    case LaneKind::kGaze:
+      NameField(item, Tr("At"), "target", TargetNames(item.workspace), nullptr);
+      break;
+    case LaneKind::kExpressions:
+      NameField(item, Tr("Expression"), "expression", ExpressionNames(), nullptr);
+      NumberField(item, Tr("Intensity"), "intensity", 1.0, 0.01, 0.0, 1.0, "%.2f");
+      NumberField(item, Tr("Fade"), "fade", 0.4, 0.01, 0.0, 100.0, "%.2f s");
+      break;
+    case LaneKind::kClips:
+      NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);
+      PointField(item, Tr("From"), "from");
+      PointField(item, Tr("To"), "to");
+      NumberField(item, Tr("Fade"), "fade", 0.3, 0.01, 0.0, 100.0, "%.2f s");
+      NameField(item, Tr("Easing"), "ease", {"linear", "in", "out", "smooth"}, Tr("Even"));
+      break;
+    case LaneKind::kLights:
+      NameField(item, Tr("Light"), "light", ThingNames(item.workspace, true), nullptr);
+      NumberField(item, Tr("Level"), "level", 1.0, 0.01, 0.0, 100.0, "%.2f");
+      NumberField(item, Tr("Fades in"), "seconds", 0.0, 0.01, 0.0, 3600.0, "%.2f s");
+      break;
+    case LaneKind::kSounds:
+      NameField(item, Tr("Sound"), "sound",
+                words != nullptr ? words->sounds : std::vector<std::string>(), nullptr);
+      NumberField(item, Tr("Gain"), "gain", 0.0, 0.1, -60.0, 20.0, "%.1f dB");
+      BoolField(item, Tr("Loops"), "loop");
+      NameField(item, Tr("With actor"), "actor", PeopleNames(item.workspace), Tr("Nobody"));
+      NameField(item, Tr("At object"), "object", ThingNames(item.workspace, false), Tr("Nothing"));
+      break;
+    case LaneKind::kMarkers:
+      TextField(item, Tr("Name"), "name");
+      break;
+  }
+}
+
+void ShowItem(editor::Workspace& workspace, EditorState& state, const TimelineItem& at) {
+  const drama::TimelineText& text = *workspace.script().timeline();
+  const drama::TimelineLane& lane = text.lanes()[at.lane];
+  Item item{workspace, state, at, lane.kind, lane.actor, text.Fields(at)};
+  Heading(ItemTitle(lane.kind));
+  if (!lane.actor.empty()) {
+    ImGui::SameLine();
+    DimText(lane.actor);
+  }
+  if (BeginProperties("item", 84.0f)) {
+    NumberField(item, Tr("Begins"), "at", 0.0, 0.02, 0.0, 1e6, "%.3f s");
+    NumberField(item, Tr("Lasts"), "length", 0.0, 0.02, 0.0, 1e6,
+                item.Find("length") != nullptr ? "%.3f s" : Tr("as long as it takes"));
+    FieldsOfKind(item);
+    TextField(item, Tr("Id"), "id");
+    EndProperties();
+  }
+  const size_t line =
+      workspace.script().timeline() != nullptr ? workspace.script().timeline()->LineOf(at) : 0;
+  if (line > 0 && ImGui::Button(Text(Tr("Show line %zu of the script"), line).c_str())) {
+    state.script_line = static_cast<int>(line);
+    state.bottom = BottomTab::kScript;
+  }
+}
+
+void ShowBlock(editor::Workspace& workspace, EditorState& state, const drama::TaskRecord& task) {
+  Heading(task.from_timeline ? Tr("As it was played") : Tr("Of the script"));
+  if (BeginProperties("block", 84.0f)) {
+    PropertyText(Tr("Who"), task.actor);
+    PropertyText(Tr("Does"), task.action + (task.object.empty() ? "" : " " + task.object));
+    PropertyText(Tr("Begins"), Text("%.2f s", task.began));
+    PropertyText(Tr("Ends"), Text("%.2f s", task.ended));
+    EndProperties();
+  }
+  if (!task.message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, task.failed ? Colours().error : Colours().dim);
+    ImGui::TextWrapped("%s", task.message.c_str());
+    ImGui::PopStyleColor();
+  }
+  const int line = LineOfPlace(task.where, workspace.paths().Drama().filename().string());
+  if (line > 0 && ImGui::Button(Text(Tr("Show line %d of the script"), line).c_str())) {
+    state.script_line = line;
+    state.bottom = BottomTab::kScript;
+  }
+  Hint(
+      Tr("The script does this when it runs. Change it there; what is written in track{...} can "
+         "be changed here."));
+}
+
+}  // namespace
+
+void ShowTimelineInspector(editor::Workspace& workspace,
+                           EditorState& state,
+                           const editor::ItemSet& selection,
+                           std::optional<uint32_t> block) {
+  const drama::TimelineText* text = workspace.script().timeline();
+  const editor::DramaRun* run = workspace.drama_run();
+  if (text == nullptr) {
+    Heading(Tr("The script cannot be read"));
+    ImGui::TextWrapped("%s", workspace.script().problem().message().c_str());
+    return;
+  }
+  if (selection.size() == 1) {
+    ShowItem(workspace, state, selection.front());
+  } else if (selection.size() > 1) {
+    const editor::TimeSpan span = editor::SpanOf(*text, selection);
+    Heading(TrCount("%d item", "%d items", static_cast<int>(selection.size())).c_str());
+    DimText(FormatTime(span.begin, 0.01) + " \xe2\x80\x93 " + FormatTime(span.end, 0.01));
+    Hint(
+        Tr("Drag to move them, drag an end to trim them, Delete to remove them, Ctrl+D to "
+           "duplicate them."));
+  } else if (block && run != nullptr && *block < run->tasks.size()) {
+    ShowBlock(workspace, state, run->tasks[*block]);
+  } else {
+    Hint(Tr("Choose an item to see what it says. Double-click a lane, or press A, to add one."));
+  }
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,74 @@
+#include "editor/panels/timeline/timeline_labels.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+
+#include "editor/document/timeline_fields.h"
+#include "editor/panels/widgets/text.h"
+
+namespace lararium::panels {
+
+using editor::TextOf;
+using drama::LaneKind;
+using drama::TaskRecord;
+
+namespace {
+
+std::string Shorten(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f", value);
+  return text;
+}
+
+std::string PointText(const Json& point) {
+  return Shorten(point.value("x", 0.0)) + ", " + Shorten(point.value("z", 0.0));
+}
+
+}  // namespace
+
+std::string LabelOf(LaneKind kind, const Json& fields) {
+  const auto point = [&](const char* key) {
+    const auto found = fields.find(key);
+    return found != fields.end() && found->is_object() ? PointText(*found) : "";
+  };
+  switch (kind) {
+    case LaneKind::kGaze: {
+      const std::string target = TextOf(fields, "target");
+      return !target.empty() ? target : point("target");
+    }
+    case LaneKind::kUses: {
+      const std::string action = TextOf(fields, "action");
+      const std::string object = TextOf(fields, "object");
+      return action.empty() || object.empty() ? action + object : action + " " + object;
+    }
+    case LaneKind::kClips:
+    case LaneKind::kWalks: {
+      const std::string clip = TextOf(fields, "clip");
+      const std::string to = point("to");
+      const std::string from = point("from");
+      const std::string where = !to.empty()                     ? "\xe2\x86\x92 " + to
+                                : !from.empty() && clip.empty() ? Text(Tr("at %s"), from.c_str())
+                                : fields.contains("hide")       ? Tr("leaves")
+                                                                : "";
+      return clip.empty() || where.empty() ? clip + where : clip + " " + where;
+    }
+    default:
+      return TextOf(fields, editor::NamingField(kind));
+  }
+}
+
+std::string BlockLabel(const TaskRecord& task, bool of_object) {
+  std::string action = task.action;
+  for (const char* prefix : {"say ", "gesture ", "express ", "use ", "play "}) {
+    if (action.starts_with(prefix)) {
+      action = action.substr(std::string_view(prefix).size());
+      break;
+    }
+  }
+  std::replace(action.begin(), action.end(), '_', ' ');
+  return of_object ? task.actor + ": " + action
+                   : action + (task.object.empty() ? "" : " " + task.object);
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,44 @@
+#pragma once
+
+// The camera view: the recording, tracked and composited. The stage, the handles of the selection
+// and overlay meshes of occluders are drawn over it.
+
+#include <imgui.h>
+
+#include "editor/panels/viewport/compare_slider.h"
+#include "editor/panels/viewport/corner_view.h"
+#include "editor/panels/viewport/light_view.h"
+#include "editor/panels/viewport/overlay_mesh_view.h"
+#include "editor/panels/viewport/walk_view.h"
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+#include "shared/render/gl/texture.h"
+
+namespace lararium::panels {
+
+class CameraView {
+ public:
+  // Fills the current window.
+  void Show(editor::Workspace& workspace, EditorState& state);
+
+ private:
+  // Shows the corners of the drawn occluder that is selected, if there is one. origin, size: the
+  // picture on the screen.
+  void ShowCorners(editor::Workspace& workspace,
+                   const EditorState& state,
+                   const editor::PreviewPicture& picture,
+                   const ImVec2& origin,
+                   const ImVec2& size,
+                   bool hovered,
+                   ImDrawList& draw);
+
+  render::Texture texture_;
+  OverlayMeshView overlays_;
+  WalkView walks_;
+  CompareSlider wipe_;
+  CornerDrag corners_;
+  LightOverlay light_;
+  const editor::PreviewPicture* uploaded_ = nullptr;
+};
+
+}  // namespace lararium::panels

@@ -1,0 +1,326 @@
+#include "editor/panels/viewport/check_point_panel.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <string>
+
+#include "editor/jobs/check_points.h"
+#include "editor/panels/viewport/gizmo_view.h"
+#include "editor/panels/viewport/picks_list.h"
+#include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
+#include "editor/panels/widgets/widgets.h"
+#include "shared/core/units.h"
+
+namespace lararium::panels {
+
+namespace {
+
+using editor::CheckPointReport;
+using editor::CheckReport;
+using Verdict = CheckPointReport::Verdict;
+
+const char* VerdictText(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNotPicked:
+      return Tr("not picked here");
+    case Verdict::kNotLocated:
+      return Tr("cannot be located");
+    case Verdict::kPicksDisagree:
+      return Tr("picks disagree");
+    case Verdict::kWeak:
+      return Tr("from one direction");
+    case Verdict::kGood:
+      return Tr("good");
+    case Verdict::kOff:
+      return Tr("off");
+  }
+  return "";
+}
+
+void Sign(Verdict verdict) {
+  ImGui::TextColored(VerdictColour(verdict), "%s", IconText(VerdictIcon(verdict)).c_str());
+  ImGui::SameLine(0.0f, Px(6));
+}
+
+void EditPoint(editor::Workspace& workspace,
+               const std::string& name,
+               const std::string& command,
+               const Eigen::Vector3d& position,
+               std::string_view gesture) {
+  workspace.Edit(
+      command,
+      [&](editor::ProjectDocument& document) {
+        for (editor::CheckPointDocument& point : document.check_points) {
+          if (point.name == name) {
+            point.position = position;
+          }
+        }
+      },
+      gesture);
+}
+
+// The result for the point at this place.
+void ShowHere(const CheckPointReport& here) {
+  PropertyText(Tr("Here"), VerdictText(here.verdict));
+  if (!here.located()) {
+    return;
+  }
+  PropertyText(TrIn("column", "Picks"),
+               Text(Tr("%d, agree to %.2f px"), here.anchor.picks, here.anchor.error_px));
+  PropertyText(Tr("Off by"), Text(Tr("%.1f cm of the stage, %.2f px"),
+                                  kCentimetresPerMetre * here.distance_m, here.distance_px));
+  PropertyText(Tr("for each px"),
+               Text("\xc2\xb1 %.1f cm", kCentimetresPerMetre * here.deviation_m));
+}
+
+void ShowPointButtons(editor::Workspace& workspace,
+                      EditorState& state,
+                      const std::string& name,
+                      const CheckPointReport& here) {
+  const ImVec2 wide(-FLT_MIN, 0);
+  if (state.view != ViewKind::kPicks && ImGui::Button(Tr("Pick in the training images"), wide)) {
+    state.view = ViewKind::kPicks;
+  }
+  ImGui::BeginDisabled(!here.located());
+  if (ImGui::Button(Tr("Its position is where it was picked here"), wide)) {
+    EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), here.found, "");
+  }
+  ImGui::EndDisabled();
+  ImGui::BeginDisabled(here.verdict == Verdict::kNotPicked);
+  if (ImGui::Button(Tr("Clear its picks here"), wide)) {
+    workspace.EditPlace(Tr("clear picks"), [&](editor::PlaceDocument& place) {
+      editor::ClearCheckPicks(place, name);
+    });
+  }
+  ImGui::EndDisabled();
+  if (ImGui::Button(Tr("Remove"), wide)) {
+    workspace.Edit(Text(Tr("remove %s"), name.c_str()), [&](editor::ProjectDocument& document) {
+      editor::RemoveCheckPoint(document, name);
+    });
+    state.selection = {};
+  }
+}
+
+// Columns: point, centimetres, pixels.
+void ShowTable(EditorState& state, const CheckReport& report) {
+  if (!ImGui::BeginTable("points", 3, ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  ImGui::TableSetupColumn(Tr("Point"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("cm", ImGuiTableColumnFlags_WidthFixed, Px(60));
+  ImGui::TableSetupColumn("px", ImGuiTableColumnFlags_WidthFixed, Px(56));
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
+  ImGui::TableHeadersRow();
+  ImGui::PopStyleColor();
+  for (const CheckPointReport& point : report.points) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    Sign(point.verdict);
+    const Selection selection{Selection::Kind::kCheckPoint, point.name};
+    if (ImGui::Selectable(point.name.c_str(), state.selection == selection,
+                          ImGuiSelectableFlags_SpanAllColumns)) {
+      state.selection = selection;
+    }
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(
+        point.located() ? Text("%.1f", kCentimetresPerMetre * point.distance_m).c_str() : "-");
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(point.located() ? Text("%.1f", point.distance_px).c_str() : "-");
+  }
+  ImGui::EndTable();
+}
+
+void ShowOutcome(editor::Workspace& workspace, const CheckReport& report) {
+  const bool good = report.verdict == CheckReport::Verdict::kGood;
+  const bool poor = report.verdict == CheckReport::Verdict::kPoor;
+  Sign(good ? Verdict::kGood : poor ? Verdict::kOff : Verdict::kNotPicked);
+  Heading(good ? Tr("Good") : poor ? Tr("Poor") : Tr("Not known yet"));
+  ImGui::TextWrapped("%s", editor::CheckAdvice(report, true).c_str());
+  const bool can_lay = report.map_from_stage && report.fit_good;
+  ImGui::BeginDisabled(!can_lay);
+  if (ImGui::Button(Tr("Lay the stage by the points"), ImVec2(-FLT_MIN, 0))) {
+    const geometry::Similarity3 laid =
+        workspace.loaded().picks.map_from_picked.Inverse() * *report.map_from_stage;
+    workspace.EditPlace(Tr("lay the stage by the points"),
+                        [&](editor::PlaceDocument& place) { place.picked_from_stage = laid; });
+  }
+  ImGui::EndDisabled();
+}
+
+void ShowName(editor::Workspace& workspace, EditorState& state, const std::string& name) {
+  std::string typed = name;
+  PropertyLabel(Tr("Name"));
+  if (!ImGui::InputText("##name", &typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    return;
+  }
+  const auto& points = workspace.document().check_points;
+  const bool taken =
+      std::any_of(points.begin(), points.end(), [&](const auto& p) { return p.name == typed; });
+  if (typed.empty() || typed.size() > editor::kMaxCheckPointName || taken) {
+    return;
+  }
+  workspace.Edit(Text(Tr("name %s"), typed.c_str()), [&](editor::ProjectDocument& document) {
+    editor::RenameCheckPoint(document, name, typed);
+  });
+  state.selection.name = typed;
+}
+
+}  // namespace
+
+const CheckReport& CheckedPoints(const editor::Workspace& workspace, EditorState& state) {
+  CheckView& check = state.check;
+  const auto document = workspace.commands().snapshot();
+  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::PlaceDocument* place = workspace.place();
+  if (place == nullptr || loaded.database == nullptr) {
+    check = {};
+    for (const editor::CheckPointDocument& point : document->check_points) {
+      editor::CheckPointReport& unknown = check.report.points.emplace_back();
+      unknown.name = point.name;
+      unknown.on_stage = point.position;
+    }
+    return check.report;
+  }
+  if (check.document != document || check.database != loaded.database ||
+      check.place != place->name || check.map_from_picked != loaded.picks.map_from_picked) {
+    check.document = document;
+    check.database = loaded.database;
+    check.place = place->name;
+    check.map_from_picked = loaded.picks.map_from_picked;
+    check.report = editor::CheckStaging(*document, *place, *loaded.database, check.map_from_picked);
+  }
+  return check.report;
+}
+
+const editor::CheckPointDocument* SelectedCheckPoint(const editor::Workspace& workspace,
+                                                     const EditorState& state) {
+  const auto& points = workspace.document().check_points;
+  const auto found = std::find_if(points.begin(), points.end(),
+                                  [&](const auto& p) { return p.name == state.selection.name; });
+  const bool selected = state.selection.kind == Selection::Kind::kCheckPoint;
+  return selected && found != points.end() ? &*found : nullptr;
+}
+
+ImVec4 VerdictColour(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return Colours().good;
+    case Verdict::kNotPicked:
+      return Colours().dim;
+    default:
+      return Colours().warning;
+  }
+}
+
+Icon VerdictIcon(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kGood:
+      return Icon::kGood;
+    case Verdict::kNotPicked:
+      return Icon::kNothingYet;
+    case Verdict::kNotLocated:
+      return Icon::kUnclear;
+    default:
+      return Icon::kWarning;
+  }
+}
+
+void ShowCheckPoint(editor::Workspace& workspace,
+                    EditorState& state,
+                    const editor::CheckPointDocument& point) {
+  // Copied, because edits below change it.
+  const CheckReport report = CheckedPoints(workspace, state);
+  const auto found = std::find_if(report.points.begin(), report.points.end(),
+                                  [&](const auto& p) { return p.name == point.name; });
+  const CheckPointReport here = found == report.points.end() ? CheckPointReport() : *found;
+  const std::string name = point.name;
+  Heading(name.c_str());
+  Hint(
+      Tr("A point of the stage that is looked for at every place: by three of them it shows "
+         "whether the stage lies at each place as it should."));
+  if (BeginProperties("check point")) {
+    ShowName(workspace, state, name);
+    Eigen::Vector3d position = point.position;
+    if (VectorProperty(workspace, Tr("Position"), position, 0.005, "%.3f")) {
+      EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), position, "check point");
+    }
+    ShowHere(here);
+    EndProperties();
+  }
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  Heading(Text(Tr("All of them at %s"), workspace.place()->name.c_str()).c_str());
+  ShowTable(state, report);
+  ShowOutcome(workspace, report);
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  ShowPicksList(workspace, state);
+  ShowPointButtons(workspace, state, name, here);
+}
+
+void DrawCheckPoints(const editor::Workspace& workspace,
+                     EditorState& state,
+                     const ViewCamera& view,
+                     ImDrawList& draw) {
+  if (workspace.place() == nullptr || SelectedCheckPoint(workspace, state) == nullptr) {
+    return;
+  }
+  const geometry::Similarity3& world_from_stage = workspace.place()->picked_from_stage;
+  for (const CheckPointReport& point : CheckedPoints(workspace, state).points) {
+    const bool selected = point.name == state.selection.name;
+    const ImU32 packed = Packed(selected ? OverPicture().accent : OverPicture().warning);
+    const auto expected = view.Project(world_from_stage * point.on_stage);
+    if (point.located()) {
+      DrawWorldLine(view, world_from_stage * point.on_stage, world_from_stage * point.found, packed,
+                    Px(1.5f), draw);
+      if (const auto pixel = view.Project(world_from_stage * point.found)) {
+        draw.AddCircle(ToImGui(*pixel), Px(6), packed, 0, Px(1.5f));
+      }
+    }
+    if (expected) {
+      DrawCross(ToImGui(*expected), packed, draw);
+      LabelMark(ToImGui(*expected), point.name, Packed(OverPicture().text), draw);
+    }
+  }
+}
+
+void CheckPointDialog(editor::Workspace& workspace, EditorState& state) {
+  Hint(
+      Tr("Something that you will find at every place, such as a corner of the counter. Click it "
+         "in two training images of each place; its position on the stage is typed, or taken "
+         "from the first place."));
+  std::string& name = state.fields.name;
+  if (BeginProperties("check point")) {
+    PropertyLabel(Tr("Name"));
+    if (ImGui::IsWindowAppearing()) {
+      ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::InputText("##name", &name);
+    EndProperties();
+  }
+  const auto& points = workspace.document().check_points;
+  std::string problem;
+  if (name.empty()) {
+    problem = Tr("It needs a name.");
+  } else if (name.size() > editor::kMaxCheckPointName) {
+    problem = Tr("The name is too long.");
+  } else if (std::any_of(points.begin(), points.end(),
+                         [&](const auto& p) { return p.name == name; })) {
+    problem = Tr("That name is taken.");
+  } else if (points.size() >= editor::kMaxCheckPoints) {
+    problem = Tr("There are too many already.");
+  }
+  const DialogAnswer answer = DialogButtons(Tr("Add"), problem);
+  if (answer != DialogAnswer::kNone) {
+    state.dialog = Dialog::kNone;
+  }
+  if (answer == DialogAnswer::kAct) {
+    workspace.Edit(Text(Tr("add %s"), name.c_str()), [&](editor::ProjectDocument& document) {
+      document.check_points.push_back({name, {}});
+    });
+    state.selection = {Selection::Kind::kCheckPoint, name};
+    state.view = ViewKind::kPicks;
+  }
+}
+
+}  // namespace lararium::panels

@@ -1,0 +1,31 @@
+#pragma once
+
+// A comparison of before and after: left of a line that can be dragged, the camera's image alone
+// covers the picture.
+
+#include <imgui.h>
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+#include "shared/render/gl/texture.h"
+
+namespace lararium::panels {
+
+class CompareSlider {
+ public:
+  // origin, size: the picture on the screen. hovered: the pointer is over the view. Returns true
+  // while the line uses the pointer. Does nothing while the picture has no image to compare with.
+  bool Show(EditorState& state,
+            const editor::PreviewPicture& picture,
+            const ImVec2& origin,
+            const ImVec2& size,
+            bool hovered,
+            ImDrawList& draw);
+
+ private:
+  render::Texture plain_;
+  const editor::PreviewPicture* uploaded_ = nullptr;
+  bool dragged_ = false;
+};
+
+}  // namespace lararium::panels

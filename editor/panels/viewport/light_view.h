@@ -1,0 +1,32 @@
+#pragma once
+
+// The overlay of the selected light probe on the camera's picture: the balls, picks on the stage,
+// the histogram.
+
+#include <imgui.h>
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+class LightOverlay {
+ public:
+  // Whether it needs the camera's image alone in addition to the picture (Workspace::SetCompare).
+  static bool ComparesPictures(const editor::Workspace& workspace, const EditorState& state);
+
+  // origin, size: the picture on the screen. hovered: the pointer is over the view. Does nothing
+  // where no probe is selected.
+  void Show(editor::Workspace& workspace,
+            EditorState& state,
+            const editor::PreviewPicture& picture,
+            const ImVec2& origin,
+            const ImVec2& size,
+            bool hovered,
+            ImDrawList& draw);
+
+ private:
+  bool drags_ball_ = false;
+};
+
+}  // namespace lararium::panels

@@ -1,0 +1,22 @@
+#pragma once
+
+// The picks in the training images of the current subject: a point of the stage, a check point, a
+// point of a model, or the corners of an occluder. Each pick links to its image and can be removed
+// alone.
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// A line for each pick in the inspector; nothing where there is none.
+void ShowPicksList(editor::Workspace& workspace, EditorState& state);
+
+// Handles the keys of KeyScope::kPicks while the picks are shown. The map must have at least one
+// image.
+void HandlePickKeys(editor::Workspace& workspace, EditorState& state);
+
+// Buttons to the previous and the next image with a pick.
+void ShowPickSteps(const editor::Workspace& workspace, EditorState& state);
+
+}  // namespace lararium::panels

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/workspace.h"
+
+namespace lararium::panels {
+
+// A ball that changes a rotation in the axes of the open view (camera view or scene view). Returns
+// true while it is dragged.
+bool ShowTrackball(editor::Workspace& workspace,
+                   const EditorState& state,
+                   Eigen::Quaterniond& world_from_thing);
+
+}  // namespace lararium::panels

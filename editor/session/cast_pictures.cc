@@ -1,0 +1,369 @@
+#include "editor/session/cast_pictures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stop_token>
+#include <utility>
+
+#include "editor/import/cast/cast_presets.h"
+#include "editor/jobs/baking.h"
+#include "editor/jobs/thumbnail.h"
+#include "shared/core/file.h"
+#include "shared/core/memory.h"
+#include "shared/human/human.h"
+
+namespace lararium::editor {
+namespace {
+
+constexpr std::string_view kNoFile = " none";
+
+std::string StampOf(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  return error ? std::string(kNoFile) : " " + std::to_string(time.time_since_epoch().count());
+}
+
+// The studio needs tens of megabytes, so it is released when there is nothing to draw for this
+// long. The time is shorter while no portrait is shown: list pictures are drawn once, and the
+// preview starts when a project is opened.
+constexpr std::chrono::seconds kKept(20);
+constexpr std::chrono::seconds kKeptForLists(2);
+
+// Cancels baking when the thread is asked to stop.
+class UntilStopped : public Progress {
+ public:
+  explicit UntilStopped(std::stop_token stop) : stop_(std::move(stop)) {}
+
+  void Report(std::string_view, double) override {}
+  bool Cancelled() const override { return stop_.stop_requested(); }
+
+ private:
+  std::stop_token stop_;
+};
+
+}  // namespace
+
+// State that only the thread uses.
+class CastPictures::Painter {
+ public:
+  struct Result {
+    Picture thumbnail;
+    std::shared_ptr<const CastPortrait> portrait;
+  };
+
+  Painter(std::shared_ptr<std::mutex> baking, std::stop_token stop)
+      : baking_(std::move(baking)), progress_(std::move(stop)) {}
+
+  lararium::Result<Result> Paint(const ProjectPaths& paths,
+                                 const Order& order,
+                                 std::vector<std::string>& warnings) {
+    if (!order.object.empty()) {
+      return PaintObject(paths.Prop(order.object));
+    }
+    const std::filesystem::path file = paths.Human(order.member.name);
+    if (seated_ != order.key) {
+      LARARIUM_RETURN_IF_ERROR(BakeAlone(paths, order.member, warnings));
+    }
+    Result result;
+    if (std::optional<cv::Mat> known = LoadThumbnail(file)) {
+      result.thumbnail = std::make_shared<const cv::Mat>(std::move(*known));
+    }
+    if (order.gaze || result.thumbnail == nullptr) {
+      LARARIUM_RETURN_IF_ERROR(Seat(file, order.key));
+    }
+    if (result.thumbnail == nullptr) {
+      LARARIUM_ASSIGN_OR_RETURN(cv::Mat made, MakeThumbnail(file, *studio_));
+      result.thumbnail = std::make_shared<const cv::Mat>(std::move(made));
+    }
+    if (order.gaze) {
+      LARARIUM_ASSIGN_OR_RETURN(result.portrait, Portray(*order.gaze));
+    }
+    return result;
+  }
+
+  // Releases the studio; it is created again when it is needed.
+  void Rest() {
+    studio_.reset();
+    seated_.clear();
+    TrimHeap();
+  }
+
+ private:
+  Status BakeAlone(const ProjectPaths& paths,
+                   const CastDocument& member,
+                   std::vector<std::string>& warnings) {
+    const std::lock_guard turn(*baking_);
+    ProjectDocument alone;
+    alone.cast.push_back(member);
+    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, progress_));
+    TrimHeap();
+    std::move(report.warnings.begin(), report.warnings.end(), std::back_inserter(warnings));
+    return Status();
+  }
+
+  Status OpenStudio() {
+    if (studio_ == nullptr) {
+      LARARIUM_ASSIGN_OR_RETURN(studio_, Studio::Create());
+    }
+    return Status();
+  }
+
+  lararium::Result<Result> PaintObject(const std::filesystem::path& file) {
+    LARARIUM_RETURN_IF_ERROR(OpenStudio());
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+    LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(bytes, file.string()));
+    LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<const stage::ObjectModel> model,
+                              stage::ObjectModel::Create(std::move(prop), file.string()));
+    LARARIUM_ASSIGN_OR_RETURN(cv::Mat picture,
+                              studio_->ShootThing(model, cv::Size(kThumbnailSide, kThumbnailSide)));
+    return Result{std::make_shared<const cv::Mat>(std::move(picture)), nullptr};
+  }
+
+  Status Seat(const std::filesystem::path& file, const std::string& key) {
+    if (seated_ == key) {
+      return Status();
+    }
+    LARARIUM_RETURN_IF_ERROR(OpenStudio());
+    seated_.clear();
+    LARARIUM_ASSIGN_OR_RETURN(human::Human loaded, human::LoadHuman(file));
+    const auto human = std::make_shared<const human::Human>(std::move(loaded));
+    LARARIUM_RETURN_IF_ERROR(studio_->Seat(human, CalmPose(*human)));
+    joints_ = human->skeleton.names;
+    parents_ = human->skeleton.parents;
+    seated_ = key;
+    return Status();
+  }
+
+  lararium::Result<std::shared_ptr<const CastPortrait>> Portray(const Gaze& gaze) {
+    LARARIUM_ASSIGN_OR_RETURN(StudioShot shot, studio_->Shoot(gaze.view, gaze.size));
+    return std::make_shared<const CastPortrait>(CastPortrait{
+        gaze.name, gaze.view, std::move(shot.picture), joints_, parents_, std::move(shot.joints)});
+  }
+
+  std::shared_ptr<std::mutex> baking_;
+  UntilStopped progress_;
+  std::unique_ptr<Studio> studio_;
+  std::string seated_;  // The key of the person in the studio.
+  std::vector<std::string> joints_;
+  std::vector<int16_t> parents_;
+};
+
+CastPictures::CastPictures(ProjectPaths project,
+                           std::filesystem::path presets,
+                           std::shared_ptr<std::mutex> baking)
+    : project_(std::move(project)),
+      presets_folder_{std::move(presets)},
+      baking_(std::move(baking)) {}
+
+CastPictures::~CastPictures() = default;
+
+// A key that changes with the person's appearance: the project's settings and the files that they
+// refer to.
+std::string CastPictures::KeyOf(const CastDocument& member) const {
+  CastDocument seen = member;
+  seen.voice = {};
+  std::string key = FormatCastMember(seen).dump();
+  for (const std::string& file : {member.model, member.bone_map}) {
+    key += file.empty() ? "" : StampOf(project_.Resolve(file));
+  }
+  for (const ClipDocument& clip : member.clips) {
+    key += StampOf(project_.Resolve(clip.file));
+  }
+  return key;
+}
+
+void CastPictures::SetCast(const std::vector<CastDocument>& cast) {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, Sitter> now;
+  for (const CastDocument& member : cast) {
+    Sitter& sitter = now[member.name];
+    if (const auto known = cast_.find(member.name); known != cast_.end()) {
+      sitter = std::move(known->second);
+    }
+    sitter.member = member;
+    sitter.key = KeyOf(member);
+  }
+  cast_ = std::move(now);
+  Start();
+}
+
+void CastPictures::SetObjects(const std::vector<ObjectDocument>& objects) {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string, Thing> now;
+  for (const ObjectDocument& object : objects) {
+    Thing& thing = now[object.name];
+    if (const auto known = objects_.find(object.name); known != objects_.end()) {
+      thing = std::move(known->second);
+    }
+    thing.key = StampOf(project_.Prop(object.name));
+    if (thing.key == kNoFile) {
+      thing.done = thing.key;
+    }
+  }
+  objects_ = std::move(now);
+  Start();
+}
+
+void CastPictures::WantPresets() {
+  const std::lock_guard lock(mutex_);
+  if (!presets_.empty()) {
+    return;
+  }
+  for (const std::string& name : import::CastPresetNames()) {
+    Sitter& sitter = presets_[name];
+    sitter.member.name = sitter.member.preset = sitter.key = name;
+  }
+  Start();
+}
+
+void CastPictures::Look(const std::string& name, const StudioView& view, cv::Size size) {
+  const std::lock_guard lock(mutex_);
+  gaze_ = name.empty() ? std::nullopt : std::optional(Gaze{name, view, size});
+  Start();
+}
+
+CastPictures::Picture CastPictures::Thumbnail(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = cast_.find(name);
+  return found == cast_.end() ? nullptr : found->second.thumbnail;
+}
+
+CastPictures::Picture CastPictures::PresetThumbnail(const std::string& preset) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = presets_.find(preset);
+  return found == presets_.end() ? nullptr : found->second.thumbnail;
+}
+
+CastPictures::Picture CastPictures::ObjectThumbnail(const std::string& object) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = objects_.find(object);
+  return found == objects_.end() ? nullptr : found->second.thumbnail;
+}
+
+std::shared_ptr<const CastPortrait> CastPictures::portrait() const {
+  const std::lock_guard lock(mutex_);
+  return portrait_;
+}
+
+bool CastPictures::Working() const {
+  const std::lock_guard lock(mutex_);
+  const std::optional<Order> order = NextOrder();
+  return order && !order->of_preset && order->object.empty();
+}
+
+bool CastPictures::Working(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = cast_.find(name);
+  return found != cast_.end() && found->second.done != found->second.key;
+}
+
+std::vector<Status> CastPictures::TakeProblems() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(problems_, {});
+}
+
+std::vector<std::string> CastPictures::TakeWarnings() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(warnings_, {});
+}
+
+// Requires the lock. The first order starts the thread.
+void CastPictures::Start() {
+  if (!NextOrder()) {
+    return;
+  }
+  if (!thread_) {
+    thread_.emplace([this](std::stop_token stop) { Run(stop); });
+  }
+  ordered_.notify_one();
+}
+
+// Requires the lock. The portrait comes first, then the cast, objects, and presets.
+std::optional<CastPictures::Order> CastPictures::NextOrder() const {
+  if (gaze_) {
+    const auto found = cast_.find(gaze_->name);
+    if (found != cast_.end() && (found->second.key != gaze_done_ || gaze_ != gazed_)) {
+      return Order{"", false, found->second.member, found->second.key, gaze_};
+    }
+  }
+  const auto next_of = [](const std::map<std::string, Sitter>& people,
+                          bool of_preset) -> std::optional<Order> {
+    for (const auto& [name, sitter] : people) {
+      if (sitter.done != sitter.key) {
+        return Order{"", of_preset, sitter.member, sitter.key, {}};
+      }
+    }
+    return std::nullopt;
+  };
+  if (std::optional<Order> person = next_of(cast_, false)) {
+    return person;
+  }
+  for (const auto& [name, thing] : objects_) {
+    if (thing.done != thing.key) {
+      return Order{name, false, {}, thing.key, {}};
+    }
+  }
+  return next_of(presets_, true);
+}
+
+void CastPictures::Deliver(const Order& order,
+                           Picture thumbnail,
+                           std::shared_ptr<const CastPortrait> portrait) {
+  if (const auto thing = objects_.find(order.object); thing != objects_.end()) {
+    thing->second.done = order.key;
+    thing->second.thumbnail = std::move(thumbnail);
+    return;
+  }
+  auto& people = order.of_preset ? presets_ : cast_;
+  if (const auto found = people.find(order.member.name); found != people.end()) {
+    found->second.done = order.key;
+    if (thumbnail != nullptr) {
+      found->second.thumbnail = std::move(thumbnail);
+    }
+  }
+  if (order.gaze) {
+    gaze_done_ = order.key;
+    gazed_ = order.gaze;
+    if (portrait != nullptr) {
+      portrait_ = std::move(portrait);
+    }
+  }
+}
+
+// Waits for the next order; returns false when the thread must end.
+bool CastPictures::AwaitOrder(std::unique_lock<std::mutex>& lock,
+                              const std::stop_token& stop,
+                              Painter& painter) {
+  const auto ordered = [this] { return NextOrder().has_value(); };
+  if (ordered_.wait_for(lock, stop, gaze_ ? kKept : kKeptForLists, ordered)) {
+    return true;
+  }
+  lock.unlock();
+  painter.Rest();
+  lock.lock();
+  return ordered_.wait(lock, stop, ordered);
+}
+
+void CastPictures::Run(std::stop_token stop) {
+  Painter painter(baking_, stop);
+  std::unique_lock lock(mutex_);
+  while (AwaitOrder(lock, stop, painter)) {
+    const Order order = *NextOrder();
+    lock.unlock();
+    std::vector<std::string> warnings;
+    auto painted = painter.Paint(order.of_preset ? presets_folder_ : project_, order, warnings);
+    lock.lock();
+    if (stop.stop_requested()) {
+      return;
+    }
+    if (!painted.ok()) {
+      problems_.push_back(painted.status());
+      Deliver(order, nullptr, nullptr);
+    } else {
+      Deliver(order, std::move(painted->thumbnail), std::move(painted->portrait));
+    }
+    std::move(warnings.begin(), warnings.end(), std::back_inserter(warnings_));
+  }
+}
+
+}  // namespace lararium::editor

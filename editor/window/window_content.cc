@@ -1,0 +1,229 @@
+#include "editor/window/window_content.h"
+
+#include <chrono>
+#include <utility>
+
+#include "editor/document/user_folders.h"
+#include "editor/panels/dialogs/dialogs.h"
+#include "editor/session/sample.h"
+#include "editor/text/text.h"
+
+namespace lararium::editor {
+
+using panels::StartChoice;
+
+namespace {
+
+std::filesystem::path SettingsFile() { return ConfigFolder() / "editor.json"; }
+std::filesystem::path SizesFile() { return StateFolder() / "window.json"; }
+
+}  // namespace
+
+Settings RestoreSettings(Log& log) {
+  Result<Settings> settings = LoadSettings(SettingsFile());
+  if (!settings.ok()) {
+    log.warn("{}", settings.message());
+    settings = Settings();
+  }
+  LoadTexts(TextFolder(), settings->language);
+  return *settings;
+}
+
+WindowSizes RestoreWindowSizes(Log& log) {
+  const Result<WindowSizes> sizes = LoadWindowSizes(SizesFile());
+  if (!sizes.ok()) {
+    log.warn("{}", sizes.message());
+    return WindowSizes();
+  }
+  return *sizes;
+}
+
+void KeepWindowSizes(const WindowSizes& sizes, Log& log) {
+  if (const Status status = SaveWindowSizes(SizesFile(), sizes); !status.ok()) {
+    log.warn("{}", status.message());
+  }
+}
+
+WindowContent::WindowContent(std::unique_ptr<Workspace> workspace,
+                             const Settings& settings,
+                             const PanelSizes& panels,
+                             Log& log)
+    : log_(log),
+      settings_(settings),
+      panels_(panels),
+      recent_(StateFolder() / "recent.json"),
+      sample_(ShippedSample()) {
+  if (const Status status = recent_.Reload(); !status.ok()) {
+    start_.SetProblem(status.message());
+  }
+  if (workspace != nullptr) {
+    Enter(std::move(workspace));
+  }
+}
+
+WindowContent::~WindowContent() { KeepPicture(); }
+
+std::string WindowContent::Title() const {
+  if (workspace_ == nullptr) {
+    return "Lararium";
+  }
+  return workspace_->document().title + (workspace_->commands().dirty() ? " \xe2\x80\xa2" : "") +
+         " \xe2\x80\x93 Lararium";
+}
+
+void WindowContent::AddCharacter(char32_t character) {
+  if (keys_.empty() || keys_.back().character != 0) {
+    keys_.push_back({});  // Typed by an input method, not by a key.
+  }
+  keys_.back().character = character;
+}
+
+void WindowContent::Enter(std::unique_ptr<Workspace> workspace) {
+  workspace_ = std::move(workspace);
+  pictured_ = false;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const RecentProject project{workspace_->paths().folder, workspace_->document().title,
+                              std::chrono::duration_cast<std::chrono::seconds>(now).count()};
+  if (const Status status = recent_.NoteOpened(project); !status.ok()) {
+    log_.warn("{}", status.message());  // Not fatal.
+  }
+}
+
+void WindowContent::Leave() {
+  KeepPicture();
+  layout_.reset();
+  workspace_.reset();
+  start_ = {};
+  if (const Status status = recent_.Reload(); !status.ok()) {
+    start_.SetProblem(status.message());
+  }
+}
+
+void WindowContent::RequestQuit() {
+  if (layout_ != nullptr && workspace_->AtLongWork()) {
+    layout_->RequestQuit();
+  } else {
+    quit_ = true;
+  }
+}
+
+void WindowContent::KeepPicture() {
+  if (workspace_ != nullptr && workspace_->picture() != nullptr) {
+    pictured_ = true;
+    const PreviewPicture& picture = *workspace_->picture();
+    const Status status = SaveProjectPicture(workspace_->paths().folder, picture.bgr);
+    if (!status.ok()) {
+      log_.warn("{}", status.message());
+    }
+  }
+}
+
+void WindowContent::Open(const std::filesystem::path& project) {
+  Result<std::unique_ptr<Workspace>> workspace = Workspace::Open({project}, log_);
+  if (workspace.ok()) {
+    Enter(std::move(*workspace));
+  } else {
+    start_.SetProblem(workspace.message());
+  }
+}
+
+Status WindowContent::MakeNew(const StartChoice& choice) {
+  const ProjectPaths paths{choice.project};
+  LARARIUM_RETURN_IF_ERROR(CreateProject(paths, choice.fields.name));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Workspace> workspace, Workspace::Open(paths, log_));
+  Enter(std::move(workspace));
+  switch (choice.begin) {
+    case StartChoice::Begin::kRecording:
+      panels::TrainRecording(*workspace_, choice.fields);
+      break;
+    case StartChoice::Begin::kFilming:
+      film_ = choice.fields.place;
+      break;
+    case StartChoice::Begin::kEmpty:
+      break;
+  }
+  workspace_->Save();
+  return Status();
+}
+
+void WindowContent::Follow(const StartChoice& choice) {
+  Status problem;
+  switch (choice.kind) {
+    case StartChoice::Kind::kNothing:
+      return;
+    case StartChoice::Kind::kQuit:
+      quit_ = true;
+      return;
+    case StartChoice::Kind::kOpen:
+      Open(choice.project);
+      return;
+    case StartChoice::Kind::kNew:
+      problem = MakeNew(choice);
+      break;
+    case StartChoice::Kind::kSample: {
+      const Result<std::filesystem::path> own = OwnSample(sample_, DataFolder());
+      problem = own.status();
+      if (own.ok()) {
+        Open(*own);
+        tour_ = workspace_ != nullptr;
+      }
+      break;
+    }
+  }
+  if (!problem.ok()) {
+    start_.SetProblem(problem.message());
+  }
+}
+
+void WindowContent::Update(double seconds) {
+  if (workspace_ == nullptr) {
+    return;
+  }
+  workspace_->Update(seconds);
+  if (!pictured_) {
+    KeepPicture();  // Needed if the project is never closed properly.
+  }
+}
+
+Status WindowContent::Show() {
+  const Settings before = settings_;
+  if (workspace_ == nullptr) {
+    const StartChoice choice = start_.Show(recent_, keys_, !sample_.empty(), settings_);
+    keys_.clear();
+    Follow(choice);
+  } else {
+    LARARIUM_RETURN_IF_ERROR(ShowProject());
+  }
+  if (settings_.language != before.language) {
+    LoadTexts(TextFolder(), settings_.language);
+  }
+  if (settings_ != before) {
+    if (const Status status = SaveSettings(SettingsFile(), settings_); !status.ok()) {
+      log_.warn("{}", status.message());
+    }
+  }
+  return Status();
+}
+
+Status WindowContent::ShowProject() {
+  if (layout_ == nullptr) {
+    LARARIUM_ASSIGN_OR_RETURN(layout_, Layout::Create());
+  }
+  if (std::exchange(tour_, false)) {
+    layout_->BeginTour();
+  }
+  if (!film_.empty()) {
+    layout_->BeginFilming(std::exchange(film_, ""));
+  }
+  for (const panels::KeyPress& press : std::exchange(keys_, {})) {
+    layout_->AddKey(press);
+  }
+  layout_->Show(*workspace_, settings_, panels_);
+  quit_ |= layout_->quit_requested();
+  if (layout_->leave_requested()) {
+    Leave();
+  }
+  return Status();
+}
+
+}  // namespace lararium::editor

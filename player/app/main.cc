@@ -1,0 +1,98 @@
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <variant>
+
+#include "player/app/curtain.h"
+#include "player/app/doctor.h"
+#include "player/app/info.h"
+#include "player/app/latency.h"
+#include "player/app/options.h"
+#include "player/app/play.h"
+#include "player/benchmark/benchmark.h"
+#include "player/staff/staff_page.h"
+#include "shared/core/log.h"
+#include "shared/core/processor.h"
+
+namespace {
+
+using namespace lararium;          // NOLINT: the program itself
+using namespace lararium::player;  // NOLINT
+
+int Report(const Status& status, Log& log) {
+  if (!status.ok()) {
+    log.error("{}", status.message());
+  }
+  return status.ok() ? 0 : 1;
+}
+
+// Starts the staff page; nullptr: none was requested. Call this while there is only one thread and
+// before the watchdog of a kiosk starts, so that nothing is started if the port is in use.
+Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log& log) {
+  if (options.staff_page.empty()) {
+    return std::unique_ptr<StaffPage>();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const ListenAddress address,
+                            ParseListenAddress("--staff-page", options.staff_page));
+  return StaffPage::Start({address, options.staff_pin, options.sandbox}, log);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto start = std::chrono::steady_clock::now();
+  if (const Status status = CheckProcessor(); !status.ok()) {
+    std::fprintf(stderr, "%s\n", status.message().c_str());
+    return 1;
+  }
+  const Command command = ParseCommandLine(argc, argv);
+  if (const int* code = std::get_if<int>(&command)) {
+    return *code;
+  }
+  const auto* play = std::get_if<PlayOptions>(&command);
+  const Result<std::shared_ptr<Log>> log = MakeLog(play != nullptr ? play->log : "");
+  if (!log.ok()) {
+    std::fprintf(stderr, "%s\n", log.message().c_str());
+    return 1;
+  }
+  if (const auto* doctor = std::get_if<DoctorOptions>(&command)) {
+    return RunDoctor(*doctor, **log) ? 0 : 1;
+  }
+  if (const auto* latency = std::get_if<LatencyOptions>(&command)) {
+    return Report(MeasureLatency(*latency), **log);
+  }
+  if (play == nullptr) {
+    return Report(PrintInfo(std::get<InfoOptions>(command)), **log);
+  }
+  if (!play->benchmark.empty()) {
+    const BenchmarkOptions options{.show = play->show,
+                                   .place = play->place,
+                                   .sequences = play->benchmark,
+                                   .foreign = play->foreign,
+                                   .first_pose = play->first_pose,
+                                   .frames = play->frames,
+                                   .threads = play->threads,
+                                   .seed = play->seed,
+                                   .smoothing = play->smoothing,
+                                   .poses_out = play->poses_out,
+                                   .stats_out = play->stats_out};
+    return Report(Benchmark(options, **log), **log);
+  }
+  const Result<std::unique_ptr<StaffPage>> page = OpenStaffPage(*play, **log);
+  if (!page.ok()) {
+    return Report(page.status(), **log);
+  }
+  const int staff_link = *page != nullptr ? (*page)->link() : -1;
+  if (!play->kiosk) {
+    return Report(Play(*play, start, **log, {}, Heartbeat(), staff_link), **log);
+  }
+  std::optional<Curtain> curtain;
+  if (!play->headless && play->display != Display::kOpenXr) {
+    curtain.emplace(play->monitor, **log);
+  }
+  const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
+    const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();
+    return Report(Play(*play, begun, **log, number, heartbeat, staff_link), **log);
+  };
+  return Supervise(child, {}, **log);
+}

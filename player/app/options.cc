@@ -1,0 +1,327 @@
+#include "player/app/options.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <map>
+
+#include "player/kiosk/listen_address.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr int kUsageError = 2;
+constexpr int kLargestCount = 1'000'000'000;
+
+std::map<std::string, vision::Smoothing> SmoothingNames() {
+  return {{"off", vision::Smoothing::kOff},
+          {"soft", vision::Smoothing::kSoft},
+          {"strong", vision::Smoothing::kStrong}};
+}
+
+std::map<std::string, Listening> ListeningNames() {
+  return {{"headphones", Listening::kHeadphones},
+          {"speakers", Listening::kSpeakers},
+          {"none", Listening::kNone}};
+}
+
+std::map<std::string, Display> DisplayNames() {
+  return {{"mono", Display::kMono},
+          {"side-by-side", Display::kSideBySide},
+          {"openxr", Display::kOpenXr}};
+}
+
+void AddGraphicsOption(CLI::App& app, render::GraphicsChoice& graphics, const std::string& help) {
+  app.add_option_function<std::string>(
+         "--graphics",
+         [&graphics](const std::string& name) {
+           graphics = name == "gl"     ? render::GraphicsChoice(render::GraphicsApi::kOpenGl33)
+                      : name == "gles" ? render::GraphicsChoice(render::GraphicsApi::kOpenGlEs30)
+                                       : std::nullopt;
+         },
+         help)
+      ->check(CLI::IsMember({"auto", "gl", "gles"}));
+}
+
+// nullopt: text is not a size.
+std::optional<PictureSize> ParseSize(const std::string& text) {
+  PictureSize size;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%4dx%4d%c", &size.width, &size.height, &rest) != 2) {
+    return std::nullopt;
+  }
+  const auto fits = [](int side) { return side >= 16 && side <= 8192 && side % 2 == 0; };
+  return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
+}
+
+void AddSizeOption(CLI::App& app, std::optional<PictureSize>& size, const std::string& help) {
+  app.add_option_function<std::string>(
+         "--size", [&size](const std::string& text) { size = ParseSize(text); }, help)
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return ParseSize(text) ? "" : "takes WIDTHxHEIGHT, both even, of 16 to 8192";
+          },
+          "WxH"));
+}
+
+// Adds an option that takes one of names.
+template <typename Choice, size_t n>
+void AddChoiceOption(CLI::App& app,
+                     const char* option,
+                     const std::array<std::string_view, n>& names,
+                     std::optional<Choice>& choice,
+                     const std::string& help) {
+  app.add_option_function<std::string>(
+         option,
+         [&choice, names](const std::string& name) {
+           choice = render::ChoiceOf<Choice>(names, name);
+         },
+         help)
+      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
+}
+
+void AddSwitchOption(CLI::App& app,
+                     const char* option,
+                     std::optional<bool>& on,
+                     const std::string& help) {
+  app.add_option_function<std::string>(
+         option, [&on](const std::string& word) { on = word == "on"; }, help)
+      ->check(CLI::IsMember({"on", "off"}));
+}
+
+void AddPlayOptions(CLI::App& app, PlayOptions& play) {
+  app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
+  app.add_option("--trust", play.trust, "Play only what was signed with the key of this .pub file")
+      ->check(CLI::ExistingFile);
+  app.add_option("--place", play.place, "Only this place of the bundle; all otherwise");
+  app.add_option("--language", play.language,
+                 "Language that people speak, as la or en; otherwise as the author chose");
+  app.add_option("--captions", play.captions,
+                 "Language of the captions, or off; otherwise as the author chose");
+  AddChoiceOption(app, "--caption-size", render::kCaptionSizes, play.caption_size,
+                  "Letters of captions and of the guide");
+  AddChoiceOption(app, "--caption-contrast", render::kCaptionContrasts, play.caption_contrast,
+                  "high: captions, guide and menu bold, white and yellow on black");
+  AddSwitchOption(app, "--descriptions", play.descriptions,
+                  "on: what is to be seen is described, for visitors who do not see well");
+  AddSwitchOption(app, "--reduced-motion", play.reduced_motion,
+                  "on: nothing of what the player adds glides that can fade");
+
+  CLI::Option_group* source = app.add_option_group("source", "Where images come from");
+  source->add_option("--camera", play.camera, "Number of a camera (0 unless told otherwise)");
+  source->add_option("--video", play.video, "Video file")->check(CLI::ExistingFile);
+  source->add_option("--images", play.images, "Folder of images")->check(CLI::ExistingDirectory);
+  source->require_option(0, 1);
+
+  app.add_option("--intrinsics", play.intrinsics, "fx,fy,cx,cy[,k1,k2,p1,p2] in pixels")
+      ->delimiter(',')
+      ->expected(4, 8)
+      ->check(CLI::Number);
+  app.add_option("--device", play.device,
+                 "Device file: the camera's calibration and look, the headset")
+      ->check(CLI::ExistingFile);
+  app.add_option_function<std::string>(
+         "--look", [&play](const std::string& look) { play.camera_look = look == "camera"; },
+         "camera: people as noisy, soft and smeared as the camera's image; plain: as drawn")
+      ->check(CLI::IsMember({"camera", "plain"}));
+
+  app.add_option("--osc", play.osc,
+                 "Listen for Open Sound Control: PORT on this machine, ADDRESS:PORT or "
+                 "INTERFACE:PORT on a network");
+  CLI::Option* page = app.add_option(
+      "--staff-page", play.staff_page,
+      "A page for staff, by HTTP: PORT for this machine only, ADDRESS:PORT or INTERFACE:PORT for "
+      "a network, 0.0.0.0:PORT for all of them");
+  app.add_option("--staff-pin-file", play.staff_pin,
+                 "File with the PIN for changing things on that page; without one it only shows")
+      ->check(CLI::ExistingFile)
+      ->needs(page);
+  app.add_flag("--evidence", play.evidence,
+               "People and things in the colours of how certain they are; F2 switches");
+  app.add_option(
+         "--display", play.display,
+         "mono; side-by-side: for both eyes through the lenses of the device file's headset, "
+         "which is what happens where it has a panel; openxr: on a headset that an OpenXR "
+         "runtime drives")
+      ->transform(CLI::Transformer(DisplayNames()));
+  app.add_flag("--headless", play.headless, "Draw off screen");
+  AddGraphicsOption(app, play.graphics,
+                    "gl: OpenGL 3.3; gles: OpenGL ES 3.0; auto: the first, where it can be had");
+  app.add_option("--monitor", play.monitor,
+                 "Full screen on this monitor; a kiosk is on the first unless told otherwise")
+      ->check(CLI::Range(0, kLargestCount));
+  AddSizeOption(app, play.size,
+                "Size of the pictures, as 1280x720; as the camera's images unless given. A "
+                "headset's panel has the device file's");
+  app.add_option_function<std::string>(
+         "--quality",
+         [&play](const std::string& quality) {
+           play.quality = quality == "auto" ? std::nullopt : std::optional(std::stoi(quality));
+         },
+         "0, the finest, to 5; auto: as fine as keeps the frame rate")
+      ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4", "5"}));
+  app.add_option_function<std::string>(
+         "--sandbox", [&play](const std::string& sandbox) { play.sandbox = sandbox == "on"; },
+         "on: no other programs, no network, no settings of the machine; off")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_flag("--staff", play.staff, "Show how tracking is, in a corner of the picture");
+  app.add_flag("--loop", play.loop, "Begin a video or folder again at its end");
+  CLI::Option* kiosk = app.add_flag("--kiosk", play.kiosk,
+                                    "Full screen, watched over, for one visitor after the other");
+  app.add_option("--state", play.state, "Folder in which a kiosk remembers where it was")
+      ->needs(kiosk);
+  app.add_option("--visit-minutes", play.visit_minutes,
+                 "How long a kiosk's visit may take, where others wait; otherwise as long as the "
+                 "visitor stays")
+      ->check(CLI::Range(0.5, 240.0))
+      ->needs(kiosk);
+  app.add_option_function<std::string>(
+         "--pace",
+         [&play](const std::string& pace) {
+           play.pace = pace == "fast" ? Pace::kFast : Pace::kRealtime;
+         },
+         "realtime: the newest frame wins; fast: every frame once")
+      ->check(CLI::IsMember({"realtime", "fast"}));
+  app.add_option("--frames", play.frames, "Stop after this many frames")
+      ->check(CLI::Range(0, kLargestCount));
+  app.add_option("--threads", play.threads, "Worker threads")->check(CLI::Range(0, kLargestCount));
+  app.add_option("--seed", play.seed, "Of all randomness");
+
+  app.add_option("--smoothing", play.smoothing,
+                 "off; soft: corrections after re-localisation come gently; strong: a low-pass "
+                 "as well, which lags a little")
+      ->transform(CLI::Transformer(SmoothingNames()));
+
+  app.add_option("--audio", play.listening,
+                 "headphones: mixed for two ears; speakers; none. What is recorded is mixed "
+                 "likewise")
+      ->transform(CLI::Transformer(ListeningNames()));
+
+  CLI::Option* benchmark =
+      app.add_option("--benchmark", play.benchmark,
+                     "Measure the tracker on sequences with ground truth: a folder with "
+                     "ground_truth.json, or a folder of such folders")
+          ->check(CLI::ExistingDirectory);
+  app.add_option("--foreign", play.foreign,
+                 "Images or a video of another place, which must not be tracked")
+      ->check(CLI::ExistingPath)
+      ->needs(benchmark);
+  app.add_flag("--first-pose", play.first_pose, "Relocalise in every frame")->needs(benchmark);
+
+  CLI::Option* visitor = app.add_option("--visitor", play.visitor,
+                                        "Play again what a visitor did: a file of --visitor-log")
+                             ->check(CLI::ExistingFile);
+  app.add_option("--visitor-log", play.visitor_log,
+                 "Write down here what the visitor does, as far as the drama hears of it")
+      ->excludes(visitor);
+
+  app.add_option("--poses-out", play.poses_out, "Write the poses here (poses.json)");
+  app.add_option("--stats-out", play.stats_out, "Write times and counts here (stats.json)");
+  app.add_option("--record", play.record, "Write the composite here, with its sound (.mp4)");
+  app.add_option("--sound", play.sound, "Write the sound here (.wav)");
+  app.add_option("--log", play.log, "Write the log here too");
+}
+
+}  // namespace
+
+Command ParseCommandLine(int argc, const char* const* argv) {
+  PlayOptions play;
+  InfoOptions info;
+  DoctorOptions doctor;
+  LatencyOptions latency;
+  CLI::App app("Plays a Lararium show: people of the past on the place before the camera.");
+  app.set_version_flag("--version", LARARIUM_VERSION);
+  AddPlayOptions(app, play);
+  CLI::App* info_command = app.add_subcommand("info", "Say what a bundle holds");
+  info_command->add_option("SHOW", info.show)->required()->check(CLI::ExistingFile);
+  CLI::App* doctor_command =
+      app.add_subcommand("doctor", "Look at camera, display, sound, disk and show; say what to do");
+  doctor_command->add_option("SHOW", doctor.show)->check(CLI::ExistingFile);
+  doctor_command->add_option("--trust", doctor.trust, "The museum's key (.pub)")
+      ->check(CLI::ExistingFile);
+  doctor_command->add_option("--device", doctor.device, "Device file")->check(CLI::ExistingFile);
+  doctor_command->add_option("--state", doctor.state, "The kiosk's folder");
+  doctor_command->add_option("--camera", doctor.camera, "Number of the camera")
+      ->check(CLI::NonNegativeNumber);
+  doctor_command->add_option("--monitor", doctor.monitor, "Number of the monitor")
+      ->check(CLI::NonNegativeNumber);
+  doctor_command->add_option("--display", doctor.display, "As the player will be told")
+      ->transform(CLI::Transformer(DisplayNames()));
+  AddSizeOption(*doctor_command, doctor.size, "As the player will be told");
+  AddGraphicsOption(*doctor_command, doctor.graphics, "As the player will be told");
+  CLI::Option* doctor_page =
+      doctor_command->add_option("--staff-page", doctor.staff_page, "As the player will be told");
+  doctor_command->add_option("--staff-pin-file", doctor.staff_pin, "As the player will be told")
+      ->needs(doctor_page);
+  doctor_command->add_flag("--json", doctor.json, "Print one JSON object");
+  CLI::App* latency_command = app.add_subcommand(
+      "latency", "Flash the display, watch it by the camera: how late is what is shown seen?");
+  latency_command->add_option("--camera", latency.camera, "Number of the camera")
+      ->check(CLI::NonNegativeNumber);
+  latency_command->add_option("--monitor", latency.monitor, "Full screen on this monitor")
+      ->check(CLI::NonNegativeNumber);
+  latency_command->add_option("--device", latency.device, "Device file: how the camera is run")
+      ->check(CLI::ExistingFile);
+
+  try {
+    app.parse(argc, argv);
+    const size_t numbers = play.intrinsics.size();
+    if (!*info_command && !*doctor_command && !*latency_command && play.show.empty()) {
+      throw CLI::RequiredError("SHOW");
+    }
+    if (numbers != 0 && numbers != 4 && numbers != 8) {
+      throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
+    }
+    if (!play.osc.empty() && !ParseListenAddress("--osc", play.osc).ok()) {
+      throw CLI::ValidationError("--osc", ParseListenAddress("--osc", play.osc).message());
+    }
+    for (const std::string& page : {play.staff_page, doctor.staff_page}) {
+      if (!page.empty() && !ParseListenAddress("--staff-page", page).ok()) {
+        throw CLI::ValidationError("--staff-page",
+                                   ParseListenAddress("--staff-page", page).message());
+      }
+    }
+    if (!play.benchmark.empty() && !play.staff_page.empty()) {
+      throw CLI::ValidationError("--staff-page", "cannot go with --benchmark");
+    }
+    if (!play.benchmark.empty() && (play.camera || !play.video.empty() || !play.images.empty())) {
+      throw CLI::ValidationError("--benchmark", "takes its images from its own folder");
+    }
+    if (!play.benchmark.empty() && play.kiosk) {
+      throw CLI::ValidationError("--kiosk", "cannot go with --benchmark");
+    }
+    if (play.loop && play.video.empty() && play.images.empty()) {
+      throw CLI::ValidationError("--loop", "goes with --video or --images");
+    }
+    if (play.headless && play.display == Display::kOpenXr) {
+      throw CLI::ValidationError("--display openxr", "cannot go with --headless");
+    }
+    for (const auto& [display, graphics] :
+         {std::pair(play.display, play.graphics), std::pair(doctor.display, doctor.graphics)}) {
+      if (display == Display::kOpenXr && graphics == render::GraphicsApi::kOpenGlEs30) {
+        throw CLI::ValidationError("--display openxr", "cannot go with --graphics gles");
+      }
+    }
+    if (play.headless && play.monitor >= 0) {
+      throw CLI::ValidationError("--monitor", "cannot go with --headless");
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  }
+  if (*info_command) {
+    return info;
+  }
+  if (*doctor_command) {
+    return doctor;
+  }
+  if (*latency_command) {
+    return latency;
+  }
+  const bool shown_on_monitor = !play.headless && play.display != Display::kOpenXr;
+  if (play.kiosk && shown_on_monitor && play.monitor < 0) {
+    play.monitor = 0;  // full screen, so that visitors do not see the desktop
+  }
+  return play;
+}
+
+}  // namespace lararium::player

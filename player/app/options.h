@@ -1,0 +1,134 @@
+#pragma once
+
+// The player's command line.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "shared/render/gl/graphics_context.h"
+#include "shared/render/text/caption_style.h"
+#include "shared/vision/pose_smoother.h"
+
+namespace lararium::player {
+
+enum class Pace { kRealtime, kFast };
+
+// Output of sound. kHeadphones is binaural (HRTF).
+enum class Listening { kHeadphones, kSpeakers, kNone };
+
+// How pictures are shown: as one picture; side by side for a headset that appears as a monitor; or
+// on a headset that an OpenXR runtime drives.
+enum class Display { kMono, kSideBySide, kOpenXr };
+
+// Pixels.
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
+struct PlayOptions {
+  std::filesystem::path show;
+  // Public key: only bundles that it signed are played. Empty: any bundle is played.
+  std::filesystem::path trust;
+  std::string place;  // empty: all places of the bundle
+
+  std::string language;  // spoken language; empty: the author's choice
+  std::string captions;  // language of captions; empty: the author's choice; "off": no captions
+  // If one of these four is not given: the choice of a kiosk's last visitor, otherwise normal or
+  // off.
+  std::optional<render::CaptionSize> caption_size;
+  std::optional<render::CaptionContrast> caption_contrast;
+  std::optional<bool> descriptions;
+  std::optional<bool> reduced_motion;
+
+  // Source of images; at most one is set. If none is set: camera 0.
+  std::optional<int> camera;
+  std::filesystem::path video;
+  std::filesystem::path images;
+
+  std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
+  std::filesystem::path device;
+  bool camera_look = true;  // people get the noise, softness and blur of the camera's image
+
+  bool evidence = false;  // the show starts in the evidence view
+
+  std::string osc;  // address to listen on for OSC messages; empty: none
+
+  std::string staff_page;           // address of the staff page; empty: no page
+  std::filesystem::path staff_pin;  // file with the PIN of the staff; empty: the page is read-only
+
+  // nullopt: side by side if the device file describes a headset's panel, otherwise mono.
+  std::optional<Display> display;
+  render::GraphicsChoice graphics;  // used for windows and headless
+  bool headless = false;
+  int monitor = -1;                 // monitor for full screen; -1: a window
+  std::optional<PictureSize> size;  // size of pictures; nullopt: that of the camera's images
+  // Level of render::QualityLadder(), 0 is the finest. nullopt: adapted to the speed of the
+  // machine, or the finest with --pace fast.
+  std::optional<int> quality;
+  bool sandbox = true;          // give up rights that playing does not need (sandbox.h)
+  bool staff = false;           // show the state of tracking in a corner of the picture
+  bool kiosk = false;           // supervised, full screen, for one visitor after another
+  std::filesystem::path state;  // folder for the kiosk's state
+  double visit_minutes = 0.0;   // longest visit of a kiosk; 0: no limit
+  bool loop = false;            // a recorded source starts again at its end
+  Pace pace = Pace::kRealtime;
+  int64_t frames = 0;  // number of frames to play; 0: all
+  int threads = 0;     // 0: one for each core
+  uint64_t seed = 1;
+  vision::Smoothing smoothing = vision::Smoothing::kSoft;
+  // nullopt: headphones; none with --headless.
+  std::optional<Listening> listening;
+
+  // Folder of sequences: measures the tracker on them instead of playing.
+  std::filesystem::path benchmark;
+  std::vector<std::filesystem::path> foreign;  // images of other places
+  bool first_pose = false;                     // relocalise in every frame
+
+  std::filesystem::path visitor_log;  // file in which the visitor's actions are recorded
+  std::filesystem::path visitor;      // recorded actions that are replayed
+
+  std::filesystem::path poses_out;
+  std::filesystem::path stats_out;
+  std::filesystem::path record;
+  std::filesystem::path sound;  // .wav
+  std::filesystem::path log;
+};
+
+struct InfoOptions {
+  std::filesystem::path show;
+};
+
+// Options of the check of a machine (doctor.h).
+struct DoctorOptions {
+  std::filesystem::path show;  // empty: no show is checked
+  std::filesystem::path trust;
+  std::filesystem::path device;
+  std::filesystem::path state;
+  std::string staff_page;  // empty: no staff page is checked
+  std::filesystem::path staff_pin;
+  int camera = 0;
+  int monitor = -1;                 // -1: any
+  std::optional<PictureSize> size;  // size of pictures; nullopt: that of the camera's images
+  std::optional<Display> display;
+  render::GraphicsChoice graphics;
+  bool json = false;
+};
+
+// Options of the measurement of latency (latency.h).
+struct LatencyOptions {
+  int camera = 0;
+  std::filesystem::path device;  // device file with the camera's settings; empty: its defaults
+  int monitor = -1;              // -1: a window
+};
+
+// The options of the chosen command; or the exit code if the command line asked for help or is
+// wrong, after the message was printed.
+using Command = std::variant<PlayOptions, InfoOptions, DoctorOptions, LatencyOptions, int>;
+Command ParseCommandLine(int argc, const char* const* argv);
+
+}  // namespace lararium::player

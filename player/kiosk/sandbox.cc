@@ -1,0 +1,237 @@
+#include "player/kiosk/sandbox.h"
+
+#include <seccomp.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <cstring>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lararium::player {
+namespace {
+
+// System calls that neither parsers nor drivers ever need: they look into other processes, or
+// change the kernel, its modules, mounts, users and rights, or the clock.
+constexpr const char* kNeverNeeded[] = {
+    "ptrace",
+    "process_vm_readv",
+    "process_vm_writev",
+    "pidfd_open",
+    "pidfd_getfd",
+    "pidfd_send_signal",
+    "setns",
+    "unshare",
+    "mount",
+    "umount2",
+    "pivot_root",
+    "chroot",
+    "move_mount",
+    "open_tree",
+    "fsopen",
+    "init_module",
+    "finit_module",
+    "delete_module",
+    "kexec_load",
+    "kexec_file_load",
+    "reboot",
+    "swapon",
+    "swapoff",
+    "bpf",
+    "perf_event_open",
+    "userfaultfd",
+    "add_key",
+    "request_key",
+    "keyctl",
+    "setuid",
+    "setgid",
+    "setreuid",
+    "setregid",
+    "setresuid",
+    "setresgid",
+    "setgroups",
+    "capset",
+    "settimeofday",
+    "clock_settime",
+    "clock_adjtime",
+    "adjtimex",
+    "sethostname",
+    "setdomainname",
+    "acct",
+    "quotactl",
+    "syslog",
+    "iopl",
+    "ioperm",
+    "open_by_handle_at",
+    "name_to_handle_at",
+    "io_uring_setup",
+};
+
+// System calls that drivers of graphics and sound need only while they are opened: they start
+// helper programs, create devices or change the owner of files.
+constexpr const char* kNeededToOpen[] = {
+    "execve",   "execveat", "fork",     "vfork", "kcmp",    "chown",  "lchown", "fchown",
+    "fchownat", "chmod",    "fchmodat", "mknod", "mknodat", "listen", "accept", "accept4",
+};
+
+// System calls that a web server with open sockets needs. All others fail.
+constexpr const char* kOfPage[] = {
+    "recvfrom",
+    "recvmsg",
+    "read",
+    "write",
+    "writev",
+    "shutdown",
+    "close",
+    "getsockopt",
+    "setsockopt",
+    "getsockname",
+    "getpeername",
+    "fcntl",
+    "poll",
+    "ppoll",
+    "epoll_ctl",
+    "epoll_wait",
+    "epoll_pwait",
+    "fstat",
+    "brk",
+    "munmap",
+    "mremap",
+    "madvise",
+    "futex",
+    "clock_gettime",
+    "clock_nanosleep",
+    "nanosleep",
+    "gettimeofday",
+    "time",
+    "getrandom",
+    "getpid",
+    "gettid",
+    "tgkill",
+    "rt_sigaction",
+    "rt_sigprocmask",
+    "rt_sigreturn",
+    "sigaltstack",
+    "sched_yield",
+    "restart_syscall",
+    "exit",
+    "exit_group",
+#ifdef __SANITIZE_ADDRESS__
+    // Sanitizers use pipes to check whether memory is mapped.
+    "pipe",
+    "pipe2",
+#endif
+};
+
+struct Release {
+  void operator()(void* filter) const { seccomp_release(filter); }
+};
+using Filter = std::unique_ptr<void, Release>;
+
+// A condition on the first argument of a system call.
+scmp_arg_cmp First(scmp_compare op, scmp_datum_t a) {
+  return {.arg = 0, .op = op, .datum_a = a, .datum_b = 0};
+}
+
+// The condition that a bit of an argument is not set.
+scmp_arg_cmp Without(unsigned argument, scmp_datum_t bit) {
+  return {.arg = argument, .op = SCMP_CMP_MASKED_EQ, .datum_a = bit, .datum_b = 0};
+}
+
+Status Problem(const char* what, int code) {
+  return Status::Error("sandbox", std::string(what) + ": " + std::strerror(-code),
+                       "run with --sandbox off if the system has no seccomp");
+}
+
+Status Forbid(const Filter& filter, std::span<const char* const> calls) {
+  if (filter == nullptr) {
+    return Problem("cannot be made", -ENOMEM);
+  }
+  for (const char* name : calls) {
+    const int call = seccomp_syscall_resolve_name(name);
+    if (call == __NR_SCMP_ERROR) {
+      continue;  // this kernel or machine does not have the call
+    }
+    const int added = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), call, 0);
+    if (added != 0 && added != -EDOM) {
+      return Problem(name, added);
+    }
+  }
+  return Status();
+}
+
+Status Load(scmp_filter_ctx filter) {
+  seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
+  const int loaded = seccomp_load(filter);
+  return loaded == 0 ? Status() : Problem("the system does not take it", loaded);
+}
+
+}  // namespace
+
+Status EnterOpeningSandbox() {
+  const Filter filter(seccomp_init(SCMP_ACT_ALLOW));
+  LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeverNeeded));
+  return Load(filter.get());
+}
+
+Status EnterSandbox() {
+  const Filter filter(seccomp_init(SCMP_ACT_ALLOW));
+  LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeverNeeded));
+  LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeededToOpen));
+  // Displays and sound need local sockets (AF_UNIX); all others are forbidden.
+  const int sockets = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(socket), 1,
+                                       First(SCMP_CMP_NE, AF_UNIX));
+  // New threads share their memory and are allowed; new processes do not and are forbidden.
+  const int processes = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(clone), 1,
+                                         First(SCMP_CMP_MASKED_EQ, 0x00000100 /* CLONE_VM */));
+  // The flags of clone3 lie in memory, which a filter cannot read. If it fails, libraries use
+  // clone.
+  const int clone3 = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
+  for (const int added : {sockets, processes, clone3}) {
+    if (added != 0) {
+      return Problem("cannot be made", added);
+    }
+  }
+  return Load(filter.get());
+}
+
+Status EnterPageSandbox(int listening) {
+  const Filter filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)));
+  if (filter == nullptr) {
+    return Problem("cannot be made", -ENOMEM);
+  }
+  const auto allow = [&](const char* name, std::initializer_list<scmp_arg_cmp> conditions) {
+    const int call = seccomp_syscall_resolve_name(name);
+    return call == __NR_SCMP_ERROR  // this kernel or machine does not have the call
+               ? 0
+               : seccomp_rule_add_array(filter.get(), SCMP_ACT_ALLOW, call,
+                                        static_cast<unsigned>(conditions.size()),
+                                        conditions.begin());
+  };
+  std::vector<int> added;
+  for (const char* name : kOfPage) {
+    added.push_back(allow(name, {}));
+  }
+  for (const char* name : {"accept", "accept4"}) {
+    added.push_back(allow(name, {First(SCMP_CMP_EQ, static_cast<scmp_datum_t>(listening))}));
+  }
+  // With MSG_FASTOPEN, sending would also connect.
+  added.push_back(allow("sendto", {Without(3, MSG_FASTOPEN)}));
+  added.push_back(allow("sendmsg", {Without(2, MSG_FASTOPEN)}));
+  // Memory must not be executable, so that received data cannot be run.
+  added.push_back(allow("mmap", {Without(2, PROT_EXEC)}));
+  added.push_back(allow("mprotect", {Without(2, PROT_EXEC)}));
+  for (const int code : added) {
+    if (code != 0 && code != -EDOM) {
+      return Problem("cannot be made", code);
+    }
+  }
+  return Load(filter.get());
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,206 @@
+#include "player/kiosk/visit_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+#include "shared/core/file.h"
+#include "shared/core/json.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr int64_t kSchema = 1;
+constexpr uint64_t kMaxBytes = 1 << 18;
+constexpr int64_t kMostCount = 1'000'000'000;
+constexpr double kMostSeconds = 200'000.0;  // more than a day has, because clocks may be set back
+// Longer intervals between frames count as this time, because nothing is known about the rest.
+constexpr double kLongestFrame = 1.0;
+// A larger step of the drama's time is a jump, not playing.
+constexpr double kLongestStep = 2.0;
+
+std::filesystem::path StatisticsFile(const std::filesystem::path& folder) {
+  return folder / "statistics.json";
+}
+
+bool IsDay(std::string_view text) {
+  int year = 0;
+  int month = 0;
+  int day = 0;
+  char rest = 0;
+  return text.size() == 10 &&
+         std::sscanf(std::string(text).c_str(), "%4d-%2d-%2d%c", &year, &month, &day, &rest) == 3 &&
+         month >= 1 && month <= 12 && day >= 1 && day <= 31;
+}
+
+Result<DayCounts> ParseDay(const JsonView& view) {
+  DayCounts day;
+  LARARIUM_ASSIGN_OR_RETURN(day.day, view.Text("day", 10));
+  if (!IsDay(day.day)) {
+    return view.Problem("\"day\" must be a date as 2026-11-23");
+  }
+  for (const auto& [name, count] :
+       {std::pair("visitors", &day.visitors), std::pair("completed", &day.completed),
+        std::pair("losses", &day.losses), std::pair("restarts", &day.restarts)}) {
+    LARARIUM_ASSIGN_OR_RETURN(*count, view.Integer(name, 0, kMostCount));
+  }
+  for (const auto& [name, seconds] : {std::pair("played_seconds", &day.played_seconds),
+                                      std::pair("seen_seconds", &day.seen_seconds),
+                                      std::pair("tracked_seconds", &day.tracked_seconds)}) {
+    LARARIUM_ASSIGN_OR_RETURN(*seconds, view.Number(name, 0.0, kMostSeconds));
+  }
+  return day;
+}
+
+Json JsonOf(const DayCounts& day) {
+  const auto seconds = [](double value) { return std::round(std::min(value, kMostSeconds)); };
+  return {{"day", day.day},
+          {"visitors", day.visitors},
+          {"played_seconds", seconds(day.played_seconds)},
+          {"completed", day.completed},
+          {"seen_seconds", seconds(day.seen_seconds)},
+          {"tracked_seconds", seconds(day.tracked_seconds)},
+          {"losses", day.losses},
+          {"restarts", day.restarts}};
+}
+
+void SetAside(const std::filesystem::path& path, const Status& why, Log& log) {
+  const std::filesystem::path aside = path.string() + ".damaged";
+  std::error_code error;
+  std::filesystem::rename(path, aside, error);
+  log.warn("{}; statistics begin anew, the old file is {}", why.message(),
+           error ? "lost" : aside.string());
+}
+
+}  // namespace
+
+DayCounts& VisitStatistics::Day(const std::string& day) {
+  // The day is nearly always the last one.
+  if (!days_.empty() && days_.back().day == day) {
+    return days_.back();
+  }
+  auto at =
+      std::lower_bound(days_.begin(), days_.end(), day,
+                       [](const DayCounts& d, const std::string& name) { return d.day < name; });
+  if (at == days_.end() || at->day != day) {
+    at = days_.insert(at, DayCounts{.day = day});
+  }
+  if (days_.size() > kMostDays) {
+    const bool is_oldest = at == days_.begin();
+    const auto oldest = is_oldest ? days_.begin() + 1 : days_.begin();
+    const size_t index = static_cast<size_t>(at - days_.begin()) - (is_oldest ? 0 : 1);
+    days_.erase(oldest);
+    return days_[index];
+  }
+  return *at;
+}
+
+std::string VisitStatistics::ToCsv() const {
+  std::string text =
+      "day,visitors,minutes_played,seen_to_the_end,share_tracked,losses,restarts\r\n";
+  for (const DayCounts& day : days_) {
+    char line[160];
+    char share[16] = "";
+    if (day.seen_seconds > 0.0) {
+      std::snprintf(share, sizeof(share), "%.3f",
+                    std::min(day.tracked_seconds / day.seen_seconds, 1.0));
+    }
+    std::snprintf(line, sizeof(line), "%s,%lld,%.1f,%lld,%s,%lld,%lld\r\n", day.day.c_str(),
+                  static_cast<long long>(day.visitors), day.played_seconds / 60.0,
+                  static_cast<long long>(day.completed), share, static_cast<long long>(day.losses),
+                  static_cast<long long>(day.restarts));
+    text += line;
+  }
+  return text;
+}
+
+std::string Today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local = {};
+  localtime_r(&now, &local);
+  char text[32];
+  return {text, std::strftime(text, sizeof(text), "%Y-%m-%d", &local)};
+}
+
+VisitStatistics LoadVisitStatistics(const std::filesystem::path& folder, Log& log) {
+  const std::filesystem::path path = StatisticsFile(folder);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return {};
+  }
+  const Result<std::string> text = ReadText(path, kMaxBytes);
+  Result<VisitStatistics> statistics =
+      text.ok() ? ParseVisitStatistics(*text, path.string()) : text.status();
+  if (statistics.ok()) {
+    return *std::move(statistics);
+  }
+  SetAside(path, statistics.status(), log);
+  return {};
+}
+
+Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::string& place) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
+  const JsonView view(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
+  if (schema != kSchema) {
+    return view.Problem("was written by a newer player", "update this one");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("days"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> entries,
+                            list.Array(VisitStatistics::kMostDays));
+  VisitStatistics statistics;
+  for (const JsonView& entry : entries) {
+    LARARIUM_ASSIGN_OR_RETURN(const DayCounts day, ParseDay(entry));
+    statistics.Day(day.day) = day;
+  }
+  return statistics;
+}
+
+Status SaveVisitStatistics(const std::filesystem::path& folder, const VisitStatistics& statistics) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    return Status::Error(folder.string(), "cannot be created: " + error.message(),
+                         "name another folder with --state");
+  }
+  Json days = Json::array();
+  for (const DayCounts& day : statistics.days()) {
+    days.push_back(JsonOf(day));
+  }
+  return SaveJson(StatisticsFile(folder), {{"schema", kSchema}, {"days", std::move(days)}});
+}
+
+void VisitCounter::Count(const Moment& moment, DayCounts& day) {
+  const double frame = std::clamp(moment.now - last_now_, 0.0, kLongestFrame);
+  const double step = moment.drama_time - last_drama_time_;
+  if (moment.noticed && !there_) {
+    day.visitors += std::exchange(counted_before_, false) ? 0 : 1;
+    counted_until_ = moment.last_sign;
+    pending_ = {};
+  }
+  if (moment.noticed) {
+    pending_.seen_seconds += there_ ? frame : 0.0;
+    pending_.tracked_seconds += there_ && moment.tracked ? frame : 0.0;
+    pending_.losses += moment.people_went && !gone_ ? 1 : 0;
+    const bool ended = moment.story_length > 0.0 && step > 0.0 && step < kLongestStep &&
+                       last_drama_time_ < moment.story_length &&
+                       moment.drama_time >= moment.story_length;
+    day.completed += ended ? 1 : 0;
+  }
+  if (moment.noticed && moment.last_sign > counted_until_) {
+    day.played_seconds += moment.last_sign - std::exchange(counted_until_, moment.last_sign);
+    day.seen_seconds += pending_.seen_seconds;
+    day.tracked_seconds += pending_.tracked_seconds;
+    day.losses += pending_.losses;
+    pending_ = {};
+  }
+  there_ = moment.noticed;
+  gone_ = moment.people_went;
+  last_now_ = moment.now;
+  last_drama_time_ = moment.drama_time;
+}
+
+}  // namespace lararium::player

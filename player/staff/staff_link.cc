@@ -1,0 +1,119 @@
+#include "player/staff/staff_link.h"
+
+#include <poll.h>
+
+#include <chrono>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <utility>
+
+#include "player/kiosk/power_sensors.h"
+#include "shared/image/encode.h"
+#include "shared/show/show_statistics.h"
+
+namespace lararium::player {
+namespace {
+
+constexpr int kLookUpMs = 100;
+constexpr double kMachineSeconds = 5.0;
+constexpr double kWantedSeconds = 5.0;  // pictures are sent for this time after a request
+constexpr size_t kMostCommands = 16;    // limit of waiting commands
+constexpr size_t kMostNote = 200;
+constexpr int kJpegQuality = 75;
+
+// Converts a received text to one line for the log.
+std::string OneLine(std::string_view text) {
+  std::string line(text.substr(0, kMostNote));
+  for (char& c : line) {
+    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return line;
+}
+
+}  // namespace
+
+StaffLink::StaffLink(int link, Log& log)
+    : link_(link),
+      log_(log),
+      warnings_(RecentWarnings::Of(log)),
+      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+
+double StaffLink::Now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void StaffLink::Run(const std::stop_token& stop) {
+  bool open = true;
+  while (!stop.stop_requested() && open) {
+    pollfd waiting = {link_, POLLIN, 0};
+    if (::poll(&waiting, 1, kLookUpMs) > 0) {
+      Receive(open);
+    }
+    if (const std::optional<StaffState> state = state_.TryTake()) {
+      SendState(*state);
+    }
+    if (const std::optional<VisitStatistics> statistics = statistics_.TryTake()) {
+      SendStaffMessage(link_, StaffMessage::kStatistics, statistics->ToCsv());
+    }
+    if (const std::optional<cv::Mat> picture = picture_.TryTake()) {
+      SendPicture(*picture);
+    }
+  }
+  if (!open) {
+    log_.warn("the staff page ended; the show goes on without it");
+  }
+}
+
+// Messages of the page are checked here again, because other machines can reach the page.
+void StaffLink::Receive(bool& open) {
+  while (const auto message = ReceiveStaffMessage(link_, buffer_, open)) {
+    if (message->kind == StaffMessage::kPictureWanted) {
+      wanted_until_.store(Now() + kWantedSeconds, std::memory_order_relaxed);
+    } else if (message->kind == StaffMessage::kNote) {
+      log_.warn("staff page: {}", OneLine(message->content));
+    } else if (message->kind == StaffMessage::kCommand) {
+      if (Result<StaffCommand> command = ParseStaffCommand(message->content); command.ok()) {
+        log_.info("staff page: {}", OneLine(message->content));
+        AddCommand(*std::move(command));
+      }
+    }
+  }
+}
+
+// Adds to the commands that wait. Only this thread puts into the mailbox, so commands that it takes
+// out have not been handled yet.
+void StaffLink::AddCommand(StaffCommand command) {
+  Commands commands = commands_.TryTake().value_or(Commands());
+  if (commands.size() < kMostCommands) {
+    commands.push_back(std::move(command));
+  }
+  commands_.Put(std::move(commands));
+}
+
+void StaffLink::ReadMachine() {
+  if (Now() - machine_read_ >= kMachineSeconds) {
+    machine_read_ = Now();
+    machine_.celsius = ReadPower().celsius;
+    machine_.battery = ReadBattery();
+    machine_.memory_mib = show::ResidentMebibytes();
+  }
+  machine_.warnings = warnings_->Entries();
+}
+
+void StaffLink::SendState(const StaffState& state) {
+  ReadMachine();
+  SendStaffMessage(link_, StaffMessage::kState, StaffJson(state, machine_));
+}
+
+void StaffLink::SendPicture(const cv::Mat& rgba) {
+  cv::Mat bgr;
+  cv::cvtColor(rgba, bgr, cv::COLOR_RGBA2BGR);
+  const auto jpeg = image::EncodeJpeg(bgr, kJpegQuality);
+  if (!jpeg.ok()) {
+    return;  // the page then shows that there is no picture
+  }
+  SendStaffMessage(link_, StaffMessage::kPicture,
+                   {reinterpret_cast<const char*>(jpeg->data()), jpeg->size()});
+}
+
+}  // namespace lararium::player

@@ -1,0 +1,74 @@
+#pragma once
+
+// The player's end of the link to its staff page.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "player/kiosk/recent_warnings.h"
+#include "player/kiosk/visit_statistics.h"
+#include "player/staff/staff_messages.h"
+#include "player/staff/staff_state.h"
+#include "shared/core/log.h"
+#include "shared/core/mailbox.h"
+
+namespace lararium::player {
+
+// Sends state and pictures and receives commands without delaying frames: slow work (JSON, JPEG,
+// sensors, the socket) is done on its own thread.
+class StaffLink {
+ public:
+  static constexpr int kPictureWidth = 320;  // maximum
+
+  // link: StaffPage::link(); the page must outlive this object. The constructor starts to collect
+  // the log's warnings, so no other thread may write to the log meanwhile. Borrows log.
+  StaffLink(int link, Log& log);
+
+  // Send a state, statistics or a picture. If several wait, only the newest is sent.
+  void Tell(StaffState state) { state_.Put(std::move(state)); }
+  void TellStatistics(VisitStatistics statistics) { statistics_.Put(std::move(statistics)); }
+  // rgba: result of render::AsyncReadback.
+  void Show(cv::Mat rgba) { picture_.Put(std::move(rgba)); }
+
+  // True if a browser currently shows the mirror. now: value of Now().
+  bool PictureWanted(double now) const {
+    return now < wanted_until_.load(std::memory_order_relaxed);
+  }
+  // Seconds of a steady clock.
+  static double Now();
+
+  // Returns the commands that arrived since the last call, oldest first.
+  std::vector<StaffCommand> TakeCommands() { return commands_.TryTake().value_or(Commands()); }
+
+ private:
+  using Commands = std::vector<StaffCommand>;
+
+  void Run(const std::stop_token& stop);
+  void Receive(bool& open);
+  void AddCommand(StaffCommand command);
+  void SendState(const StaffState& state);
+  void SendPicture(const cv::Mat& rgba);
+  void ReadMachine();
+
+  int link_;
+  Log& log_;
+  std::shared_ptr<RecentWarnings> warnings_;
+  Mailbox<StaffState> state_;
+  Mailbox<VisitStatistics> statistics_;
+  Mailbox<cv::Mat> picture_;
+  Mailbox<Commands> commands_;
+  std::atomic<double> wanted_until_ = -1.0;
+  // Used by the thread only.
+  std::string buffer_;
+  StaffMachine machine_;
+  double machine_read_ = -1e9;
+  std::jthread thread_;
+};
+
+}  // namespace lararium::player

@@ -1,0 +1,65 @@
+#pragma once
+
+// Messages between the player and the process of its staff page, over a pair of sockets that keep
+// message boundaries. Neither side waits for the other: messages that do not fit are dropped.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "player/kiosk/visitor_actions.h"
+#include "shared/core/status.h"
+
+namespace lararium::player {
+
+enum class StaffMessage : char {
+  // Messages to the page.
+  kState = 'S',       // JSON, staff_state.h
+  kPicture = 'P',     // a JPEG
+  kStatistics = 'C',  // VisitStatistics::ToCsv
+  // Messages to the player.
+  kCommand = 'A',        // JSON, ParseStaffCommand
+  kPictureWanted = 'W',  // empty
+  kNote = 'N',           // a text for the log
+};
+
+// Limit on the bytes of a message including its kind.
+inline constexpr size_t kMostStaffMessage = 150'000;
+
+// Returns false if the message was dropped, or if the other side has ended.
+bool SendStaffMessage(int link, StaffMessage kind, std::string_view content);
+
+// A received message; content points into `buffer`. ReceiveStaffMessage returns nullopt if there is
+// none; open: false: the other side has ended.
+struct ReceivedStaffMessage {
+  StaffMessage kind;
+  std::string_view content;
+};
+std::optional<ReceivedStaffMessage> ReceiveStaffMessage(int link, std::string& buffer, bool& open);
+
+// A command of the staff to the player. Only one member is set.
+struct StaffCommand {
+  std::optional<Action> action;  // restart, find_anew, louder or quieter
+  std::optional<double> volume;  // 0..1
+  std::optional<std::string> language;
+  std::optional<std::string> captions;
+  std::optional<render::CaptionSize> caption_size;
+  std::optional<render::CaptionContrast> caption_contrast;
+  std::optional<bool> descriptions;
+  std::optional<bool> reduced_motion;
+  bool end = false;          // ends the player, also a kiosk
+  bool begin_again = false;  // ends the player; a kiosk's watchdog starts it again
+
+  friend bool operator==(const StaffCommand&, const StaffCommand&) = default;
+};
+
+// Applies a command to choices, if the show offers the value. Ignores StaffCommand::action.
+void Choose(const StaffCommand& command, const Offer& offer, Choices& choices);
+
+// {"do": "restart" | "find_anew" | "louder" | "quieter" | "end" | "begin_again"}, or
+// {"do": "volume" | "language" | "captions" | "caption_size" | "caption_contrast" |
+// "descriptions" | "reduced_motion", "value": ...}. The text may come from an attacker.
+Result<StaffCommand> ParseStaffCommand(std::string_view text);
+
+}  // namespace lararium::player

@@ -1,0 +1,58 @@
+#pragma once
+
+// A page on the local network on which the staff see the state of a show and, with a PIN, control
+// it. It runs in a process of its own with a listening socket and a link to the player; all other
+// rights are given up (EnterPageSandbox). So the player, which parses files of others, has no
+// network, and the process with network access cannot read anything else on the machine. The page
+// outlives the shows of a kiosk.
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "player/kiosk/listen_address.h"
+#include "player/staff/staff_pin.h"
+#include "shared/core/log.h"
+#include "shared/core/status.h"
+
+namespace lararium::player {
+
+struct StaffPageOptions {
+  ListenAddress address;           // port 0: any
+  std::filesystem::path pin_file;  // empty: the page is read-only
+  bool sandbox = true;
+};
+
+// Opens the port and returns its socket. Fails if the port is in use or the address does not belong
+// to this machine.
+Result<int> ListenForStaff(const ListenAddress& address);
+// URLs of the page, one for each known address of the machine.
+std::vector<std::string> StaffPageUrls(const ListenAddress& address);
+
+class StaffPage {
+ public:
+  // Must be called while there is one thread. Borrows log.
+  static Result<std::unique_ptr<StaffPage>> Start(const StaffPageOptions& options, Log& log);
+  // Ends the page's process.
+  ~StaffPage();
+  StaffPage(const StaffPage&) = delete;
+  StaffPage& operator=(const StaffPage&) = delete;
+
+  // The player's end of the link, for StaffLink; the children of a kiosk inherit it.
+  int link() const { return link_; }
+  uint16_t port() const { return port_; }
+  pid_t process() const { return process_; }
+
+ private:
+  StaffPage(pid_t process, int link, uint16_t port) : process_(process), link_(link), port_(port) {}
+
+  pid_t process_;
+  int link_;
+  uint16_t port_;
+};
+
+}  // namespace lararium::player

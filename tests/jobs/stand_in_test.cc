@@ -1,0 +1,74 @@
+// People who are not built yet: plain figures replace them, so that a place can be shown meanwhile.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "editor/document/project.h"
+#include "editor/jobs/baking.h"
+#include "tests/support/test_files.h"
+
+namespace lararium::editor {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+float HeightOf(const human::Human& human) {
+  const auto highest = [](const human::SkinnedMesh& mesh) {
+    return std::ranges::max(mesh.positions, {}, &glm::vec3::y).y;
+  };
+  return highest(std::ranges::max(human.meshes, {}, highest));
+}
+
+class StandInTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(CreateProject(paths_, "test").ok());
+    document_ = LoadProject(paths_).value();
+    document_.cast.resize(2);
+    document_.cast[0].name = "ada";
+    document_.cast[0].height = 1.5;
+    document_.cast[1].name = "ben";
+  }
+
+  test::TemporaryFolder folder_;
+  ProjectPaths paths_{folder_ / "test.lararium"};
+  ProjectDocument document_;
+  NoProgress progress_;
+};
+
+TEST_F(StandInTest, WhoWasNeverBakedIsThePlainFigureInTheirSize) {
+  EXPECT_FALSE(ShareBakedHuman(paths_, document_.cast[0], 0.0f).ok());
+  const auto ada = MakeStandIn(paths_, document_.cast[0]);
+  ASSERT_TRUE(ada.ok()) << ada.message();
+  EXPECT_NEAR(HeightOf(*ada), 1.5f, 0.05f);
+}
+
+TEST_F(StandInTest, WhoWasBakedBeforeStaysAsTheyWere) {
+  ASSERT_TRUE(BakeHuman(paths_, document_.cast[0]).ok());
+  CastDocument taller = document_.cast[0];
+  taller.height = 1.9;
+  const auto ada = ShareBakedHuman(paths_, taller, 0.0f);
+  ASSERT_TRUE(ada.ok()) << ada.message();
+  EXPECT_NEAR(HeightOf(*ada->human), 1.5f, 0.05f);
+}
+
+TEST_F(StandInTest, BakingAllButPeopleLeavesThemToBeBaked) {
+  const auto report = Bake(paths_, document_, progress_, BakeWhat::kAllButPeople);
+  ASSERT_TRUE(report.ok()) << report.message();
+  EXPECT_THAT(report->baked, Not(Contains(HasSubstr("ada"))));
+  EXPECT_THAT(PeopleToBake(paths_, document_), ElementsAre("ada", "ben"));
+}
+
+TEST_F(StandInTest, PeopleAreToBeBakedUntilTheirLightIs) {
+  document_.cast.resize(1);
+  ASSERT_TRUE(BakeHuman(paths_, document_.cast[0]).ok());
+  EXPECT_THAT(PeopleToBake(paths_, document_), ElementsAre("ada"));
+}
+
+}  // namespace
+}  // namespace lararium::editor

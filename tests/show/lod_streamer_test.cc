@@ -1,0 +1,204 @@
+#include "shared/show/lod_streamer.h"
+
+#include <gmock/gmock.h>
+#include <spdlog/sinks/ostream_sink.h>
+
+#include <chrono>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "shared/show/show.h"
+#include "tests/show/small_show.h"
+
+namespace lararium::show {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// A person as read from a file with levels of 0, 10 and 40 mm.
+DrawnPerson Person(float finest) {
+  human::Human human = *test::SmallContent().cast[0].human;
+  human::SkinnedMesh& mesh = human.meshes.emplace_back();
+  mesh.error = finest >= 0.04f ? 0.04f : finest >= 0.01f ? 0.01f : 0.0f;
+  return {std::make_shared<const human::Human>(std::move(human)), nullptr};
+}
+
+CastMember Member(float finest) {
+  CastMember member;
+  member.name = "one";
+  member.human = Person(finest).human;
+  member.finest = finest;
+  return member;
+}
+
+class FinerCastTest : public ::testing::Test {
+ protected:
+  void Create(float first, float second = 0.04f) {
+    const std::vector<CastMember> cast = {Member(first), Member(second)};
+    finer_.emplace(
+        [this](size_t who, float finest) -> Result<DrawnPerson> {
+          asked_.emplace_back(who, finest);
+          if (broken_) {
+            return Status::Error("one.larhuman", "was changed");
+          }
+          return Person(finest);
+        },
+        cast, log_);
+  }
+
+  std::optional<LodStreamer::Person> Wait() {
+    for (int i = 0; i < 1000; ++i) {
+      if (auto person = finer_->Take()) {
+        return person;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(broken_ ? 0 : 2));
+    }
+    return std::nullopt;
+  }
+
+  std::ostringstream said_;
+  Log log_{"test", std::make_shared<spdlog::sinks::ostream_sink_st>(said_)};
+  std::vector<std::pair<size_t, float>> asked_;
+  bool broken_ = false;
+  std::optional<LodStreamer> finer_;
+};
+
+TEST_F(FinerCastTest, NobodyIsReadAgainWhoIsFineEnough) {
+  Create(0.01f);
+  finer_->Want(0, 0.01f);
+  finer_->Want(0, 0.5f);
+  finer_->Want(1, 0.04f);
+  EXPECT_FALSE(finer_->Take());
+  EXPECT_TRUE(asked_.empty());
+}
+
+TEST_F(FinerCastTest, WhoComesNearerIsReadFinerThanWantedUntilThereIsNoMore) {
+  Create(0.04f);
+  finer_->Want(0, 0.02f);
+  finer_->Want(1, 0.02f);  // Only one is read at a time.
+  EXPECT_NE(finer_->reading(), LodStreamer::Reading::kNobody);
+  while (finer_->reading() == LodStreamer::Reading::kSomebody) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(finer_->reading(), LodStreamer::Reading::kDone);
+  std::optional<LodStreamer::Person> person = Wait();
+  ASSERT_TRUE(person);
+  EXPECT_EQ(finer_->reading(), LodStreamer::Reading::kNobody);
+  EXPECT_EQ(person->cast, 0u);
+  EXPECT_EQ(person->figure.human->meshes.back().error, 0.01f);
+  ASSERT_EQ(asked_.size(), 1u);
+  EXPECT_LT(asked_[0].second, 0.02f);
+
+  finer_->Want(0, 0.02f);
+  EXPECT_FALSE(finer_->Take());
+  finer_->Want(1, 0.02f);
+  person = Wait();
+  ASSERT_TRUE(person);
+  EXPECT_EQ(person->cast, 1u);
+
+  finer_->Want(0, 0.001f);
+  person = Wait();
+  ASSERT_TRUE(person);
+  EXPECT_EQ(person->figure.human->meshes.back().error, 0.0f);
+  finer_->Want(0, 1e-6f);
+  EXPECT_FALSE(finer_->Take());
+  EXPECT_EQ(asked_.size(), 3u);
+}
+
+TEST_F(FinerCastTest, WhoCannotBeReadStaysAndTheLogSaysWhyOnce) {
+  broken_ = true;
+  Create(0.04f);
+  finer_->Want(0, 0.02f);
+  while (said_.str().empty()) {
+    EXPECT_FALSE(finer_->Take());
+  }
+  EXPECT_THAT(said_.str(), HasSubstr("one.larhuman: was changed"));
+  finer_->Want(0, 0.02f);
+  EXPECT_FALSE(Wait());
+  EXPECT_EQ(asked_.size(), 1u);
+}
+
+TEST_F(FinerCastTest, AWholeCastHasNoMore) {
+  LodStreamer whole({}, std::vector<CastMember>{Member(0.04f)}, log_);
+  whole.Want(0, 0.001f);
+  EXPECT_FALSE(whole.Take());
+}
+
+// A show whose cast was read again equals a show that read all detail at the beginning.
+TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
+  const auto whole = []() {
+    human::Human human = *test::SmallContent().cast[0].human;
+    human.meshes.resize(1);
+    human::SkinnedMesh& mesh = human.meshes[0];
+    mesh = {};
+    mesh.name = "sheet";
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    mesh.normals.assign(4, glm::vec3(0.0f, 0.0f, 1.0f));
+    mesh.albedo.assign(4, glm::vec3(0.5f));
+    mesh.joints.assign(4, {0, 0, 0, 0});
+    mesh.weights.assign(4, glm::vec4(1.0f, 0.0f, 0.0f, 0.0f));
+    mesh.indices = {0, 1, 2, 2, 1, 3};
+    mesh.coarser = {{0.05f, {0, 1, 2}}};
+    human::LightTransfer& light = human.light;
+    light.count = 9;
+    light.key_poses = {human.skeleton.rest};
+    light.receivers = {{0, {0.5f, 0.5f, 0.1f}}};
+    light.meshes.resize(1);
+    light.meshes[0].receivers.assign(4, {0, 0, 0, 0});
+    light.meshes[0].weights.assign(4, {255, 0, 0, 0});
+    for (int i = 0; i < 4 * 3 * 9; ++i) {
+      light.meshes[0].coefficients.push_back(static_cast<int8_t>(i * 37 % 127));
+    }
+    light.meshes[0].scale.assign(4, 0.01f);
+    return human::SerializeHuman(human);
+  }();
+  human::TexturePool textures;
+  const ReadPerson read = [&](size_t, float finest) -> Result<DrawnPerson> {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::ParseHuman(whole, "here", finest));
+    return MakeDrawnPerson(std::move(human), textures);
+  };
+  Log log("test");
+  const auto create = [&](float finest) {
+    ShowContent content = test::SmallContent();
+    content.places[0].stage.probes.emplace_back().light.sky[0] = glm::vec3(1.0f);
+    content.cast = {MakeCastMember(*human::ParseHuman(whole, "here", finest), finest, textures)};
+    content.cast[0].name = "one";
+    content.finer = finest > 0.0f ? read : ReadPerson();
+    return Show::Create(std::move(content), {}, log);
+  };
+  auto coarse = create(1.0f);
+  auto fine = create(0.0f);
+  ASSERT_TRUE(coarse.ok()) << coarse.message();
+  ASSERT_TRUE(fine.ok());
+  (*coarse)->SetSeenAround(true);
+  (*fine)->SetSeenAround(true);
+  test::FakePoses poses;
+  StagedFrame by_coarse;
+  StagedFrame by_fine;
+  for (int64_t i = 0; i < 3000; ++i) {
+    geometry::Frame frame;
+    frame.index = i;
+    frame.capture_time = static_cast<double>(i) / 30.0;
+    vision::TrackedFrame tracked = poses.Track(frame);
+    tracked.camera = {64, 48, 60.0, 60.0, 31.5, 23.5};
+    (*coarse)->StageFrame(tracked, frame.capture_time, by_coarse);
+    (*fine)->StageFrame(tracked, frame.capture_time, by_fine);
+    ASSERT_EQ(by_coarse.actors.size(), 1u);
+    const StagedActor& actor = by_coarse.actors[0];
+    EXPECT_EQ(actor.light_count, actor.figure->meshes[0].positions.size());
+    if (actor.light_count == 4) {
+      EXPECT_EQ(actor.detail, by_fine.actors[0].detail);
+      EXPECT_EQ(by_coarse.irradiance, by_fine.irradiance);
+      EXPECT_EQ(by_coarse.skin, by_fine.skin);
+      return;
+    }
+    ASSERT_EQ(actor.light_count, 3u);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  FAIL() << "nobody became finer";
+}
+
+}  // namespace
+}  // namespace lararium::show
