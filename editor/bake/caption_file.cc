@@ -166,8 +166,8 @@ Result<FileCue> ReadCue(const Block& block, const std::string& place) {
   return cue;
 }
 
-Status CheckSize(std::string_view text, const std::string& place) {
-  return text.size() > kMaxBytes ? Status::Error(place, "is longer than 16 MiB") : Status();
+Status CheckSize(std::string_view text, const std::string& where) {
+  return text.size() > kMaxBytes ? Status::Error(where, "is longer than 16 MiB") : Status();
 }
 
 std::string FormatTime(double seconds, char point) {
@@ -181,23 +181,23 @@ std::string FormatTime(double seconds, char point) {
 
 }  // namespace
 
-Result<std::vector<FileCue>> ParseSrt(std::string_view text, const std::string& place) {
-  LARARIUM_RETURN_IF_ERROR(CheckSize(text, place));
+Result<std::vector<FileCue>> ParseSrt(std::string_view text, const std::string& where) {
+  LARARIUM_RETURN_IF_ERROR(CheckSize(text, where));
   std::vector<FileCue> cues;
   for (const Block& block : Blocks(WithoutByteOrderMark(text))) {
     if (cues.size() >= kMaxCues) {
-      return Status::Error(place, "has more than a hundred thousand captions");
+      return Status::Error(where, "has more than a hundred thousand captions");
     }
-    LARARIUM_ASSIGN_OR_RETURN(cues.emplace_back(), ReadCue(block, place));
+    LARARIUM_ASSIGN_OR_RETURN(cues.emplace_back(), ReadCue(block, where));
   }
   return cues;
 }
 
-Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& place) {
-  LARARIUM_RETURN_IF_ERROR(CheckSize(text, place));
+Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& where) {
+  LARARIUM_RETURN_IF_ERROR(CheckSize(text, where));
   const std::vector<Block> blocks = Blocks(WithoutByteOrderMark(text));
   if (blocks.empty() || !blocks[0].rows[0].starts_with("WEBVTT")) {
-    return Status::Error(place, "does not begin with WEBVTT");
+    return Status::Error(where, "does not begin with WEBVTT");
   }
   std::vector<FileCue> cues;
   for (size_t i = 1; i < blocks.size(); ++i) {
@@ -206,15 +206,16 @@ Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& 
       continue;
     }
     if (cues.size() >= kMaxCues) {
-      return Status::Error(place, "has more than a hundred thousand captions");
+      return Status::Error(where, "has more than a hundred thousand captions");
     }
-    LARARIUM_ASSIGN_OR_RETURN(cues.emplace_back(), ReadCue(blocks[i], place));
+    LARARIUM_ASSIGN_OR_RETURN(cues.emplace_back(), ReadCue(blocks[i], where));
   }
   return cues;
 }
 
-Result<std::vector<FileCue>> ParseCaptionFile(std::string_view text, const std::string& place) {
-  return WithoutByteOrderMark(text).starts_with("WEBVTT") ? ParseVtt(text, place) : ParseSrt(text, place);
+Result<std::vector<FileCue>> ParseCaptionFile(std::string_view text, const std::string& where) {
+  return WithoutByteOrderMark(text).starts_with("WEBVTT") ? ParseVtt(text, where)
+                                                          : ParseSrt(text, where);
 }
 
 std::string FormatSrt(const std::vector<FileCue>& cues) {

@@ -20,11 +20,11 @@ struct FileCue {
 };
 
 // Gives the cues in file order. Removes tags (<i>, <c.x>, {\an8}) and decodes entities. Errors
-// name the text as `place`, and the line.
-Result<std::vector<FileCue>> ParseSrt(std::string_view text, const std::string& place);
-Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& place);
+// name the text as `where`, and the line.
+Result<std::vector<FileCue>> ParseSrt(std::string_view text, const std::string& where);
+Result<std::vector<FileCue>> ParseVtt(std::string_view text, const std::string& where);
 // Chooses the format by the first line.
-Result<std::vector<FileCue>> ParseCaptionFile(std::string_view text, const std::string& place);
+Result<std::vector<FileCue>> ParseCaptionFile(std::string_view text, const std::string& where);
 
 std::string FormatSrt(const std::vector<FileCue>& cues);  // Numbers the cues from 1.
 std::string FormatVtt(const std::vector<FileCue>& cues);

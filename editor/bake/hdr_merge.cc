@@ -181,7 +181,8 @@ Result<CalibratedResponse> CalibrateResponse(std::span<const Bracket> brackets) 
       calibrated.response.linear[c] = light::Monotone(raw);
     }
   } catch (const std::exception& error) {
-    return Status::Error(kPlace, std::string("do not determine the response of the camera: ") + error.what());
+    return Status::Error(
+        kPlace, std::string("do not determine the response of the camera: ") + error.what());
   }
   LARARIUM_RETURN_IF_ERROR(calibrated.response.Validate(kPlace));
   calibrated.residual = Residual(brackets, calibrated.response);

@@ -25,7 +25,8 @@ constexpr size_t kMaxCandidates = 400;
 constexpr float kSamePose = 1e-6f;
 
 // Adds standing and walking, which the person can do without a clip.
-void AddLocomotion(const std::shared_ptr<const human::Human>& human, std::vector<JointPose>& poses) {
+void AddLocomotion(const std::shared_ptr<const human::Human>& human,
+                   std::vector<JointPose>& poses) {
   const auto model = human::MakeAnimationRig(human);
   human::Animator animator(model);
   human::AnimationState animation_state;
@@ -74,8 +75,8 @@ std::vector<glm::vec3> BlockerPlaces(const human::Skeleton& skeleton,
 }  // namespace
 
 std::vector<JointPose> ChooseKeyPoses(std::shared_ptr<const human::Human> human,
-                                 std::span<const human::LightTransfer::Blocker> blockers,
-                                 size_t count) {
+                                      std::span<const human::LightTransfer::Blocker> blockers,
+                                      size_t count) {
   const human::Skeleton& skeleton = human->skeleton;
   std::vector<JointPose> candidates;
   const human::BodyRig body = human::MakeBodyRig(skeleton);

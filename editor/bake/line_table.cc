@@ -91,15 +91,15 @@ class TableBuilder {
   std::set<std::string> ids_;
 };
 
-Status CheckText(std::string_view text, const std::string& place) {
+Status CheckText(std::string_view text, const std::string& where) {
   if (text.size() > kMaxTableBytes) {
-    return Status::Error(place, "is longer than 16 MiB");
+    return Status::Error(where, "is longer than 16 MiB");
   }
   if (!IsUtf8(text)) {
-    return Status::Error(place, "is not UTF-8", "save it as UTF-8");
+    return Status::Error(where, "is not UTF-8", "save it as UTF-8");
   }
   if (text.find('\0') != std::string_view::npos) {
-    return Status::Error(place, "holds a zero byte");
+    return Status::Error(where, "holds a zero byte");
   }
   return Status();
 }
@@ -109,8 +109,10 @@ Status CheckText(std::string_view text, const std::string& place) {
 // Reads rows of cells from a text.
 class CsvReader {
  public:
-  CsvReader(std::string_view text, std::string place)
-      : text_(WithoutByteOrderMark(text)), place_(std::move(place)), separator_(GuessSeparator(text_)) {}
+  CsvReader(std::string_view text, std::string where)
+      : text_(WithoutByteOrderMark(text)),
+        place_(std::move(where)),
+        separator_(GuessSeparator(text_)) {}
 
   bool AtEnd() const { return at_ >= text_.size(); }
   // Names the begin of the row that was read last.
@@ -290,7 +292,7 @@ std::optional<std::string> Unquote(std::string_view text) {
 
 class PoReader {
  public:
-  explicit PoReader(std::string place) : place_(std::move(place)) {}
+  explicit PoReader(std::string where) : place_(std::move(where)) {}
 
   Status ReadRow(std::string_view row) {
     ++row_;
@@ -417,10 +419,10 @@ const Line* LineTable::Find(std::string_view id) const {
   return found == lines.end() ? nullptr : &*found;
 }
 
-Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& place) {
-  LARARIUM_RETURN_IF_ERROR(CheckText(text, place));
+Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& where) {
+  LARARIUM_RETURN_IF_ERROR(CheckText(text, where));
   TableBuilder builder;
-  CsvReader reader(text, place);
+  CsvReader reader(text, where);
   std::vector<std::string> cells;
   LARARIUM_RETURN_IF_ERROR(reader.Next(cells));
   LARARIUM_ASSIGN_OR_RETURN(const Header header, ReadHeader(cells, reader.Where(), builder));
@@ -454,10 +456,10 @@ std::string FormatLinesCsv(const LineTable& table) {
   return csv;
 }
 
-Result<LineTable> ParseLinesJson(std::string_view text, const std::string& place) {
-  LARARIUM_RETURN_IF_ERROR(CheckText(text, place));
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView root(json, place);
+Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where) {
+  LARARIUM_RETURN_IF_ERROR(CheckText(text, where));
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
+  const JsonView root(json, where);
   LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   TableBuilder builder;
   LARARIUM_ASSIGN_OR_RETURN(const JsonView languages, root.Field("languages"));
@@ -512,10 +514,10 @@ std::string FormatLinesJson(const LineTable& table) {
   return json.dump(1) + "\n";
 }
 
-Result<PoFile> ParsePo(std::string_view text, const std::string& place) {
-  LARARIUM_RETURN_IF_ERROR(CheckText(text, place));
+Result<PoFile> ParsePo(std::string_view text, const std::string& where) {
+  LARARIUM_RETURN_IF_ERROR(CheckText(text, where));
   text = WithoutByteOrderMark(text);
-  PoReader reader(place);
+  PoReader reader(where);
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
     LARARIUM_RETURN_IF_ERROR(reader.ReadRow(text.substr(0, end)));

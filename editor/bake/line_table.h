@@ -39,12 +39,12 @@ struct LineTable {
 
 // CSV as spreadsheets write it (RFC 4180): UTF-8 with or without a byte order mark; ',', ';' or
 // tab between cells; quotes around cells that contain one of these or a line break. Errors name
-// the text as `place`, and the row and column.
-Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& place);
+// the text as `where`, and the row and column.
+Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& where);
 std::string FormatLinesCsv(const LineTable& table);
 
 // {"schema": 1, "languages": ["la"], "lines": [{"id", "speaker", "notes", "text": {"la": ""}}]}
-Result<LineTable> ParseLinesJson(std::string_view text, const std::string& place);
+Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where);
 std::string FormatLinesJson(const LineTable& table);
 
 // One translated text in a gettext catalogue of one language.
@@ -59,7 +59,7 @@ struct PoFile {
   std::string language;  // Language in the header; empty if the header does not state it.
   std::vector<PoEntry> entries;
 };
-Result<PoFile> ParsePo(std::string_view text, const std::string& place);
+Result<PoFile> ParsePo(std::string_view text, const std::string& where);
 
 // Copies translations into the table. An entry belongs to the line whose id is its context;
 // without one, to all lines whose text in any language equals its source. Skips fuzzy entries.

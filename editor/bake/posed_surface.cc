@@ -160,13 +160,13 @@ SurfaceMesh Moved(const glm::mat4& target_from_mesh, const SurfaceMesh& mesh) {
 Result<MaterialImages> MaterialImages::Create(
     std::span<const std::shared_ptr<const human::Texture>> textures,
     std::span<const human::Material> materials,
-    const std::string& place) {
+    const std::string& where) {
   MaterialImages images;
   images.materials_ = materials;
   for (const std::shared_ptr<const human::Texture>& texture : textures) {
     LARARIUM_ASSIGN_OR_RETURN(
         const cv::Mat decoded,
-        render::DecodeTexture(texture->encoded, place + ": " + texture->name));
+        render::DecodeTexture(texture->encoded, where + ": " + texture->name));
     const cv::Mat small = Shrink(decoded);
     images.colours_.push_back(LinearColour(small));
     cv::extractChannel(small, images.alphas_.emplace_back(), 3);

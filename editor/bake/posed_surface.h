@@ -59,7 +59,7 @@ class MaterialImages {
   static Result<MaterialImages> Create(
       std::span<const std::shared_ptr<const human::Texture>> textures,
       std::span<const human::Material> materials,
-      const std::string& place);
+      const std::string& where);
 
   SurfaceLook LookOf(int16_t material,
                      bool has_uvs,

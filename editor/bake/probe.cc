@@ -25,20 +25,20 @@ constexpr double kLowDynamicRange = 4.0;
 
 enum class Shape { kProbe, kAny };
 
-Status CheckSize(const std::string& place, Shape shape, int64_t width, int64_t height) {
+Status CheckSize(const std::string& where, Shape shape, int64_t width, int64_t height) {
   if (shape == Shape::kAny && std::min(width, height) >= 8 &&
       std::max(width, height) <= kMaxWidth) {
     return Status();
   }
   if (width >= 8 && width < 2 * height && 2 * width > height) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "the probe is " + std::to_string(width) + " x " + std::to_string(height) +
                              ", not twice as wide as high",
                          "if it is a photograph of a mirror ball, unwrap it: lararium-editor probe "
                          "ball");
   }
   if (width < 8 || width > kMaxWidth || width != 2 * height) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "the probe is " + std::to_string(width) + " x " + std::to_string(height),
                          "a probe is equirectangular, twice as wide as high, 8 to " +
                              std::to_string(kMaxWidth) + " pixels wide");
@@ -61,7 +61,8 @@ Result<ProbeImage> ReadExr(const std::filesystem::path& file, Shape shape) {
     for (int channel = 0; channel < 3; ++channel) {
       const Imf::Channel* found = input.header().channels().findChannel(names[channel]);
       if (found == nullptr || found->xSampling != 1 || found->ySampling != 1) {
-        return Status::Error(file.string(), std::string("has no complete channel '") + names[channel] + "'",
+        return Status::Error(file.string(),
+                             std::string("has no complete channel '") + names[channel] + "'",
                              "save the probe as plain RGB");
       }
       buffer.insert(names[channel], Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][channel], window,
@@ -131,7 +132,7 @@ void MendOverflow(ProbeImage& image) {
   }
 }
 
-Status MendHoles(ProbeImage& image, const std::string& place) {
+Status MendHoles(ProbeImage& image, const std::string& where) {
   constexpr size_t kOneIn = 1000;
   std::vector<size_t> holes;
   for (size_t i = 0; i < image.pixels.size(); ++i) {
@@ -144,7 +145,7 @@ Status MendHoles(ProbeImage& image, const std::string& place) {
   }
   const std::string first = PixelName(image, holes.front()) + " is not a number";
   if (holes.size() > std::max<size_t>(1, image.pixels.size() / kOneIn)) {
-    return Status::Error(place,
+    return Status::Error(where,
                          first + ", and " + std::to_string(holes.size() - 1) + " others are not",
                          "repair the image where it was made");
   }
@@ -169,12 +170,12 @@ double MeanRadiance(const ProbeImage& image) {
   return sum / static_cast<double>(image.pixels.size());
 }
 
-Status ClampNegatives(ProbeImage& image, double mean, const std::string& place) {
+Status ClampNegatives(ProbeImage& image, double mean, const std::string& where) {
   size_t count = 0;
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const float smallest = Smallest(image.pixels[i]);
     if (smallest < -kMaxRinging * mean) {
-      return Status::Error(place, PixelName(image, i) + " is negative",
+      return Status::Error(where, PixelName(image, i) + " is negative",
                            "radiance cannot be negative; repair the image where it was made");
     }
     if (smallest < 0.0f) {

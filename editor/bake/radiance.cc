@@ -24,8 +24,8 @@ std::optional<int> WholeNumber(std::string_view text) {
 
 class Reader {
  public:
-  Reader(std::span<const std::byte> bytes, const std::string& place)
-      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), place_(place) {}
+  Reader(std::span<const std::byte> bytes, const std::string& where)
+      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), place_(where) {}
 
   Result<ProbeImage> Read() {
     LARARIUM_RETURN_IF_ERROR(ReadHeader());
@@ -211,8 +211,8 @@ class Reader {
 
 }  // namespace
 
-Result<ProbeImage> ParseRadiance(std::span<const std::byte> bytes, const std::string& place) {
-  return Reader(bytes, place).Read();
+Result<ProbeImage> ParseRadiance(std::span<const std::byte> bytes, const std::string& where) {
+  return Reader(bytes, where).Read();
 }
 
 }  // namespace lararium::bake

@@ -16,6 +16,6 @@ namespace lararium::bake {
 // Gives the complete picture or an error. Values are linear in the units of the file; EXPOSURE
 // is not applied. Supports rows from the top and columns from the left ("-Y height +X width"),
 // as nearly all files have.
-Result<ProbeImage> ParseRadiance(std::span<const std::byte> bytes, const std::string& place);
+Result<ProbeImage> ParseRadiance(std::span<const std::byte> bytes, const std::string& where);
 
 }  // namespace lararium::bake

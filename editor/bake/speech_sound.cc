@@ -67,19 +67,18 @@ using SoundFile = std::unique_ptr<SNDFILE, decltype(&sf_close)>;
 
 }  // namespace
 
-Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& place) {
+Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where) {
   Memory memory{bytes, {}, 0};
   SF_VIRTUAL_IO io = MemoryIo();
   SF_INFO info = {};
   const SoundFile file(sf_open_virtual(&io, SFM_READ, &info, &memory), sf_close);
   if (file == nullptr) {
-    return Status::Error(place,
-                         std::string("cannot be read as a sound: ") + sf_strerror(nullptr),
+    return Status::Error(where, std::string("cannot be read as a sound: ") + sf_strerror(nullptr),
                          "save it as WAV, FLAC or Ogg");
   }
   if (info.samplerate < kLowestRate || info.samplerate > kHighestRate || info.channels < 1 ||
       info.channels > kMaxChannels) {
-    return Status::Error(place, "must have 8 to 192 thousand samples a second and 1 to 8 channels");
+    return Status::Error(where, "must have 8 to 192 thousand samples a second and 1 to 8 channels");
   }
   const auto longest = static_cast<sf_count_t>(kMaxSeconds * info.samplerate);
   Sound sound;
@@ -101,11 +100,11 @@ Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& pla
       break;
     }
     if (static_cast<sf_count_t>(sound.samples.size()) > longest) {
-      return Status::Error(place, "lasts longer than ten minutes", "cut it to the line");
+      return Status::Error(where, "lasts longer than ten minutes", "cut it to the line");
     }
   }
   if (sound.samples.empty()) {
-    return Status::Error(place, "contains no sound", "record the line again");
+    return Status::Error(where, "contains no sound", "record the line again");
   }
   return sound;
 }

@@ -22,7 +22,7 @@ struct Sound {
 // Reads WAV, FLAC, Ogg (Vorbis, Opus) and the other formats of libsndfile; averages the
 // channels. Accepts at most ten minutes at 8 to 192 kHz.
 Result<Sound> ReadSound(const std::filesystem::path& file);
-Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& place);
+Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where);
 
 // The bytes of a FLAC file of 16 bits. Deterministic and exact to the sample, so that lips and
 // voice stay together after a seek to any time.

@@ -19,9 +19,9 @@
 namespace lararium::bake {
 namespace {
 
-constexpr size_t kMaxSynthesisText = 4000;              // bytes
-constexpr double kMaxSynthesisSeconds = 300.0;          // Longer speech is not accepted as a line.
-constexpr std::chrono::seconds kPatience(60);  // Time limit; the engine takes one or two seconds.
+constexpr size_t kMaxSynthesisText = 4000;      // bytes
+constexpr double kMaxSynthesisSeconds = 300.0;  // Longer speech is not accepted as a line.
+constexpr std::chrono::seconds kPatience(60);   // Time limit; the engine takes one or two seconds.
 
 // What the engine's callback collects.
 struct Collected {
@@ -302,18 +302,19 @@ std::vector<Phoneme> JoinPhonemes(const std::string& text,
 
 }  // namespace
 
-Status VoiceSettings::Validate(const std::string& place) const {
+Status VoiceSettings::Validate(const std::string& where) const {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   };
   if (variant.size() > 32 || !std::all_of(variant.begin(), variant.end(), is_plain)) {
-    return Status::Error(place, "\"variant\" is not the name of a voice", "use m1 to m8 or f1 to f5");
+    return Status::Error(where, "\"variant\" is not the name of a voice",
+                         "use m1 to m8 or f1 to f5");
   }
   if (pitch < 0 || pitch > 99 || range < 0 || range > 99) {
-    return Status::Error(place, "\"pitch\" and \"range\" must lie between 0 and 99");
+    return Status::Error(where, "\"pitch\" and \"range\" must lie between 0 and 99");
   }
   if (rate < espeakRATE_MINIMUM || rate > espeakRATE_MAXIMUM) {
-    return Status::Error(place, "\"rate\" must lie between 80 and 450 words a minute");
+    return Status::Error(where, "\"rate\" must lie between 80 and 450 words a minute");
   }
   return Status();
 }

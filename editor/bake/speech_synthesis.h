@@ -19,7 +19,7 @@ struct VoiceSettings {
   int range = 50;  // Range of the pitch, from 0 (monotone) to 99.
   int rate = 150;  // Words per minute, 80..450.
 
-  Status Validate(const std::string& place) const;
+  Status Validate(const std::string& where) const;
 
   friend bool operator==(const VoiceSettings&, const VoiceSettings&) = default;
 };

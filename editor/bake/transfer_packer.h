@@ -27,8 +27,9 @@ class TransferPacker {
  private:
   int count_;
   size_t poses_ = 0;
-  std::vector<std::vector<float>> vectors_;        // [mesh], then flat [key pose][vertex][channel][k].
-  std::vector<std::vector<glm::vec3>> back_sums_;  // [mesh][vertex], sums over key poses; empty if one-sided.
+  std::vector<std::vector<float>> vectors_;  // [mesh], then flat [key pose][vertex][channel][k].
+  std::vector<std::vector<glm::vec3>>
+      back_sums_;  // [mesh][vertex], sums over key poses; empty if one-sided.
 };
 
 }  // namespace lararium::bake

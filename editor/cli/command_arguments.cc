@@ -67,7 +67,7 @@ std::optional<double> ParseNumber(std::string_view text) {
 }
 
 Result<const vision::Keyframe*> FindKeyframe(const vision::SceneDatabase& map,
-                                             const std::string& place,
+                                             const std::string& where,
                                              const std::string& frame,
                                              uint32_t session) {
   const auto image = std::find_if(map.keyframes.begin(), map.keyframes.end(),
@@ -75,7 +75,7 @@ Result<const vision::Keyframe*> FindKeyframe(const vision::SceneDatabase& map,
                                     return keyframe.name == frame && keyframe.session == session;
                                   });
   if (image == map.keyframes.end()) {
-    return Status::Error(frame, "is not a training image of the map of " + place,
+    return Status::Error(frame, "is not a training image of the map of " + where,
                          map.keyframes.empty() ? "train the place"
                                                : "they begin with " + map.keyframes[0].name +
                                                      "; `place --images` lists them");
@@ -84,12 +84,12 @@ Result<const vision::Keyframe*> FindKeyframe(const vision::SceneDatabase& map,
 }
 
 Result<stage::Pick> PickInImage(const vision::SceneDatabase& map,
-                                const std::string& place,
+                                const std::string& where,
                                 const std::string& frame,
                                 uint32_t session,
                                 const Eigen::Vector2d& pixel) {
   LARARIUM_ASSIGN_OR_RETURN(const vision::Keyframe* image,
-                            FindKeyframe(map, place, frame, session));
+                            FindKeyframe(map, where, frame, session));
   if (!map.camera.Contains(pixel)) {
     return Status::Error(frame, "the pixel lies outside of the image",
                          "it has " + std::to_string(map.camera.width) + " x " +
@@ -99,7 +99,7 @@ Result<stage::Pick> PickInImage(const vision::SceneDatabase& map,
 }
 
 Result<stage::Pick> ParsePick(const vision::SceneDatabase& map,
-                              const std::string& place,
+                              const std::string& where,
                               uint32_t session,
                               const std::string& option,
                               const std::string& text) {
@@ -111,7 +111,7 @@ Result<stage::Pick> ParsePick(const vision::SceneDatabase& map,
     const std::optional<double> x = ParseAnyNumber(all.substr(x_at + 1, y_at - x_at - 1));
     const std::optional<double> y = ParseAnyNumber(all.substr(y_at + 1));
     if (x && y) {
-      return PickInImage(map, place, text.substr(0, x_at), session, {*x, *y});
+      return PickInImage(map, where, text.substr(0, x_at), session, {*x, *y});
     }
   }
   return Status::Error(option + " " + text, "is not a position in an image", "give FRAME,x,y");

@@ -37,20 +37,20 @@ std::optional<double> ParseNumber(std::string_view text);
 
 // Finds a keyframe in the map of a place. Errors name `option`.
 Result<const vision::Keyframe*> FindKeyframe(const vision::SceneDatabase& map,
-                                             const std::string& place,
+                                             const std::string& where,
                                              const std::string& frame,
                                              uint32_t session);
 
 // A pixel in a training image of a place.
 Result<stage::Pick> PickInImage(const vision::SceneDatabase& map,
-                                const std::string& place,
+                                const std::string& where,
                                 const std::string& frame,
                                 uint32_t session,
                                 const Eigen::Vector2d& pixel);
 
 // Parses a pick from "FRAME,x,y"; the name of the frame may contain commas.
 Result<stage::Pick> ParsePick(const vision::SceneDatabase& map,
-                              const std::string& place,
+                              const std::string& where,
                               uint32_t session,
                               const std::string& option,
                               const std::string& text);

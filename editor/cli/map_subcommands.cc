@@ -305,7 +305,7 @@ Result<CommandResult> RunTrain(const TrainCommandOptions& options, Progress& pro
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, *place));
   const StageReport stage = ReportStage(document, *place, map);
   LARARIUM_ASSIGN_OR_RETURN(const TrainingReport told,
-                            LoadTrainingReport(MapAtHand(paths, place->name).report));
+                            LoadTrainingReport(CurrentMap(paths, place->name).report));
   CommandResult result{TrainingText(place->name, told), ReportJson(report)};
   result.text += (report.intrinsics_estimated ? CameraSummary(report) : "") + stage.text;
   result.json.update(TrainingJson(told));

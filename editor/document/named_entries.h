@@ -27,7 +27,7 @@ std::string NamesOf(const std::vector<Entry>& entries) {
 template <typename Entry>
 Result<Entry*> FindNamed(std::vector<Entry>& entries,
                          const std::string& name,
-                         const std::string& place,
+                         const std::string& where,
                          const std::string& has_no) {
   for (Entry& entry : entries) {
     if (entry.name == name) {
@@ -35,7 +35,7 @@ Result<Entry*> FindNamed(std::vector<Entry>& entries,
     }
   }
   const std::string known = NamesOf(entries);
-  return Status::Error(place, has_no + " \"" + name + "\"",
+  return Status::Error(where, has_no + " \"" + name + "\"",
                        known.empty() ? "there is none yet; add it" : "it has " + known);
 }
 

@@ -189,13 +189,13 @@ std::pair<double, double> RangeOf(const OccluderShape& shape, const ShapeSize& s
   return {0.0, shape.height - kMinShape - 0.5 * shape.opening};
 }
 
-Status CheckShape(const OccluderShape& shape, const std::string& place) {
+Status CheckShape(const OccluderShape& shape, const std::string& where) {
   constexpr double kRounding = 1e-9;
   for (const ShapeSize& size : EntryOf(shape.kind).sizes) {
     const double least = size.value == &OccluderShape::spring ? 0.0 : kMinShape;
     const double value = shape.*size.value;
     if (!(value >= least && value <= kMaxShape)) {
-      return Status::Error(place, "\"" + std::string(size.name) + "\" is " + Metres(value),
+      return Status::Error(where, "\"" + std::string(size.name) + "\" is " + Metres(value),
                            "give from " + Metres(least) + " to " + Metres(kMaxShape));
     }
   }
@@ -203,14 +203,14 @@ Status CheckShape(const OccluderShape& shape, const std::string& place) {
     return Status();
   }
   if (shape.opening > shape.width - 2.0 * kMinShape + kRounding) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "an opening of " + Metres(shape.opening) + " leaves no wall of " +
                              Metres(shape.width) + " beside it",
                          "make \"width\" more or \"opening\" less");
   }
   const double top = shape.spring + 0.5 * shape.opening;
   if (top > shape.height - kMinShape + kRounding) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "the arch ends " + Metres(top) +
                              " above the floor (\"spring\" and half "
                              "of \"opening\"), and leaves no wall of " +

@@ -67,8 +67,8 @@ const ShapeEntry* FindShapeEntry(std::string_view name);
 std::pair<double, double> RangeOf(const OccluderShape& shape, const ShapeSize& size);
 
 // Checks that all sizes are within their limits, and that an arch has some wall beside and above
-// its opening. place: the name of the shape in errors.
-Status CheckShape(const OccluderShape& shape, const std::string& place);
+// its opening. where: the name of the shape in errors.
+Status CheckShape(const OccluderShape& shape, const std::string& where);
 
 // The closed surface of a valid shape, without normals. Triangles face outwards; each corner exists
 // once. Round sides are polygons of kRoundSides corners that lie on the true circle.

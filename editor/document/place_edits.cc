@@ -136,9 +136,9 @@ Status GiveFolderOtherName(const ProjectPaths& paths,
 }
 
 void RenamePlaceInDocument(const ProjectPaths& paths,
-                 const std::string& from,
-                 const std::string& to,
-                 ProjectDocument& document) {
+                           const std::string& from,
+                           const std::string& to,
+                           ProjectDocument& document) {
   if (PlaceDocument* place = document.FindPlace(from)) {
     place->name = to;
     RelocateFolder(paths.Shorten(paths.Place(from)), paths.Shorten(paths.Place(to)), document);

@@ -44,9 +44,9 @@ Status GiveFolderOtherName(const ProjectPaths& paths,
 // The edit itself: renames a place and updates all paths of the document that lead into its folder.
 // Does nothing where there is no such place.
 void RenamePlaceInDocument(const ProjectPaths& paths,
-                 const std::string& from,
-                 const std::string& to,
-                 ProjectDocument& document);
+                           const std::string& from,
+                           const std::string& to,
+                           ProjectDocument& document);
 
 // Renames a place and its folder, updates all paths of the document that lead into the folder, and
 // saves the project. The folder has both names until the project is saved, so a crash at any moment

@@ -73,11 +73,11 @@ Result<stage::StagePicks> ParsePicks(const JsonView& view) {
 }
 
 template <typename Entry>
-Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& place) {
+Status CheckUniqueNames(const std::vector<Entry>& entries, const std::string& where) {
   std::set<std::string_view> names;
   for (const Entry& entry : entries) {
     if (!names.insert(entry.name).second) {
-      return Status::Error(place, "the name \"" + entry.name + "\" is used twice", "rename one");
+      return Status::Error(where, "the name \"" + entry.name + "\" is used twice", "rename one");
     }
   }
   return Status();
@@ -536,11 +536,11 @@ Status ParseCheckPoints(const JsonView& view, std::vector<CheckPointDocument>& p
 
 }  // namespace
 
-Result<ProjectDocument> ParseProject(const Json& json, const std::string& place) {
-  const JsonView view(json, place);
+Result<ProjectDocument> ParseProject(const Json& json, const std::string& where) {
+  const JsonView view(json, where);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
   if (schema > kProjectSchema) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "was written by a newer Lararium (schema " + std::to_string(schema) +
                              ", this one reads up to " + std::to_string(kProjectSchema) + ")",
                          "open it with that version");

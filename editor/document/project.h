@@ -228,8 +228,8 @@ struct ProjectPaths {
     return folder / "sounds" / (name + ".flac");
   }
   std::filesystem::path Place(const std::string& name) const { return folder / "places" / name; }
-  std::filesystem::path Scene(const std::string& place) const {
-    return Place(place) / "scene.larscene";
+  std::filesystem::path Scene(const std::string& where) const {
+    return Place(where) / "scene.larscene";
   }
 
   // Converts a path of the document to a path on disk, and back.
@@ -237,9 +237,9 @@ struct ProjectPaths {
   std::string Shorten(const std::filesystem::path& file) const;
 };
 
-// Checks every field. Unknown fields are an error, so that saving never drops them. place: the name
+// Checks every field. Unknown fields are an error, so that saving never drops them. where: the name
 // of the text in errors.
-Result<ProjectDocument> ParseProject(const Json& json, const std::string& place);
+Result<ProjectDocument> ParseProject(const Json& json, const std::string& where);
 Json FormatProject(const ProjectDocument& document);
 Json FormatPicks(const stage::StagePicks& picks);
 Json FormatOccluder(const OccluderDocument& occluder);

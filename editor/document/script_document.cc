@@ -7,7 +7,7 @@ namespace lararium::editor {
 using drama::TextEdit;
 using drama::TimelineText;
 
-ScriptDocument::ScriptDocument(std::string text, std::string place) : place_(std::move(place)) {
+ScriptDocument::ScriptDocument(std::string text, std::string where) : place_(std::move(where)) {
   Set(std::move(text));
 }
 

@@ -15,8 +15,8 @@ namespace lararium::editor {
 
 class ScriptDocument {
  public:
-  // place: the name of the text in messages.
-  ScriptDocument(std::string text, std::string place);
+  // where: the name of the text in messages.
+  ScriptDocument(std::string text, std::string where);
 
   const std::string& text() const { return *text_; }
   // The text, shared: it stays valid after later changes.

@@ -34,17 +34,17 @@ struct Packing {
 };
 
 Status PackPlace(const PlaceContent& content, size_t index, Packing& packing) {
-  const stage::Place& place = content.place;
+  const stage::Place& where = content.place;
   const std::string folder = "places/" + std::to_string(index) + "/";
   bundle::PlaceEntry entry{
-      place.name,  folder + "scene.larscene", place.map_from_stage, place.camera_nudge, {},
-      place.probes};
-  entry.camera = place.camera;
-  entry.acoustics = place.acoustics;
-  const auto scene = vision::ParseSceneDatabase(content.scene, "place '" + place.name + "'");
+      where.name,  folder + "scene.larscene", where.map_from_stage, where.camera_nudge, {},
+      where.probes};
+  entry.camera = where.camera;
+  entry.acoustics = where.acoustics;
+  const auto scene = vision::ParseSceneDatabase(content.scene, "place '" + where.name + "'");
   LARARIUM_RETURN_IF_ERROR(scene.status());
   packing.members.push_back({entry.scene, content.scene});
-  for (const stage::Occluder& occluder : place.occluders) {
+  for (const stage::Occluder& occluder : where.occluders) {
     LARARIUM_RETURN_IF_ERROR(occluder.mesh.Validate("occluder '" + occluder.name + "'"));
     packing.made.push_back(stage::SerializeMesh(occluder.mesh));
     const std::string member =

@@ -57,7 +57,7 @@ Status MakeReport(const fs::path& file, const PlaceDocument& place) {
 
 }  // namespace
 
-MapFiles MapAtHand(const ProjectPaths& paths, const std::string& place) {
+MapFiles CurrentMap(const ProjectPaths& paths, const std::string& place) {
   return {paths.Scene(place), paths.Place(place) / "training.json"};
 }
 
@@ -65,8 +65,8 @@ MapFiles PreviousMap(const ProjectPaths& paths, const std::string& place) {
   return {paths.Place(place) / "former.larscene", paths.Place(place) / "former-training.json"};
 }
 
-Status KeepFormerMap(const ProjectPaths& paths, const PlaceDocument& place) {
-  const MapFiles map = MapAtHand(paths, place.name);
+Status KeepPreviousMap(const ProjectPaths& paths, const PlaceDocument& place) {
+  const MapFiles map = CurrentMap(paths, place.name);
   const MapFiles former = PreviousMap(paths, place.name);
   std::error_code ignored;
   if (!fs::exists(map.scene, ignored)) {
@@ -88,7 +88,7 @@ Result<PlaceRecordings> RestorePreviousMap(const ProjectPaths& paths, const Plac
     return Status::Error(place.name, "has no former map",
                          "one is kept whenever a trained place is trained again");
   }
-  const MapFiles map = MapAtHand(paths, place.name);
+  const MapFiles map = CurrentMap(paths, place.name);
   const MapFiles former = PreviousMap(paths, place.name);
   LARARIUM_ASSIGN_OR_RETURN(const TrainingReport report, LoadTrainingReport(former.report));
   const size_t sessions = 1 + report.recordings.added.size();

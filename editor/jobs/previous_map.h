@@ -17,13 +17,13 @@ struct MapFiles {
   std::filesystem::path scene;
   std::filesystem::path report;
 };
-MapFiles MapAtHand(const ProjectPaths& paths, const std::string& place);
+MapFiles CurrentMap(const ProjectPaths& paths, const std::string& place);
 MapFiles PreviousMap(const ProjectPaths& paths, const std::string& place);
 
 // Keeps the current map and its report as the previous map, replacing an older one. Call before a
 // training writes a new map. The current map stays valid even when this is interrupted. Does
 // nothing where the place has no map.
-Status KeepFormerMap(const ProjectPaths& paths, const PlaceDocument& place);
+Status KeepPreviousMap(const ProjectPaths& paths, const PlaceDocument& place);
 
 bool HasPreviousMap(const ProjectPaths& paths, const std::string& place);
 

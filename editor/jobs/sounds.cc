@@ -17,7 +17,6 @@
 namespace lararium::editor {
 namespace {
 
-
 bool IsWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 // The name in a call such as sound("bell"), whose brackets are optional in Lua. rest: the text
@@ -66,7 +65,8 @@ Status BringInSound(const ProjectPaths& paths,
     return Status::Error("the sound '" + name + "'", "cannot be the name of a file",
                          "use letters, digits, '_' and '-'");
   }
-  if (std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) == SoundExtensions().end()) {
+  if (std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) ==
+      SoundExtensions().end()) {
     return Status::Error(file.string(), "is not a sound file", "use .wav, .flac, .ogg or .opus");
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto bytes, ReadBytes(file, audio::SoundReader::kMaxBytes));
@@ -82,7 +82,8 @@ std::vector<SoundFile> FindSounds(const ProjectPaths& paths) {
   for (const auto& entry : std::filesystem::directory_iterator(paths.folder / "audio", ignored)) {
     const std::string extension = entry.path().extension().string();
     if (entry.is_regular_file(ignored) &&
-        std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) != SoundExtensions().end()) {
+        std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) !=
+            SoundExtensions().end()) {
       files.push_back(entry.path());
     }
   }

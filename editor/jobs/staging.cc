@@ -156,9 +156,9 @@ Result<geometry::TriangleMesh> OccluderMesh(const ProjectPaths& paths,
 
 }  // namespace
 
-void StageAnew(const OccluderDocument& occluder,
-               const Similarity3& map_from_stage,
-               stage::Occluder& staged) {
+void Restage(const OccluderDocument& occluder,
+             const Similarity3& map_from_stage,
+             stage::Occluder& staged) {
   if (occluder.shape) {
     staged.mesh = MakeShapeMesh(*occluder.shape);
   }
@@ -204,7 +204,7 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
     stage::Occluder& made = staged.occluders.emplace_back();
     made.name = occluder.name;
     made.mesh = std::move(mesh);
-    StageAnew(occluder, staged.map_from_stage, made);
+    Restage(occluder, staged.map_from_stage, made);
   }
   LARARIUM_ASSIGN_OR_RETURN(staged.probes, LoadBakedProbes(paths, place, EvenRadiance(map)));
   staged.acoustics = place.acoustics;

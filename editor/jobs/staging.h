@@ -90,9 +90,9 @@ Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocume
 
 // Updates a staged occluder from its document: pose, size of a shape, and effects. Meshes of models
 // and of drawn faces stay.
-void StageAnew(const OccluderDocument& occluder,
-               const geometry::Similarity3& map_from_stage,
-               stage::Occluder& staged);
+void Restage(const OccluderDocument& occluder,
+             const geometry::Similarity3& map_from_stage,
+             stage::Occluder& staged);
 
 // Applies the present rotation, brightness and position of the probes to baked light: exact and
 // fast. Leaves out probes that were not baked, or that were baked from another file.

@@ -82,9 +82,9 @@ Status ReplaceMap(const ProjectPaths& paths,
                   const PlaceDocument& place,
                   const SceneDatabase& database,
                   const TrainingReport& report) {
-  LARARIUM_RETURN_IF_ERROR(KeepFormerMap(paths, place));
+  LARARIUM_RETURN_IF_ERROR(KeepPreviousMap(paths, place));
   LARARIUM_RETURN_IF_ERROR(SaveMap(paths, place, database));
-  return SaveTrainingReport(MapAtHand(paths, place.name).report, report);
+  return SaveTrainingReport(CurrentMap(paths, place.name).report, report);
 }
 
 // recordings: those of the new map. Writes the map before the report, so that a report that cannot
@@ -189,7 +189,7 @@ Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
   LARARIUM_RETURN_IF_ERROR(ForgetPreviousMap(paths, place.name));
   TrainingReport report;  // The map was not trained here.
   report.recordings = RecordingsOf(without);
-  LARARIUM_RETURN_IF_ERROR(SaveTrainingReport(MapAtHand(paths, place.name).report, report));
+  LARARIUM_RETURN_IF_ERROR(SaveTrainingReport(CurrentMap(paths, place.name).report, report));
   return removed;
 }
 

@@ -82,13 +82,13 @@ void RemoveUnmoved(const show::StagedFrame& now, show::StagedFrame& other) {
 }
 
 void BlendOverlay(const cv::Mat& overlay,
-                  const cv::Mat& ghost_coverage,
+                  const cv::Mat& overlay_coverage,
                   const cv::Mat& coverage_now,
                   float opacity,
                   cv::Mat& picture) {
   for (int y = 0; y < picture.rows; ++y) {
     const auto* from = overlay.ptr<cv::Vec3b>(y);
-    const uint8_t* covers = ghost_coverage.ptr<uint8_t>(y);
+    const uint8_t* covers = overlay_coverage.ptr<uint8_t>(y);
     const uint8_t* taken = coverage_now.ptr<uint8_t>(y);
     auto* to = picture.ptr<cv::Vec3b>(y);
     for (int x = 0; x < picture.cols; ++x) {

@@ -42,7 +42,7 @@ void RemoveUnmoved(const show::StagedFrame& now, show::StagedFrame& other);
 // Blends an overlay (ShowRenderer::DrawOverlays) over a picture, CV_8UC3, except where present
 // people and objects cover it. The coverages are CV_8UC1 and have the size of the picture.
 void BlendOverlay(const cv::Mat& overlay,
-                  const cv::Mat& ghost_coverage,
+                  const cv::Mat& overlay_coverage,
                   const cv::Mat& coverage_now,
                   float opacity,
                   cv::Mat& picture);

@@ -187,7 +187,7 @@ Status Preview::Worker::Compare(PreviewPicture& picture) {
 Status Preview::Worker::LayOnionSkin(const OnionSkin& skin,
                                      const cv::Mat& coverage,
                                      cv::Mat& picture) {
-  cv::Mat overlay, ghost_coverage;
+  cv::Mat overlay, overlay_coverage;
   for (const OnionMoment& moment : OnionMoments(skin, staged_.time)) {
     LARARIUM_RETURN_IF_ERROR(show_->StageAtTime(staged_.time + moment.offset, staged_, other_));
     RemoveUnmoved(staged_, other_);
@@ -202,8 +202,8 @@ Status Preview::Worker::LayOnionSkin(const OnionSkin& skin,
     mark.share = kOnionTint;
     LARARIUM_RETURN_IF_ERROR(renderer_->DrawOverlays(other_, mark, *target_));
     target_->ReadPixels(overlay);
-    renderer_->ReadCoverage(ghost_coverage);
-    BlendOverlay(overlay, ghost_coverage, coverage, moment.opacity, picture);
+    renderer_->ReadCoverage(overlay_coverage);
+    BlendOverlay(overlay, overlay_coverage, coverage, moment.opacity, picture);
   }
   return Status();
 }

@@ -37,7 +37,7 @@ Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log)
     workspace->Tell(Message::Level::kWarning, missing.message());
   }
   if (!workspace->document().places.empty()) {
-    workspace->ShowPlace(workspace->document().places.front().name);
+    workspace->SelectPlace(workspace->document().places.front().name);
   }
   workspace->AskForPictures();
   return workspace;
@@ -145,7 +145,7 @@ void Workspace::Report(const Status& status, bool cancelled, const std::string& 
   }
 }
 
-void Workspace::ShowPlace(const std::string& name) {
+void Workspace::SelectPlace(const std::string& name) {
   place_name_ = name;
   loaded_ = {};
   picture_ = nullptr;
@@ -365,7 +365,7 @@ void Workspace::OnDocumentChanged() {
   stage_changed_ = true;
   if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
     // The place was removed, or it is the first one.
-    ShowPlace(document().places.empty() ? "" : document().places.front().name);
+    SelectPlace(document().places.empty() ? "" : document().places.front().name);
     return;
   }
   ResolvePicksAgain();

@@ -60,7 +60,7 @@ struct LoadedPlace {
   ResolvedPicks picks;
   // The report of the training; nullptr: there is none.
   std::shared_ptr<const TrainingReport> report;
-  bool has_former = false;  // RestorePreviousMap() is possible.
+  bool has_previous = false;  // RestorePreviousMap() is possible.
   // The place as staged for the preview, with occluder meshes for drawing. nullptr before that.
   std::shared_ptr<const stage::Place> staged;
   // The probes at the time of staging, and their light. Edits apply rotation and brightness to it
@@ -100,7 +100,7 @@ class Workspace {
   // The place that the views show; nullptr where the project has none.
   const PlaceDocument* place() const { return document().FindPlace(place_name_); }
   // Changes the place and keeps the moment of the drama.
-  void ShowPlace(const std::string& name);
+  void SelectPlace(const std::string& name);
   const LoadedPlace& loaded() const { return loaded_; }
 
   // Edits of the document. gesture: see CommandStack::Edit.
@@ -286,7 +286,7 @@ class Workspace {
   // Shows a live camera by its number, or a recording that is played like a camera (live_camera.h).
   // The drama then runs by its own clock. Where the camera cannot be opened or ends, the view
   // returns to the recording and a message tells why.
-  void ShowLiveCamera(const std::string& camera);
+  void PreviewLiveCamera(const std::string& camera);
   const std::string& live_camera() const { return live_camera_; }
   // False while the live camera is unplugged.
   bool camera_is_there() const { return *camera_presence_; }

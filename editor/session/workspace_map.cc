@@ -127,7 +127,7 @@ void Workspace::ReloadMap() {
   const auto report = std::make_shared<std::shared_ptr<const TrainingReport>>();
   const auto work = [=, place = *place(), paths = paths_](Progress& progress) {
     progress.Report("reading the map", 0.0);
-    *report = ReadReport(MapAtHand(paths, place.name).report);
+    *report = ReadReport(CurrentMap(paths, place.name).report);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
     progress.Report("looking for the floor and for tags", 0.5);
     *measures = MeasureMap(place, database);
@@ -146,7 +146,7 @@ void Workspace::ReloadMap() {
       ++map_loads_;
       loaded_.statistics = statistics;
       loaded_.report = *report;
-      loaded_.has_former = HasPreviousMap(paths_, name);
+      loaded_.has_previous = HasPreviousMap(paths_, name);
       if (*report != nullptr && trained_place_ == name) {
         trained_place_.clear();
         report_is_new_ = true;
@@ -360,7 +360,7 @@ void Workspace::TrainFrom(const std::string& name, const SessionDocument& record
     });
   }
   if (place() == nullptr || place()->name != name) {
-    ShowPlace(name);
+    SelectPlace(name);
   }
   PlaceRecordings recordings = RecordingsOf(*place());
   recordings.training = recording.source;

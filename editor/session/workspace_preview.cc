@@ -135,7 +135,7 @@ Preview::Opener Workspace::ViewOpener() {
   };
 }
 
-void Workspace::ShowLiveCamera(const std::string& camera) {
+void Workspace::PreviewLiveCamera(const std::string& camera) {
   SetViewSource(ViewSource::kRecording);
   live_camera_ = IsCameraNumber(camera) ? camera : paths_.Resolve(camera).string();
   SetViewSource(ViewSource::kLive);
@@ -237,7 +237,7 @@ void Workspace::RequestPicture() {
     staged->probes = RelitProbes(loaded_.baked_light, loaded_.baked_probes, at.probes);
     for (stage::Occluder& occluder : staged->occluders) {
       if (const OccluderDocument* known = at.FindOccluder(occluder.name)) {
-        StageAnew(*known, staged->map_from_stage, occluder);
+        Restage(*known, staged->map_from_stage, occluder);
       }
     }
     loaded_.staged = staged;

@@ -64,12 +64,12 @@ class Reader {
     return text;
   }
 
-  Status Finish(const std::string& place) const {
+  Status Finish(const std::string& where) const {
     if (failed_) {
-      return Status::Error(place, "is cut off or damaged", "copy the model again");
+      return Status::Error(where, "is cut off or damaged", "copy the model again");
     }
     if (!bytes_.empty()) {
-      return Status::Error(place, "has more bytes than its records need", "copy the model again");
+      return Status::Error(where, "has more bytes than its records need", "copy the model again");
     }
     return Status();
   }
@@ -79,7 +79,7 @@ class Reader {
   bool failed_ = false;
 };
 
-Status ParseBinaryCameras(std::string_view bytes, const std::string& place, ColmapModel& model) {
+Status ParseBinaryCameras(std::string_view bytes, const std::string& where, ColmapModel& model) {
   Reader in(bytes);
   const size_t count = in.TakeCount(kCameraBytes);
   for (size_t i = 0; i < count && !in.failed(); ++i) {
@@ -88,7 +88,7 @@ Status ParseBinaryCameras(std::string_view bytes, const std::string& place, Colm
     const auto number = in.Take<int32_t>();
     if (number < 0 || number >= kColmapCameraModels) {
       return Status::Error(
-          place,
+          where,
           "camera " + std::to_string(camera.id) + " has the unknown model " +
               std::to_string(number),
           "run `colmap image_undistorter`, and import its sparse model and images");
@@ -100,10 +100,10 @@ Status ParseBinaryCameras(std::string_view bytes, const std::string& place, Colm
       camera.parameters.push_back(in.Take<double>());
     }
   }
-  return in.Finish(place);
+  return in.Finish(where);
 }
 
-Status ParseBinaryImages(std::string_view bytes, const std::string& place, ColmapModel& model) {
+Status ParseBinaryImages(std::string_view bytes, const std::string& where, ColmapModel& model) {
   Reader in(bytes);
   const size_t count = in.TakeCount(kImageBytes);
   for (size_t i = 0; i < count && !in.failed(); ++i) {
@@ -126,10 +126,10 @@ Status ParseBinaryImages(std::string_view bytes, const std::string& place, Colma
       feature.point = in.Take<uint64_t>();
     }
   }
-  return in.Finish(place);
+  return in.Finish(where);
 }
 
-Status ParseBinaryPoints(std::string_view bytes, const std::string& place, ColmapModel& model) {
+Status ParseBinaryPoints(std::string_view bytes, const std::string& where, ColmapModel& model) {
   Reader in(bytes);
   const size_t count = in.TakeCount(kPointBytes);
   for (size_t i = 0; i < count && !in.failed(); ++i) {
@@ -148,7 +148,7 @@ Status ParseBinaryPoints(std::string_view bytes, const std::string& place, Colma
       observation.feature = in.Take<uint32_t>();
     }
   }
-  return in.Finish(place);
+  return in.Finish(where);
 }
 
 template <typename T>
@@ -161,10 +161,10 @@ void PutBinary(std::string& bytes, T value) {
 
 }  // namespace
 
-Status ParseColmapBinary(const ColmapFiles& files, const std::string& place, ColmapModel& model) {
-  LARARIUM_RETURN_IF_ERROR(ParseBinaryCameras(files.cameras, place + "/cameras.bin", model));
-  LARARIUM_RETURN_IF_ERROR(ParseBinaryImages(files.images, place + "/images.bin", model));
-  return ParseBinaryPoints(files.points, place + "/points3D.bin", model);
+Status ParseColmapBinary(const ColmapFiles& files, const std::string& where, ColmapModel& model) {
+  LARARIUM_RETURN_IF_ERROR(ParseBinaryCameras(files.cameras, where + "/cameras.bin", model));
+  LARARIUM_RETURN_IF_ERROR(ParseBinaryImages(files.images, where + "/images.bin", model));
+  return ParseBinaryPoints(files.points, where + "/points3D.bin", model);
 }
 
 ColmapFiles SerializeColmapBinary(const ColmapModel& model) {

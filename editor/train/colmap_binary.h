@@ -11,7 +11,7 @@ namespace lararium::train {
 
 // Checks sizes and counts against the available bytes before anything is allocated. References and
 // numbers are checked by ColmapModel::Validate() only.
-Status ParseColmapBinary(const ColmapFiles& files, const std::string& place, ColmapModel& model);
+Status ParseColmapBinary(const ColmapFiles& files, const std::string& where, ColmapModel& model);
 ColmapFiles SerializeColmapBinary(const ColmapModel& model);
 
 }  // namespace lararium::train

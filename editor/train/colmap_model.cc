@@ -277,15 +277,15 @@ ColmapCamera ColmapFromCamera(const CameraModel& camera, uint32_t id) {
 
 Result<ColmapModel> ParseColmapModel(const ColmapFiles& files,
                                      ColmapFormat format,
-                                     const std::string& place) {
+                                     const std::string& where) {
   ColmapModel model;
-  const Status parsed = format == ColmapFormat::kText ? ParseColmapText(files, place, model)
-                                                      : ParseColmapBinary(files, place, model);
+  const Status parsed = format == ColmapFormat::kText ? ParseColmapText(files, where, model)
+                                                      : ParseColmapBinary(files, where, model);
   LARARIUM_RETURN_IF_ERROR(parsed);
   SortById(model);
   NormaliseRotations(model);
   if (const Status status = model.Validate(); !status.ok()) {
-    return status.At(place);
+    return status.At(where);
   }
   return model;
 }

@@ -109,7 +109,7 @@ struct ColmapFiles {
 // rounding are normalised. place names the folder in errors.
 Result<ColmapModel> ParseColmapModel(const ColmapFiles& files,
                                      ColmapFormat format,
-                                     const std::string& place);
+                                     const std::string& where);
 // Deterministic: the same model gives the same bytes, and parsing them gives the same model.
 ColmapFiles SerializeColmapModel(const ColmapModel& model, ColmapFormat format);
 

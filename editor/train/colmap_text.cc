@@ -237,10 +237,10 @@ void PutFeatures(std::string& text, const ColmapImage& image) {
 
 }  // namespace
 
-Status ParseColmapText(const ColmapFiles& files, const std::string& place, ColmapModel& model) {
-  LARARIUM_RETURN_IF_ERROR(ParseCameras(files.cameras, place + "/cameras.txt", model));
-  LARARIUM_RETURN_IF_ERROR(ParseImages(files.images, place + "/images.txt", model));
-  return ParsePoints(files.points, place + "/points3D.txt", model);
+Status ParseColmapText(const ColmapFiles& files, const std::string& where, ColmapModel& model) {
+  LARARIUM_RETURN_IF_ERROR(ParseCameras(files.cameras, where + "/cameras.txt", model));
+  LARARIUM_RETURN_IF_ERROR(ParseImages(files.images, where + "/images.txt", model));
+  return ParsePoints(files.points, where + "/points3D.txt", model);
 }
 
 ColmapFiles SerializeColmapText(const ColmapModel& model) {

@@ -11,7 +11,7 @@ namespace lararium::train {
 
 // Errors name file and line. References and the range of numbers are checked by
 // ColmapModel::Validate() only.
-Status ParseColmapText(const ColmapFiles& files, const std::string& place, ColmapModel& model);
+Status ParseColmapText(const ColmapFiles& files, const std::string& where, ColmapModel& model);
 // Numbers are written with enough digits to be read back unchanged.
 ColmapFiles SerializeColmapText(const ColmapModel& model);
 

@@ -116,7 +116,7 @@ void Layout::BeginFilming(const std::string& place) {
   state_.fields.place = place;
 }
 
-void Layout::ShowViewport(Workspace& workspace) {
+void Layout::DrawViewport(Workspace& workspace) {
   switch (state_.view) {
     case panels::ViewKind::kCamera:
       camera_.Show(workspace, state_);
@@ -131,7 +131,7 @@ void Layout::ShowViewport(Workspace& workspace) {
   }
 }
 
-void Layout::ShowBottom(Workspace& workspace) {
+void Layout::DrawBottom(Workspace& workspace) {
   const int problems = panels::CountProblems(workspace) + missing_.count();
   const std::string checks =
       problems > 0 ? panels::Text(panels::Tr("Checks (%d)"), problems) : panels::Tr("Checks");
@@ -149,28 +149,28 @@ void Layout::ShowBottom(Workspace& workspace) {
   ImGui::SameLine(0.0f, Px(20));
   switch (state_.bottom) {
     case BottomTab::kTimeline:
-      timeline_.ShowTools(workspace, state_);
+      timeline_.DrawTools(workspace, state_);
       timeline_.Show(workspace, state_);
       break;
     case BottomTab::kScript:
-      script_.ShowTools(workspace, state_);
+      script_.DrawTools(workspace, state_);
       script_.Show(workspace, state_);
       break;
     case BottomTab::kChecks:
-      panels::ShowChecksTools(workspace);
+      panels::DrawChecksTools(workspace);
       missing_.Show(workspace);
-      panels::ShowChecks(workspace, state_);
+      panels::DrawChecks(workspace, state_);
       break;
     case BottomTab::kMessages:
       ImGui::NewLine();
       ImGui::BeginChild("messages", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
-      panels::ShowMessages(workspace);
+      panels::DrawMessages(workspace);
       ImGui::EndChild();
       break;
   }
 }
 
-void Layout::ShowPanels(Workspace& workspace, PanelSizes& sizes) {
+void Layout::DrawPanels(Workspace& workspace, PanelSizes& sizes) {
   const float status = ImGui::GetFrameHeight() + Px(4);
   const ImVec2 available = ImGui::GetContentRegionAvail();
   const float widest = (available.x / Px(1.0f) - kMinViewportWidth) * 0.5f;
@@ -200,14 +200,14 @@ void Layout::ShowPanels(Workspace& workspace, PanelSizes& sizes) {
     ImGui::EndChild();
   };
   panel(Region::kOutliner, "outliner", ImVec2(Px(outliner), upper),
-        [&] { panels::ShowOutliner(workspace, state_); });
+        [&] { panels::DrawOutliner(workspace, state_); });
   ImGui::SameLine();
   Splitter("split outliner", true, upper, 1.0f, outliner, sizes.outliner);
   ImGui::SameLine();
   const float viewport = available.x - Px(outliner) - Px(inspector) - 2 * Px(kSplitter);
   const bool covered = state_.view == panels::ViewKind::kAround;
   panel(
-      Region::kView, "viewport", ImVec2(viewport, upper), [&] { ShowViewport(workspace); },
+      Region::kView, "viewport", ImVec2(viewport, upper), [&] { DrawViewport(workspace); },
       covered ? ImGuiWindowFlags_NoBackground : 0);
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
       ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
@@ -217,12 +217,12 @@ void Layout::ShowPanels(Workspace& workspace, PanelSizes& sizes) {
   Splitter("split inspector", true, upper, -1.0f, inspector, sizes.inspector);
   ImGui::SameLine();
   panel(Region::kInspector, "inspector", ImVec2(Px(inspector), upper),
-        [&] { panels::ShowInspector(workspace, state_); });
+        [&] { panels::DrawInspector(workspace, state_); });
   Splitter("split bottom", false, available.x, -1.0f, bottom, bottom_size);
-  panel(Region::kBottom, "bottom", ImVec2(available.x, Px(bottom)), [&] { ShowBottom(workspace); });
+  panel(Region::kBottom, "bottom", ImVec2(available.x, Px(bottom)), [&] { DrawBottom(workspace); });
   ImGui::Dummy(ImVec2(0, Px(kSplitter)));
   ImGui::PopStyleVar();
-  panels::ShowStatusBar(workspace);
+  panels::DrawStatusBar(workspace);
 }
 
 void Layout::TakeResizing() {
@@ -324,12 +324,12 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
   state_.keyboard.Begin(Region::kToolbar);
-  panels::ShowMenuBar(workspace, state_);
-  panels::ShowToolbar(workspace, state_);
-  ShowPanels(workspace, sizes);
+  panels::DrawMenuBar(workspace, state_);
+  panels::DrawToolbar(workspace, state_);
+  DrawPanels(workspace, sizes);
   if (calibration_.is_open()) {
     calibration_.Show(workspace.paths(), state_.pictures, state_.fields);
-  } else if (panels::ShowDialogs(workspace, state_)) {
+  } else if (panels::DrawDialogs(workspace, state_)) {
     calibration_.Open();
   }
   film_.Show(workspace, state_);
@@ -340,7 +340,7 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
   }
   state_.keyboard.End(Region::kToolbar);
   ImGui::End();
-  panels::ShowTourCard(workspace, state_, tour_);
+  panels::DrawTourCard(workspace, state_, tour_);
   state_.keys.clear();
   menus_ = panels::KeysBelongToMenus();
   settings = state_.settings;

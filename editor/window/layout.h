@@ -48,9 +48,9 @@ class Layout {
   void AskBeforeLeaving(const Workspace& workspace);
   void TakeResizing();
   void ResizeByKeys(float outliner, float inspector, float bottom, PanelSizes& sizes);
-  void ShowPanels(Workspace& workspace, PanelSizes& sizes);
-  void ShowViewport(Workspace& workspace);
-  void ShowBottom(Workspace& workspace);
+  void DrawPanels(Workspace& workspace, PanelSizes& sizes);
+  void DrawViewport(Workspace& workspace);
+  void DrawBottom(Workspace& workspace);
 
   panels::EditorState state_;
   panels::CameraView camera_;

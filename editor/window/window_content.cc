@@ -192,7 +192,7 @@ Status WindowContent::Show() {
     keys_.clear();
     Follow(choice);
   } else {
-    LARARIUM_RETURN_IF_ERROR(ShowProject());
+    LARARIUM_RETURN_IF_ERROR(DrawProject());
   }
   if (settings_.language != before.language) {
     LoadTexts(TextFolder(), settings_.language);
@@ -205,7 +205,7 @@ Status WindowContent::Show() {
   return Status();
 }
 
-Status WindowContent::ShowProject() {
+Status WindowContent::DrawProject() {
   if (layout_ == nullptr) {
     LARARIUM_ASSIGN_OR_RETURN(layout_, Layout::Create());
   }

@@ -56,7 +56,7 @@ class WindowContent {
   Status Show();
 
  private:
-  Status ShowProject();
+  Status DrawProject();
   void Enter(std::unique_ptr<Workspace> workspace);
   // Returns to the start page. Unsaved edits stay in the project's journal, as they do when the
   // program ends, and are restored when the project is opened again.

@@ -73,9 +73,9 @@ Result<Device> LoadDevice(const std::filesystem::path& file) {
   return ParseDevice(text, file.string());
 }
 
-Result<Device> ParseDevice(std::string_view text, const std::string& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView view(json, place);
+Result<Device> ParseDevice(std::string_view text, const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
+  const JsonView view(json, where);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
   if (schema != 1) {
     return view.Problem("was written for a newer player", "update the player");

@@ -28,7 +28,7 @@ struct Device {
 };
 
 Result<Device> LoadDevice(const std::filesystem::path& file);
-// place: name of the text in errors.
-Result<Device> ParseDevice(std::string_view text, const std::string& place);
+// where: name of the text in errors.
+Result<Device> ParseDevice(std::string_view text, const std::string& where);
 
 }  // namespace lararium::player

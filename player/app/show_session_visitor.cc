@@ -61,7 +61,7 @@ void ShowSession::Do(Action action) {
       }
       break;
     case Action::kFindAnew:
-      poses_->FindAnew();
+      poses_->Relocalize();
       show_->ForgetPose();
       break;
     case Action::kMenu:

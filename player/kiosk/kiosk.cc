@@ -132,7 +132,7 @@ void Kiosk::Count(double now, const show::StagedFrame& staged) {
                   .noticed = watch_.noticed(),
                   .last_sign = watch_.last_sign(),
                   .tracked = staged.tracked.camera_from_map.has_value(),
-                  .people_went = staged.rung == show::TrackingLossFader::State::kGone,
+                  .people_went = staged.state == show::TrackingLossFader::State::kGone,
                   .drama_time = staged.time,
                   .story_length = story_length_},
                  statistics_.Day(today_));

@@ -80,10 +80,10 @@ Result<KioskState> LoadKioskState(const std::filesystem::path& folder) {
   return ParseKioskState(text, path.string());
 }
 
-Result<KioskState> ParseKioskState(std::string_view text, const std::string& place) {
+Result<KioskState> ParseKioskState(std::string_view text, const std::string& where) {
   KioskState state;
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView view(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
+  const JsonView view(json, where);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
   if (schema != kSchema) {
     return view.Problem("was written by a newer player", "remove it");

@@ -34,8 +34,8 @@ struct KioskState {
 
 // folder: used by the player only. If it contains no state, the state of a new show is returned.
 Result<KioskState> LoadKioskState(const std::filesystem::path& folder);
-// place: name of the text in errors.
-Result<KioskState> ParseKioskState(std::string_view text, const std::string& place);
+// where: name of the text in errors.
+Result<KioskState> ParseKioskState(std::string_view text, const std::string& where);
 // Writes atomically: after a failure the old file is still complete.
 Status SaveKioskState(const std::filesystem::path& folder, const KioskState& state);
 

@@ -141,9 +141,9 @@ VisitStatistics LoadVisitStatistics(const std::filesystem::path& folder, Log& lo
   return {};
 }
 
-Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::string& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView view(json, place);
+Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
+  const JsonView view(json, where);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
   if (schema != kSchema) {
     return view.Problem("was written by a newer player", "update this one");

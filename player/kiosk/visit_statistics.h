@@ -51,8 +51,8 @@ std::string Today();
 // folder: the kiosk's folder. Without a file, the statistics are empty. A file that cannot be read
 // is renamed to "statistics.json.damaged", and the log says so; the statistics are then empty.
 VisitStatistics LoadVisitStatistics(const std::filesystem::path& folder, Log& log);
-// place: name of the text in errors.
-Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::string& place);
+// where: name of the text in errors.
+Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::string& where);
 // Writes atomically: after a failure the old file is still complete.
 Status SaveVisitStatistics(const std::filesystem::path& folder, const VisitStatistics& statistics);
 

@@ -28,15 +28,15 @@ Result<StaffPin> StaffPin::Load(const std::filesystem::path& path) {
   return pin;
 }
 
-Result<StaffPin> StaffPin::Create(std::string_view pin, std::string_view place) {
+Result<StaffPin> StaffPin::Create(std::string_view pin, std::string_view where) {
   const bool printable =
       std::all_of(pin.begin(), pin.end(), [](char c) { return c > 0x20 && c < 0x7f; });
   if (pin.size() < kLeast || pin.size() > kMost || !printable) {
-    return Status::Error(place, "its first line is not a valid PIN",
+    return Status::Error(where, "its first line is not a valid PIN",
                          "write 6 to 64 digits or letters there, without spaces");
   }
   if (sodium_init() < 0) {
-    return Status::Error(place, "the system does not provide random numbers");
+    return Status::Error(where, "the system does not provide random numbers");
   }
   StaffPin made;
   randombytes_buf(made.key_.data(), made.key_.size());

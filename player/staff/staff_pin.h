@@ -20,8 +20,8 @@ class StaffPin {
   // Reads a text file whose first line is the PIN: 6 to 64 printable ASCII characters without
   // spaces. A file that users other than its owner and group can read or write is an error.
   static Result<StaffPin> Load(const std::filesystem::path& path);
-  // For tests. place: name of the PIN in errors.
-  static Result<StaffPin> Create(std::string_view pin, std::string_view place);
+  // For tests. where: name of the PIN in errors.
+  static Result<StaffPin> Create(std::string_view pin, std::string_view where);
 
   // Compares in constant time for guesses of the same length.
   bool Is(std::string_view guess) const;

@@ -17,7 +17,7 @@ void StaffReporter::AfterFrame(const show::StagedFrame& staged,
   const double now = StaffLink::Now();
   const vision::TrackedFrame& tracked = staged.tracked;
   tally_.Add(now, tracked.camera_from_map.has_value(),
-             staged.rung == show::TrackingLossFader::State::kGone);
+             staged.state == show::TrackingLossFader::State::kGone);
   Mirror(now, picture);
   if (now - told_ < kTellEvery) {
     return;

@@ -95,13 +95,13 @@ SoundReader::SoundReader(SoundReader&&) noexcept = default;
 SoundReader& SoundReader::operator=(SoundReader&&) noexcept = default;
 SoundReader::~SoundReader() = default;
 
-Result<SoundReader> SoundReader::Open(std::span<const std::byte> bytes, const std::string& place) {
+Result<SoundReader> SoundReader::Open(std::span<const std::byte> bytes, const std::string& where) {
   constexpr std::string_view kRemedy = "give WAV, FLAC, Ogg Vorbis or Ogg Opus";
   if (!LooksLikeSound(bytes)) {
-    return Status::Error(place, "is not a sound file that can be played", kRemedy);
+    return Status::Error(where, "is not a sound file that can be played", kRemedy);
   }
   if (bytes.size() > kMaxBytes) {
-    return Status::Error(place, "is larger than 512 MiB", "shorten or compress it");
+    return Status::Error(where, "is larger than 512 MiB", "shorten or compress it");
   }
   auto file = std::make_unique<File>();
   file->memory.bytes = bytes;
@@ -109,24 +109,24 @@ Result<SoundReader> SoundReader::Open(std::span<const std::byte> bytes, const st
   SF_INFO info = {};
   file->sound = sf_open_virtual(&access, SFM_READ, &info, &file->memory);
   if (file->sound == nullptr) {
-    return Status::Error(place, std::string("cannot be decoded: ") + sf_strerror(nullptr), kRemedy);
+    return Status::Error(where, std::string("cannot be decoded: ") + sf_strerror(nullptr), kRemedy);
   }
   if (!IsKnownFormat(info.format)) {
-    return Status::Error(place, "uses an encoding that is not supported", kRemedy);
+    return Status::Error(where, "uses an encoding that is not supported", kRemedy);
   }
   if (info.channels < 1 || info.channels > kMaxChannels) {
-    return Status::Error(place, "has " + std::to_string(info.channels) + " channels",
+    return Status::Error(where, "has " + std::to_string(info.channels) + " channels",
                          "give one or two");
   }
   if (info.samplerate < kMinRate || info.samplerate > kMaxRate) {
-    return Status::Error(place, "has " + std::to_string(info.samplerate) + " samples a second",
+    return Status::Error(where, "has " + std::to_string(info.samplerate) + " samples a second",
                          "give 8000 to 192000");
   }
   if (info.frames < 1 || info.frames > kMaxSeconds * info.samplerate) {
-    return Status::Error(place, "is empty, or longer than an hour");
+    return Status::Error(where, "is empty, or longer than an hour");
   }
   if (info.seekable == 0) {
-    return Status::Error(place, "is damaged: it cannot be played from the middle");
+    return Status::Error(where, "is damaged: it cannot be played from the middle");
   }
   SoundReader reader(std::move(file));
   reader.rate_ = info.samplerate;

@@ -22,8 +22,8 @@ class SoundReader {
   static constexpr size_t kMaxBytes = size_t{1} << 29;
 
   // Reads only the header. Rejects other formats before any library sees them, and sounds beyond
-  // the limits above. place: where errors happened, for example a file name.
-  static Result<SoundReader> Open(std::span<const std::byte> bytes, const std::string& place);
+  // the limits above. where: where errors happened, for example a file name.
+  static Result<SoundReader> Open(std::span<const std::byte> bytes, const std::string& where);
   SoundReader(SoundReader&&) noexcept;
   SoundReader& operator=(SoundReader&&) noexcept;
   ~SoundReader();

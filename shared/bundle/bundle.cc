@@ -14,17 +14,17 @@ namespace {
 
 // The manifest contains the hashes of all other members. The manifest itself is checked by the
 // archive's CRC-32, which detects every change of a few bytes.
-Result<ShowManifest> ReadManifest(const ZipMember& member, const std::string& place) {
+Result<ShowManifest> ReadManifest(const ZipMember& member, const std::string& where) {
   if (member.name != kManifestName || member.data.size() > kMaxManifestBytes) {
-    return Status::Error(place, "not a bundle of this program: it does not begin with a manifest",
+    return Status::Error(where, "not a bundle of this program: it does not begin with a manifest",
                          "export the bundle with lararium-editor");
   }
   const auto* bytes = reinterpret_cast<const Bytef*>(member.data.data());
   if (crc32_z(0, bytes, member.data.size()) != member.crc32) {
-    return Status::Error(place, "the bundle is damaged: its manifest was changed", kCopyAgain);
+    return Status::Error(where, "the bundle is damaged: its manifest was changed", kCopyAgain);
   }
   const std::string_view text(reinterpret_cast<const char*>(bytes), member.data.size());
-  return ParseShowManifest(text, place + ": " + std::string(kManifestName));
+  return ParseShowManifest(text, where + ": " + std::string(kManifestName));
 }
 
 // Checks the CRC-32 of a member that the manifest does not list.
@@ -37,14 +37,14 @@ bool IsWhole(const ZipMember& member, size_t size) {
 Status CheckSignature(const ZipMember& manifest,
                       const ZipMember* signature,
                       const PublicKey& trusted,
-                      const std::string& place) {
+                      const std::string& where) {
   constexpr char kAsk[] =
       "ask the makers of the show for a bundle that is signed with the museum's key";
   if (signature == nullptr) {
-    return Status::Error(place, "the bundle is not signed", kAsk);
+    return Status::Error(where, "the bundle is not signed", kAsk);
   }
   if (!Verifies(manifest.data, signature->data, trusted)) {
-    return Status::Error(place, "the bundle is not signed with the trusted key, or was altered",
+    return Status::Error(where, "the bundle is not signed with the trusted key, or was altered",
                          kAsk);
   }
   return Status();
@@ -53,16 +53,16 @@ Status CheckSignature(const ZipMember& manifest,
 // Checks that the archive contains what the manifest lists, in the same order.
 Status CheckListing(const ShowManifest& manifest,
                     std::span<const ZipMember> members,
-                    const std::string& place) {
+                    const std::string& where) {
   for (size_t i = 0; i < manifest.members.size(); ++i) {
     const Member& listed = manifest.members[i];
     if (i >= members.size() || members[i].name != listed.name) {
       return Status::Error(
-          place, "the bundle is damaged: the member '" + listed.name + "' is not in its place",
+          where, "the bundle is damaged: the member '" + listed.name + "' is not in its place",
           kCopyAgain);
     }
     if (members[i].data.size() != listed.size) {
-      return Status::Error(place,
+      return Status::Error(where,
                            "the bundle is damaged: '" + listed.name + "' has " +
                                std::to_string(members[i].data.size()) + " bytes instead of " +
                                std::to_string(listed.size),
@@ -71,7 +71,7 @@ Status CheckListing(const ShowManifest& manifest,
   }
   if (members.size() > manifest.members.size()) {
     const std::string name(members[manifest.members.size()].name);
-    return Status::Error(place, "the bundle is damaged: the manifest does not list '" + name + "'",
+    return Status::Error(where, "the bundle is damaged: the manifest does not list '" + name + "'",
                          kCopyAgain);
   }
   return Status();
@@ -79,14 +79,14 @@ Status CheckListing(const ShowManifest& manifest,
 
 Status CheckHashes(const ShowManifest& manifest,
                    std::span<const ZipMember> members,
-                   const std::string& place) {
+                   const std::string& where) {
   std::vector<char> intact(members.size(), 0);
   ParallelFor(members.size(), [&](size_t i) {
     intact[i] = ComputeSha256(members[i].data) == manifest.members[i].sha256 ? 1 : 0;
   });
   for (size_t i = 0; i < members.size(); ++i) {
     if (intact[i] == 0) {
-      return Status::Error(place,
+      return Status::Error(where,
                            "the bundle is damaged: '" + manifest.members[i].name + "' was changed",
                            kCopyAgain);
     }

@@ -56,7 +56,7 @@ class Bundle {
   Result<StoredMember> stored(std::string_view name) const;
 
  private:
-  Bundle(std::string place, MappedFile file) : place_(std::move(place)), file_(std::move(file)) {}
+  Bundle(std::string where, MappedFile file) : place_(std::move(where)), file_(std::move(file)) {}
 
   std::string place_;  // name of the bundle in errors
   MappedFile file_;

@@ -456,9 +456,9 @@ bool Describes(const ShowManifest& manifest, const LineEntry& line) {
                       [&](const CastEntry& cast) { return cast.name == line.speaker; });
 }
 
-Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json root, ParseJson(text, place));
-  const JsonView json(root, place);
+Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json root, ParseJson(text, where));
+  const JsonView json(root, where);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema,
                             json.Integer("schema", 1, std::numeric_limits<int32_t>::max()));
   if (schema > ShowManifest::kSchema) {

@@ -120,8 +120,8 @@ struct ShowManifest {
 bool Describes(const ShowManifest& manifest, const LineEntry& line);
 
 // Checks every field, that names are unique, and that every member that an entry names is listed.
-// Errors call the text `place`.
-Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& place);
+// Errors call the text `where`.
+Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& where);
 std::string FormatShowManifest(const ShowManifest& manifest);
 
 }  // namespace lararium::bundle

@@ -48,7 +48,7 @@ std::string Hex(std::span<const uint8_t> bytes) {
 }
 
 Status ParseKey(std::string_view text,
-                const std::string& place,
+                const std::string& where,
                 std::string_view kind,
                 std::span<uint8_t> key) {
   StartSodium();
@@ -64,7 +64,7 @@ Status ParseKey(std::string_view text,
           0 ||
       count != key.size()) {
     const bool wants_public = kind == kPublic;
-    return Status::Error(place,
+    return Status::Error(where,
                          std::string("is not a ") + (wants_public ? "public" : "secret") + " key",
                          wants_public ? "name the .pub file that came with the show"
                                       : "make a key with lararium-editor key");
@@ -93,9 +93,9 @@ Result<PublicKey> LoadPublicKey(const std::filesystem::path& path) {
   return ParsePublicKey(text, path.string());
 }
 
-Result<PublicKey> ParsePublicKey(std::string_view text, const std::string& place) {
+Result<PublicKey> ParsePublicKey(std::string_view text, const std::string& where) {
   PublicKey key;
-  LARARIUM_RETURN_IF_ERROR(ParseKey(text, place, kPublic, key.bytes));
+  LARARIUM_RETURN_IF_ERROR(ParseKey(text, where, kPublic, key.bytes));
   return key;
 }
 

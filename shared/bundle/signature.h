@@ -35,8 +35,8 @@ SecretKey MakeSecretKey();
 // the key in hexadecimal digits. Only its owner can read a secret key's file. Existing files are
 // not replaced.
 Result<PublicKey> LoadPublicKey(const std::filesystem::path& path);
-// Errors call the text `place`.
-Result<PublicKey> ParsePublicKey(std::string_view text, const std::string& place);
+// Errors call the text `where`.
+Result<PublicKey> ParsePublicKey(std::string_view text, const std::string& where);
 Result<SecretKey> LoadSecretKey(const std::filesystem::path& path);
 Status SavePublicKey(const std::filesystem::path& path, const PublicKey& key);
 Status SaveSecretKey(const std::filesystem::path& path, const SecretKey& key);

@@ -118,7 +118,7 @@ std::string Printable(std::string_view name) {
 // Reads one archive from its first member to its last.
 class Reader {
  public:
-  Reader(std::span<const std::byte> file, const std::string& place) : file_(file), place_(place) {}
+  Reader(std::span<const std::byte> file, const std::string& where) : file_(file), place_(where) {}
 
   Result<std::vector<ZipMember>> Read() {
     LARARIUM_RETURN_IF_ERROR(ReadEnd());
@@ -252,8 +252,8 @@ class Reader {
 
 }  // namespace
 
-Result<std::vector<ZipMember>> ReadZip(std::span<const std::byte> file, const std::string& place) {
-  return Reader(file, place).Read();
+Result<std::vector<ZipMember>> ReadZip(std::span<const std::byte> file, const std::string& where) {
+  return Reader(file, where).Read();
 }
 
 }  // namespace lararium::bundle

@@ -23,6 +23,6 @@ struct ZipMember {
 // Returns the members of an archive in the form of zip_layout.h, in their order; they point into
 // `file`. Any other form is an error: names, order, gaps, overlaps, duplicates and every byte of
 // every header are checked. The caller must check the content of the data.
-Result<std::vector<ZipMember>> ReadZip(std::span<const std::byte> file, const std::string& place);
+Result<std::vector<ZipMember>> ReadZip(std::span<const std::byte> file, const std::string& where);
 
 }  // namespace lararium::bundle

@@ -109,18 +109,18 @@ template <typename Root>
 Result<const Root*> OpenFlatbuffer(std::span<const std::byte> bytes,
                                    const char* identifier,
                                    const FlatbufferKind& kind,
-                                   const std::string& place) {
+                                   const std::string& where) {
   if (bytes.size() < 8 || bytes.size() >= FLATBUFFERS_MAX_BUFFER_SIZE ||
       !flatbuffers::BufferHasIdentifier(bytes.data(), identifier)) {
-    return Status::Error(place, std::string("not a ") + kind.extension + " file", kind.remedy);
+    return Status::Error(where, std::string("not a ") + kind.extension + " file", kind.remedy);
   }
   flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
   if (!verifier.VerifyBuffer<Root>(identifier)) {
-    return Status::Error(place, "the file is damaged or cut short", kind.remedy);
+    return Status::Error(where, "the file is damaged or cut short", kind.remedy);
   }
   const Root* root = flatbuffers::GetRoot<Root>(bytes.data());
   if (root->version() != kind.version) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "version " + std::to_string(root->version()) +
                              " of the file is not supported (this program reads version " +
                              std::to_string(kind.version) + ")",

@@ -7,7 +7,7 @@
 
 namespace lararium {
 
-Result<Json> ParseJson(std::string_view text, std::string_view place) {
+Result<Json> ParseJson(std::string_view text, std::string_view where) {
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
@@ -16,7 +16,7 @@ Result<Json> ParseJson(std::string_view text, std::string_view place) {
     if (const size_t end = what.find("] "); end != std::string_view::npos) {
       what.remove_prefix(end + 2);
     }
-    return Status::Error(place, "not valid JSON: " + std::string(what));
+    return Status::Error(where, "not valid JSON: " + std::string(what));
   }
 }
 

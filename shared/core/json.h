@@ -18,8 +18,8 @@ namespace lararium {
 
 using Json = nlohmann::json;  // keys are sorted, so that files diff well
 
-// place: the name of the text in error messages, normally its file.
-Result<Json> ParseJson(std::string_view text, std::string_view place);
+// where: the name of the text in error messages, normally its file.
+Result<Json> ParseJson(std::string_view text, std::string_view where);
 Result<Json> LoadJson(const std::filesystem::path& path);
 Status SaveJson(const std::filesystem::path& path, const Json& json);
 
@@ -27,7 +27,7 @@ Status SaveJson(const std::filesystem::path& path, const Json& json);
 // "project.json: stage.scale: must be a finite number".
 class JsonView {
  public:
-  JsonView(const Json& json, std::string place) : json_(&json), place_(std::move(place)) {}
+  JsonView(const Json& json, std::string where) : json_(&json), place_(std::move(where)) {}
 
   const Json& json() const { return *json_; }
   const std::string& place() const { return place_; }

@@ -2,10 +2,10 @@
 
 namespace lararium {
 
-Status Status::Error(std::string_view place, std::string_view problem, std::string_view remedy) {
+Status Status::Error(std::string_view where, std::string_view problem, std::string_view remedy) {
   Status status;
-  if (!place.empty()) {
-    status.message_.append(place).append(": ");
+  if (!where.empty()) {
+    status.message_.append(where).append(": ");
   }
   status.message_.append(problem.empty() ? "unknown error" : problem);
   if (!remedy.empty()) {
@@ -14,6 +14,6 @@ Status Status::Error(std::string_view place, std::string_view problem, std::stri
   return status;
 }
 
-Status Status::At(std::string_view place) const { return ok() ? *this : Error(place, message_); }
+Status Status::At(std::string_view where) const { return ok() ? *this : Error(where, message_); }
 
 }  // namespace lararium

@@ -19,9 +19,9 @@ class [[nodiscard]] Status {
   // Success.
   Status() = default;
 
-  // A failure that reads "place: problem; remedy". `place` is a file, a file with a line, or a
+  // A failure that reads "place: problem; remedy". `where` is a file, a file with a line, or a
   // field. `remedy` may be empty if the user can do nothing.
-  static Status Error(std::string_view place,
+  static Status Error(std::string_view where,
                       std::string_view problem,
                       std::string_view remedy = {});
 
@@ -29,7 +29,7 @@ class [[nodiscard]] Status {
   const std::string& message() const { return message_; }
 
   // Returns the same failure with an outer location: "place: message".
-  Status At(std::string_view place) const;
+  Status At(std::string_view where) const;
 
  private:
   std::string message_;

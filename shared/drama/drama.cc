@@ -63,11 +63,11 @@ struct Moment {
 class LuaDrama : public Drama {
  public:
   LuaDrama(std::string_view script,
-           std::string place,
+           std::string where,
            stage::Stage& stage,
            const DramaOptions& options,
            Log& log)
-      : script_(script), place_(std::move(place)), stage_(stage), options_(options), log_(log) {}
+      : script_(script), place_(std::move(where)), stage_(stage), options_(options), log_(log) {}
 
   // Starts from the beginning and forgets the past.
   Status Begin() {
@@ -210,10 +210,10 @@ class LuaDrama : public Drama {
   std::span<const TaskRecord> tasks() const override { return tasks_.items(); }
   std::span<const CueRecord> cues() const override { return cues_.cues; }
 
-  static Status CheckSize(std::string_view script, const std::string& place) {
+  static Status CheckSize(std::string_view script, const std::string& where) {
     return script.size() <= kMaxScriptBytes
                ? Status()
-               : Status::Error(place, "the script is longer than 16 MiB");
+               : Status::Error(where, "the script is longer than 16 MiB");
   }
 
  private:
@@ -384,13 +384,13 @@ Status DramaOptions::Validate() const {
 }
 
 Result<std::unique_ptr<Drama>> Drama::Create(std::string_view script,
-                                             std::string place,
+                                             std::string where,
                                              stage::Stage& stage,
                                              const DramaOptions& options,
                                              Log& log) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
-  LARARIUM_RETURN_IF_ERROR(LuaDrama::CheckSize(script, place));
-  auto drama = std::make_unique<LuaDrama>(script, std::move(place), stage, options, log);
+  LARARIUM_RETURN_IF_ERROR(LuaDrama::CheckSize(script, where));
+  auto drama = std::make_unique<LuaDrama>(script, std::move(where), stage, options, log);
   LARARIUM_RETURN_IF_ERROR(drama->Begin());
   return std::unique_ptr<Drama>(std::move(drama));
 }

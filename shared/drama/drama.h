@@ -86,10 +86,10 @@ class Drama {
 
   // Runs the script's chunk and then main() up to its first wait. Error: the chunk does not compile
   // (the message has file and line) or the options are invalid. Later problems are in errors().
-  // Messages call the script `place`. Borrows stage and log, which must outlive the drama; resets
+  // Messages call the script `where`. Borrows stage and log, which must outlive the drama; resets
   // the stage.
   static Result<std::unique_ptr<Drama>> Create(std::string_view script,
-                                               std::string place,
+                                               std::string where,
                                                stage::Stage& stage,
                                                const DramaOptions& options,
                                                Log& log);

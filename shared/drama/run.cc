@@ -83,11 +83,11 @@ Run::Run(std::unique_ptr<Sandbox> sandbox,
 
 // ---- playing ----
 
-Status Run::Begin(std::string_view script, const std::string& place) {
+Status Run::Begin(std::string_view script, const std::string& where) {
   LARARIUM_RETURN_IF_ERROR(LoadStd());
   declaring_ = std::make_shared<Declared>();
   declared_ = declaring_;
-  LARARIUM_RETURN_IF_ERROR(StartChunk(script, place));
+  LARARIUM_RETURN_IF_ERROR(StartChunk(script, where));
   loading_ = true;
   scheduler_.Run(0);
   loading_ = false;
@@ -121,11 +121,11 @@ void Run::Tick(const Visitor& visitor) {
   followed_ = recording_.position();
 }
 
-Status Run::StartChunk(std::string_view script, const std::string& place) {
+Status Run::StartChunk(std::string_view script, const std::string& where) {
   Status status;
   sandbox_->limits().Refill(kLoadingTicks);
   const bool done = Protected(sandbox_->lua(), [&](lua_State* lua) {
-    status = sandbox_->Compile(script, place);
+    status = sandbox_->Compile(script, where);
     if (status.ok()) {
       chunk_ = scheduler_.Start(lua);
     }
@@ -229,11 +229,11 @@ void Run::HearMessages() {
 // ---- replaying ----
 
 Status Run::BeginAgain(std::string_view script,
-                       const std::string& place,
+                       const std::string& where,
                        std::shared_ptr<const Declared> declared) {
   LARARIUM_RETURN_IF_ERROR(LoadStd());
   declared_ = std::move(declared);
-  LARARIUM_RETURN_IF_ERROR(StartChunk(script, place));
+  LARARIUM_RETURN_IF_ERROR(StartChunk(script, where));
   loading_ = true;
   return Status();
 }

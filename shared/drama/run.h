@@ -81,12 +81,12 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   // Compiles the script and plays tick 0.
-  Status Begin(std::string_view script, const std::string& place);
+  Status Begin(std::string_view script, const std::string& where);
   void Tick(const Visitor& visitor);
 
   // Compiles the script for a replay by FollowTo(). `declared` is that of the recorded run.
   Status BeginAgain(std::string_view script,
-                    const std::string& place,
+                    const std::string& where,
                     std::shared_ptr<const Declared> declared);
   // Replays coroutines up to a position, without the stage. Returns false if they behave
   // differently; the position of the recording is then undefined.
@@ -102,7 +102,7 @@ class Run {
 
  private:
   Status LoadStd();
-  Status StartChunk(std::string_view script, const std::string& place);
+  Status StartChunk(std::string_view script, const std::string& where);
   void StartMain();
   void ApplyTracks();
   void UpdateTriggers();

@@ -79,8 +79,8 @@ Sandbox::~Sandbox() {
   }
 }
 
-Status Sandbox::Compile(std::string_view text, const std::string& place) {
-  const std::string chunk_name = "@" + place;
+Status Sandbox::Compile(std::string_view text, const std::string& where) {
+  const std::string chunk_name = "@" + where;
   const int status = luaL_loadbufferx(lua_, text.data(), text.size(), chunk_name.c_str(), "t");
   if (status == LUA_OK) {
     return Status();
@@ -89,7 +89,7 @@ Status Sandbox::Compile(std::string_view text, const std::string& place) {
   const std::string problem = limits_.tripped() ? limits_.Reason() : lua_tostring(lua_, -1);
   lua_pop(lua_, 1);
   // Lua's messages begin with a shortened file name and ":line: ".
-  return limits_.tripped() ? Status::Error(place, problem)
+  return limits_.tripped() ? Status::Error(where, problem)
                            : Status::Error("drama", problem, "correct the script");
 }
 

@@ -37,9 +37,9 @@ class Sandbox {
   lua_State* lua() { return lua_; }
   Limits& limits() { return limits_; }
 
-  // Compiles source text and leaves its function on the stack of lua(). Errors name `place` and the
+  // Compiles source text and leaves its function on the stack of lua(). Errors name `where` and the
   // line. Refuses binary chunks.
-  Status Compile(std::string_view text, const std::string& place);
+  Status Compile(std::string_view text, const std::string& where);
 
   // Describes the error of a coroutine after lua_resume(). `started_at` is the location to report
   // if no function of the script is on its stack.

@@ -169,13 +169,13 @@ class TimelineReader {
   TimelineText& out_;
 };
 
-Result<TimelineText> TimelineText::Read(std::string text, std::string place) {
+Result<TimelineText> TimelineText::Read(std::string text, std::string where) {
   if (text.size() > kMaxBytes) {
-    return Status::Error(place, "the script is longer than 64 MiB");
+    return Status::Error(where, "the script is longer than 64 MiB");
   }
   TimelineText timeline;
   timeline.text_ = std::move(text);
-  timeline.place_ = std::move(place);
+  timeline.place_ = std::move(where);
   LARARIUM_RETURN_IF_ERROR(TimelineReader(timeline).Read());
   timeline.indexes_.resize(timeline.lanes_.size());
   timeline.indexed_.assign(timeline.lanes_.size(), 0);

@@ -239,22 +239,22 @@ struct Replacement {
   std::string with;
 };
 
-Status CheckField(const std::string& place, std::string_view key, const Json& value) {
+Status CheckField(const std::string& where, std::string_view key, const Json& value) {
   if (key.empty() || key.size() > 100) {
-    return Status::Error(place, "a field needs a name of up to 100 characters");
+    return Status::Error(where, "a field needs a name of up to 100 characters");
   }
   if (!IsWritable(value)) {
-    return Status::Error(place, "'" + std::string(key) +
+    return Status::Error(where, "'" + std::string(key) +
                                     "' must be a finite number, a text, true, false or a table");
   }
   if (key == "at" || key == "length") {
     const double number = value.is_number() ? value.get<double>() : -1.0;
     if (!(number >= 0.0 && number <= 1e6)) {
-      return Status::Error(place, std::string(key) + " must be a number from 0 to 1000000");
+      return Status::Error(where, std::string(key) + " must be a number from 0 to 1000000");
     }
   }
   if (key == "ease" && !(value.is_string() && EaseNamed(value.get<std::string>()))) {
-    return Status::Error(place, "ease is \"linear\", \"in\", \"out\" or \"smooth\"");
+    return Status::Error(where, "ease is \"linear\", \"in\", \"out\" or \"smooth\"");
   }
   return Status();
 }

@@ -77,10 +77,10 @@ class TimelineText {
  public:
   static constexpr size_t kMaxBytes = 64 << 20;
 
-  // Messages begin with `place`. Errors: texts or comments that never end, a call of track whose
+  // Messages begin with `where`. Errors: texts or comments that never end, a call of track whose
   // braces do not close. A call that is not written as literals, or that has unknown lanes, cannot
   // be edited; problems() lists it.
-  static Result<TimelineText> Read(std::string text, std::string place);
+  static Result<TimelineText> Read(std::string text, std::string where);
 
   const std::string& text() const { return text_; }
   const std::string& place() const { return place_; }

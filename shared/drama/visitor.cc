@@ -140,9 +140,9 @@ std::optional<std::string> ReadMessageText(std::string_view argument) {
   return text;
 }
 
-Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view place) {
+Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view where) {
   if (!text.starts_with(kHeader)) {
-    return Status::Error(place, "is not a visitor log", "record one with --visitor-log");
+    return Status::Error(where, "is not a visitor log", "record one with --visitor-log");
   }
   VisitorLog log;
   text.remove_prefix(kHeader.size());
@@ -151,7 +151,7 @@ Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view plac
     Entry entry;
     if (!ParseLine(text.substr(0, end), entry) || log.entries_.size() >= kMaxEntries ||
         (!log.entries_.empty() && entry.tick <= log.entries_.back().tick)) {
-      return Status::Error(std::string(place) + ":" + std::to_string(line),
+      return Status::Error(std::string(where) + ":" + std::to_string(line),
                            "is not a valid line of a visitor log", "record it again");
     }
     log.entries_.push_back(std::move(entry));

@@ -60,8 +60,8 @@ class VisitorLog {
   };
 
   // Reads lines "tick tracked x y z dx dy dz hour keys..." with ascending ticks. Errors name
-  // `place` and the line.
-  static Result<VisitorLog> Read(std::string_view text, std::string_view place);
+  // `where` and the line.
+  static Result<VisitorLog> Read(std::string_view text, std::string_view where);
   static Result<VisitorLog> Load(const std::filesystem::path& path);
   std::string Write() const;
 

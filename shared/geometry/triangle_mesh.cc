@@ -18,20 +18,20 @@ float Angle(const glm::vec3& a, const glm::vec3& b) {
 
 }  // namespace
 
-Status TriangleMesh::Validate(const std::string& place) const {
+Status TriangleMesh::Validate(const std::string& where) const {
   if (indices.size() % 3 != 0) {
-    return Status::Error(place, "the number of indices is not a multiple of three");
+    return Status::Error(where, "the number of indices is not a multiple of three");
   }
   if (!normals.empty() && normals.size() != positions.size()) {
-    return Status::Error(place, "there must be one normal for each vertex");
+    return Status::Error(where, "there must be one normal for each vertex");
   }
   if (!std::all_of(positions.begin(), positions.end(), Finite) ||
       !std::all_of(normals.begin(), normals.end(), Finite)) {
-    return Status::Error(place, "a vertex holds a number that is not finite");
+    return Status::Error(where, "a vertex holds a number that is not finite");
   }
   const size_t count = positions.size();
   if (std::any_of(indices.begin(), indices.end(), [count](uint32_t i) { return i >= count; })) {
-    return Status::Error(place, "an index names a vertex that does not exist");
+    return Status::Error(where, "an index names a vertex that does not exist");
   }
   return Status();
 }

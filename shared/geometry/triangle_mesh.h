@@ -16,7 +16,7 @@ struct TriangleMesh {
   std::vector<uint32_t> indices;     // three for each triangle
 
   // Reports inconsistent sizes, indices out of range and non-finite numbers.
-  Status Validate(const std::string& place) const;
+  Status Validate(const std::string& where) const;
 };
 
 // Computes angle-weighted vertex normals; triangles without area contribute nothing.

@@ -40,10 +40,10 @@ double ClipTime(double time, float duration, bool loops) {
   return wrapped < 0.0 ? wrapped + end : wrapped;
 }
 
-Status Clip::Validate(size_t joint_count, const std::string& place) const {
-  const std::string clip_place = place + ": clip '" + name + "'";
+Status Clip::Validate(size_t joint_count, const std::string& where) const {
+  const std::string clip_place = where + ": clip '" + name + "'";
   if (name.empty()) {
-    return Status::Error(place, "a clip has no name");
+    return Status::Error(where, "a clip has no name");
   }
   if (joint_count == 0 || keys.empty() || keys.size() % joint_count != 0) {
     return Status::Error(clip_place, "its keys do not cover the joints of the skeleton");

@@ -23,7 +23,7 @@ struct Clip {
   size_t KeyCount(size_t joint_count) const {
     return joint_count == 0 ? 0 : keys.size() / joint_count;
   }
-  Status Validate(size_t joint_count, const std::string& place) const;
+  Status Validate(size_t joint_count, const std::string& where) const;
 };
 
 // For each key, the sum of the angles by which its joints differ from those of the first key, in

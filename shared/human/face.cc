@@ -127,10 +127,10 @@ std::string_view NameOf(Expression expression) {
   return kExpressionNames[static_cast<size_t>(expression)];
 }
 
-Status VisemeTrack::Validate(const std::string& place) const {
+Status VisemeTrack::Validate(const std::string& where) const {
   float before = 0.0f;
   for (size_t i = 0; i < keys.size(); ++i) {
-    const std::string key = place + ": viseme " + std::to_string(i);
+    const std::string key = where + ": viseme " + std::to_string(i);
     if (static_cast<int>(keys[i].viseme) >= kVisemeCount) {
       return Status::Error(key, "it is not one of the fifteen visemes");
     }
@@ -143,7 +143,7 @@ Status VisemeTrack::Validate(const std::string& place) const {
     before = keys[i].time;
   }
   if (!std::isfinite(duration) || duration < 0.0f) {
-    return Status::Error(place, "the duration of the visemes is not valid");
+    return Status::Error(where, "the duration of the visemes is not valid");
   }
   return Status();
 }

@@ -55,7 +55,7 @@ struct VisemeTrack {
   std::vector<Key> keys;  // ascending in time
   float duration = 0.0f;  // seconds; the last key ends here
 
-  Status Validate(const std::string& place) const;
+  Status Validate(const std::string& where) const;
 };
 
 // Returns the share of each viseme at a time, each 0..1 and together at most 1. Neighbouring

@@ -21,8 +21,8 @@ bool IsAscending(const std::vector<uint32_t>& values) {
 }  // namespace
 
 Status MorphTarget::Validate(const std::vector<SkinnedMesh>& meshes,
-                             const std::string& place) const {
-  const std::string at = place + ": morph target '" + name + "'";
+                             const std::string& where) const {
+  const std::string at = where + ": morph target '" + name + "'";
   std::vector<bool> seen(meshes.size(), false);
   for (const Part& part : parts) {
     if (part.mesh >= meshes.size() || seen[part.mesh]) {
@@ -44,8 +44,8 @@ Status MorphTarget::Validate(const std::vector<SkinnedMesh>& meshes,
   return Status();
 }
 
-Status FaceShape::Validate(size_t morph_count, size_t joint_count, const std::string& place) const {
-  const std::string at = place + ": face shape '" + name + "'";
+Status FaceShape::Validate(size_t morph_count, size_t joint_count, const std::string& where) const {
+  const std::string at = where + ": face shape '" + name + "'";
   for (const Morph& morph : morphs) {
     if (morph.morph >= morph_count || !std::isfinite(morph.weight)) {
       return Status::Error(at,

@@ -27,7 +27,7 @@ struct MorphTarget {
   std::string name;
   std::vector<Part> parts;  // A mesh has no more than one part.
 
-  Status Validate(const std::vector<SkinnedMesh>& meshes, const std::string& place) const;
+  Status Validate(const std::vector<SkinnedMesh>& meshes, const std::string& where) const;
 };
 
 // A named movement of the face, from 0 (rest) to 1. Standard names are the visemes sil, PP, FF, TH,
@@ -48,7 +48,7 @@ struct FaceShape {
   std::vector<Morph> morphs;
   std::vector<Turn> turns;
 
-  Status Validate(size_t morph_count, size_t joint_count, const std::string& place) const;
+  Status Validate(size_t morph_count, size_t joint_count, const std::string& where) const;
 };
 
 }  // namespace lararium::human

@@ -41,8 +41,8 @@ Surface SkinnedMesh::SurfaceIn(std::span<const Material> materials) const {
 
 Status SkinnedMesh::Validate(size_t joint_count,
                              size_t material_count,
-                             const std::string& place) const {
-  const std::string part = place + ": part '" + name + "'";
+                             const std::string& where) const {
+  const std::string part = where + ": part '" + name + "'";
   const size_t count = positions.size();
   if (normals.size() != count || albedo.size() != count || joints.size() != count ||
       weights.size() != count || (!uvs.empty() && uvs.size() != count)) {
@@ -77,41 +77,41 @@ Status SkinnedMesh::Validate(size_t joint_count,
   return Status();
 }
 
-Status Human::Validate(const std::string& place) const {
-  LARARIUM_RETURN_IF_ERROR(skeleton.Validate(place));
+Status Human::Validate(const std::string& where) const {
+  LARARIUM_RETURN_IF_ERROR(skeleton.Validate(where));
   if (skinning != Skinning::kLinear && skinning != Skinning::kDualQuaternion) {
-    return Status::Error(place, "its kind of skinning is unknown");
+    return Status::Error(where, "its kind of skinning is unknown");
   }
   for (const std::shared_ptr<const Texture>& texture : textures) {
-    LARARIUM_RETURN_IF_ERROR(texture->Validate(place));
+    LARARIUM_RETURN_IF_ERROR(texture->Validate(where));
   }
   for (const Material& material : materials) {
-    LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), place));
+    LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), where));
   }
   for (const SkinnedMesh& mesh : meshes) {
-    LARARIUM_RETURN_IF_ERROR(mesh.Validate(skeleton.size(), materials.size(), place));
+    LARARIUM_RETURN_IF_ERROR(mesh.Validate(skeleton.size(), materials.size(), where));
   }
   for (const MorphTarget& morph : morphs) {
-    LARARIUM_RETURN_IF_ERROR(morph.Validate(meshes, place));
+    LARARIUM_RETURN_IF_ERROR(morph.Validate(meshes, where));
   }
   for (const FaceShape& shape : face) {
-    LARARIUM_RETURN_IF_ERROR(shape.Validate(morphs.size(), skeleton.size(), place));
+    LARARIUM_RETURN_IF_ERROR(shape.Validate(morphs.size(), skeleton.size(), where));
   }
   if (!EachHasItsMesh(cloths)) {
-    return Status::Error(place, "two cloths move the same part");
+    return Status::Error(where, "two cloths move the same part");
   }
   for (const Cloth& cloth : cloths) {
-    LARARIUM_RETURN_IF_ERROR(cloth.Validate(meshes, skeleton.size(), place));
+    LARARIUM_RETURN_IF_ERROR(cloth.Validate(meshes, skeleton.size(), where));
   }
   for (const SpringChain& spring : springs) {
-    LARARIUM_RETURN_IF_ERROR(spring.Validate(skeleton.parents, place));
+    LARARIUM_RETURN_IF_ERROR(spring.Validate(skeleton.parents, where));
   }
   for (const BodyCapsule& capsule : capsules) {
-    LARARIUM_RETURN_IF_ERROR(capsule.Validate(skeleton.size(), place));
+    LARARIUM_RETURN_IF_ERROR(capsule.Validate(skeleton.size(), where));
   }
-  LARARIUM_RETURN_IF_ERROR(light.Validate(meshes, skeleton.size(), place));
+  LARARIUM_RETURN_IF_ERROR(light.Validate(meshes, skeleton.size(), where));
   for (const Clip& clip : clips) {
-    LARARIUM_RETURN_IF_ERROR(clip.Validate(skeleton.size(), place));
+    LARARIUM_RETURN_IF_ERROR(clip.Validate(skeleton.size(), where));
   }
   return Status();
 }

@@ -41,7 +41,7 @@ struct SkinnedMesh {
 
   // Returns kPlain if the mesh has no material.
   Surface SurfaceIn(std::span<const Material> materials) const;
-  Status Validate(size_t joint_count, size_t material_count, const std::string& place) const;
+  Status Validate(size_t joint_count, size_t material_count, const std::string& where) const;
 };
 
 enum class Skinning : uint8_t { kLinear, kDualQuaternion };
@@ -62,14 +62,14 @@ struct Human {
   LightTransfer light;  // empty if not baked
   std::string credits;  // authors and licences of the sources
 
-  Status Validate(const std::string& place) const;
+  Status Validate(const std::string& where) const;
 };
 
 // finest: the largest acceptable error of a mesh in metres, after the factor ErrorShare. Levels of
 // detail that are finer than needed, and the vertices that only they use, are not read. 0 reads
 // everything.
 Result<Human> ParseHuman(std::span<const std::byte> bytes,
-                         const std::string& place,
+                         const std::string& where,
                          float finest = 0.0f);
 Result<Human> LoadHuman(const std::filesystem::path& file);
 // Requires a human that was read completely.

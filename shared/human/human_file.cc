@@ -261,7 +261,7 @@ void ReadLight(const fb::LightTransfer* from,
 // Reads a buffer whose structure has been verified.
 Result<Human> ReadHuman(const fb::Human& from,
                         size_t file_size,
-                        const std::string& place,
+                        const std::string& where,
                         float finest) {
   BlockReader reader(file_size);
   Human human;
@@ -290,9 +290,9 @@ Result<Human> ReadHuman(const fb::Human& from,
   reader.ReadTables(from.clips(), human.clips, ReadClip);
   ReadLight(from.light(), counts, reader, human.light);
   if (!reader.ok()) {
-    return Status::Error(place, "the file is damaged: its parts overlap", kRemedy);
+    return Status::Error(where, "the file is damaged: its parts overlap", kRemedy);
   }
-  LARARIUM_RETURN_IF_ERROR(human.Validate(place));
+  LARARIUM_RETURN_IF_ERROR(human.Validate(where));
   return human;
 }
 
@@ -415,29 +415,29 @@ auto WriteLight(flatbuffers::FlatBufferBuilder& builder, const LightTransfer& li
 
 }  // namespace
 
-Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& place, float finest) {
+Result<Human> ParseHuman(std::span<const std::byte> bytes, const std::string& where, float finest) {
   if (bytes.size() < 8 || bytes.size() >= FLATBUFFERS_MAX_BUFFER_SIZE ||
       !fb::HumanBufferHasIdentifier(bytes.data())) {
-    return Status::Error(place, "not a .larhuman file", "import the figure again");
+    return Status::Error(where, "not a .larhuman file", "import the figure again");
   }
   if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(std::max_align_t) != 0) {
     const std::vector<std::byte> aligned(bytes.begin(), bytes.end());
-    return ParseHuman(aligned, place, finest);
+    return ParseHuman(aligned, where, finest);
   }
   flatbuffers::Verifier verifier(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
   // FlatBuffers pads files to whole words, but the verifier does not notice missing padding.
   if (bytes.size() % sizeof(flatbuffers::uoffset_t) != 0 || !fb::VerifyHumanBuffer(verifier)) {
-    return Status::Error(place, "the file is damaged or cut short", kRemedy);
+    return Status::Error(where, "the file is damaged or cut short", kRemedy);
   }
   const fb::Human& human = *fb::GetHuman(bytes.data());
   if (human.version() != kVersion) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "version " + std::to_string(human.version()) +
                              " of the file is not supported (this program reads version " +
                              std::to_string(kVersion) + ")",
                          kRemedy);
   }
-  return ReadHuman(human, bytes.size(), place, finest);
+  return ReadHuman(human, bytes.size(), where, finest);
 }
 
 Result<Human> LoadHuman(const std::filesystem::path& file) {

@@ -26,7 +26,7 @@ float ErrorShare(Surface surface) {
 Status ValidateTriangles(const std::vector<uint32_t>& indices,
                          const std::vector<LevelOfDetail>& coarser,
                          size_t vertex_count,
-                         const std::string& place) {
+                         const std::string& where) {
   const auto can_be_detail = [](const LevelOfDetail& level) {
     return std::isfinite(level.error) && level.error >= 0.0f;
   };
@@ -34,10 +34,10 @@ Status ValidateTriangles(const std::vector<uint32_t>& indices,
       std::any_of(coarser.begin(), coarser.end(), [vertex_count](const LevelOfDetail& level) {
         return !AreTriangles(level.indices, vertex_count);
       })) {
-    return Status::Error(place, "its triangles name vertices that do not exist");
+    return Status::Error(where, "its triangles name vertices that do not exist");
   }
   if (!std::all_of(coarser.begin(), coarser.end(), can_be_detail)) {
-    return Status::Error(place, "a level of detail has an invalid error value");
+    return Status::Error(where, "a level of detail has an invalid error value");
   }
   return Status();
 }

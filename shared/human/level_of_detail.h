@@ -19,10 +19,10 @@ struct LevelOfDetail {
 // Factor on the geometric error of a surface; viewers look most closely at faces.
 float ErrorShare(Surface surface);
 
-// Validates the triangles of a mesh and of its coarser levels. Errors call the mesh `place`.
+// Validates the triangles of a mesh and of its coarser levels. Errors call the mesh `where`.
 Status ValidateTriangles(const std::vector<uint32_t>& indices,
                          const std::vector<LevelOfDetail>& coarser,
                          size_t vertex_count,
-                         const std::string& place);
+                         const std::string& where);
 
 }  // namespace lararium::human

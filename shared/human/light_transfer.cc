@@ -63,11 +63,11 @@ Status ValidateParts(const LightTransfer& transfer, size_t joint_count, const st
 
 Status LightTransfer::Validate(const std::vector<Surface>& surfaces,
                                size_t joint_count,
-                               const std::string& place) const {
+                               const std::string& where) const {
   if (empty()) {
     return Status();
   }
-  const std::string at = place + ": light transfer";
+  const std::string at = where + ": light transfer";
   if (!IsCount(count) || bounces < 0 || key_poses.empty() || key_poses.size() > kMaxKeyPoses ||
       blockers.size() > kMaxBlockers || receivers.empty() || receivers.size() > kMaxReceivers ||
       meshes.size() != surfaces.size()) {
@@ -76,19 +76,19 @@ Status LightTransfer::Validate(const std::vector<Surface>& surfaces,
   LARARIUM_RETURN_IF_ERROR(ValidateParts(*this, joint_count, at));
   for (size_t i = 0; i < meshes.size(); ++i) {
     LARARIUM_RETURN_IF_ERROR(ValidateMesh(*this, meshes[i], surfaces[i].vertices,
-                                          place + ": part '" + surfaces[i].name + "'"));
+                                          where + ": part '" + surfaces[i].name + "'"));
   }
   return Status();
 }
 
 Status LightTransfer::Validate(const std::vector<SkinnedMesh>& skinned,
                                size_t joint_count,
-                               const std::string& place) const {
+                               const std::string& where) const {
   std::vector<Surface> surfaces;
   for (const SkinnedMesh& mesh : skinned) {
     surfaces.push_back({mesh.name, mesh.positions.size()});
   }
-  return Validate(surfaces, joint_count, place);
+  return Validate(surfaces, joint_count, where);
 }
 
 }  // namespace lararium::human

@@ -65,10 +65,10 @@ struct LightTransfer {
   bool empty() const { return meshes.empty(); }
   Status Validate(const std::vector<Surface>& surfaces,
                   size_t joint_count,
-                  const std::string& place) const;
+                  const std::string& where) const;
   Status Validate(const std::vector<SkinnedMesh>& skinned,
                   size_t joint_count,
-                  const std::string& place) const;
+                  const std::string& where) const;
 };
 
 }  // namespace lararium::human

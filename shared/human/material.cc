@@ -26,8 +26,8 @@ bool IsTextureOrNone(int16_t texture, size_t texture_count) {
 
 }  // namespace
 
-Status Texture::Validate(const std::string& place) const {
-  const std::string at = place + ": texture '" + name + "'";
+Status Texture::Validate(const std::string& where) const {
+  const std::string at = where + ": texture '" + name + "'";
   if (encoded.size() > kMaxEncodedBytes) {
     return Status::Error(at, "is too large");
   }
@@ -37,8 +37,8 @@ Status Texture::Validate(const std::string& place) const {
   return Status();
 }
 
-Status Material::Validate(size_t texture_count, const std::string& place) const {
-  const std::string at = place + ": material '" + name + "'";
+Status Material::Validate(size_t texture_count, const std::string& where) const {
+  const std::string at = where + ": material '" + name + "'";
   if (static_cast<uint8_t>(surface) >= kSurfaceCount) {
     return Status::Error(at, "its kind of surface is unknown");
   }

@@ -20,7 +20,7 @@ struct Texture {
   std::string name;
   std::vector<std::byte> encoded;
 
-  Status Validate(const std::string& place) const;
+  Status Validate(const std::string& where) const;
 
   friend bool operator==(const Texture&, const Texture&) = default;
 };
@@ -42,7 +42,7 @@ struct Material {
   float alpha_cutoff = 0.0f;
   bool two_sided = false;
 
-  Status Validate(size_t texture_count, const std::string& place) const;
+  Status Validate(size_t texture_count, const std::string& where) const;
 };
 
 }  // namespace lararium::human

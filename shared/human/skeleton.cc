@@ -32,25 +32,25 @@ std::optional<size_t> Skeleton::Find(std::string_view name) const {
   return static_cast<size_t>(found - names.begin());
 }
 
-Status Skeleton::Validate(const std::string& place) const {
+Status Skeleton::Validate(const std::string& where) const {
   if (names.empty() || names.size() > kMaxJoints) {
-    return Status::Error(place, "the skeleton has " + std::to_string(names.size()) + " joints",
+    return Status::Error(where, "the skeleton has " + std::to_string(names.size()) + " joints",
                          "it must have 1 to " + std::to_string(kMaxJoints));
   }
   if (parents.size() != size() || rest.size() != size() || joint_from_actor.size() != size()) {
-    return Status::Error(place, "the skeleton's arrays differ in length");
+    return Status::Error(where, "the skeleton's arrays differ in length");
   }
   std::set<std::string_view> seen;
   for (size_t i = 0; i < size(); ++i) {
     const std::string joint = "joint " + std::to_string(i) + " (" + names[i] + ")";
     if (names[i].empty() || !seen.insert(names[i]).second) {
-      return Status::Error(place, joint + " has no name, or the name of another joint");
+      return Status::Error(where, joint + " has no name, or the name of another joint");
     }
     if (parents[i] < kNoParent || parents[i] >= static_cast<int>(i)) {
-      return Status::Error(place, joint + " does not come after its parent");
+      return Status::Error(where, joint + " does not come after its parent");
     }
     if (!Valid(rest[i]) || !Finite(joint_from_actor[i]) || !IsAffine(joint_from_actor[i])) {
-      return Status::Error(place, joint + " has an invalid transform");
+      return Status::Error(where, joint + " has an invalid transform");
     }
   }
   return Status();

@@ -37,7 +37,7 @@ struct Skeleton {
 
   size_t size() const { return names.size(); }
   std::optional<size_t> Find(std::string_view name) const;
-  Status Validate(const std::string& place) const;
+  Status Validate(const std::string& where) const;
 };
 
 // Computes actor_from_joint for every joint of a pose.

@@ -56,18 +56,18 @@ Status ValidateBinding(const Cloth& cloth, size_t vertex_count, const std::strin
 
 }  // namespace
 
-Status BodyCapsule::Validate(size_t joint_count, const std::string& place) const {
+Status BodyCapsule::Validate(size_t joint_count, const std::string& where) const {
   if (joint >= joint_count || !Finite(a) || !Finite(b) || !IsNotNegative(radius_a) ||
       !IsNotNegative(radius_b)) {
-    return Status::Error(place, "a capsule of the body has no joint or an invalid size");
+    return Status::Error(where, "a capsule of the body has no joint or an invalid size");
   }
   return Status();
 }
 
 Status Cloth::Validate(const std::vector<SkinnedMesh>& meshes,
                        size_t joint_count,
-                       const std::string& place) const {
-  const std::string at = place + ": cloth '" + name + "'";
+                       const std::string& where) const {
+  const std::string at = where + ": cloth '" + name + "'";
   if (mesh >= meshes.size()) {
     return Status::Error(at, "names a part that does not exist");
   }
@@ -80,8 +80,8 @@ Status Cloth::Validate(const std::vector<SkinnedMesh>& meshes,
   return Status();
 }
 
-Status SpringChain::Validate(const std::vector<int16_t>& parents, const std::string& place) const {
-  const std::string at = place + ": spring chain '" + name + "'";
+Status SpringChain::Validate(const std::vector<int16_t>& parents, const std::string& where) const {
+  const std::string at = where + ": spring chain '" + name + "'";
   for (size_t i = 0; i < joints.size(); ++i) {
     if (joints[i] >= parents.size() ||
         (i > 0 && parents[joints[i]] != static_cast<int64_t>(joints[i - 1]))) {

@@ -24,7 +24,7 @@ struct BodyCapsule {
   float radius_a = 0.05f;  // metres
   float radius_b = 0.05f;
 
-  Status Validate(size_t joint_count, const std::string& place) const;
+  Status Validate(size_t joint_count, const std::string& where) const;
 };
 
 // A simulated sheet of particles and the drawn mesh that follows it. The particle arrays are
@@ -55,7 +55,7 @@ struct Cloth {
 
   Status Validate(const std::vector<SkinnedMesh>& meshes,
                   size_t joint_count,
-                  const std::string& place) const;
+                  const std::string& where) const;
 };
 
 // A chain of joints that swings behind its parent: hair, tassels, ends of belts.
@@ -67,7 +67,7 @@ struct SpringChain {
   float gravity = 1.0f;          // factor on 9.81 m/s^2
   float radius = 0.02f;          // metres kept from the body
 
-  Status Validate(const std::vector<int16_t>& parents, const std::string& place) const;
+  Status Validate(const std::vector<int16_t>& parents, const std::string& where) const;
 };
 
 }  // namespace lararium::human

@@ -32,11 +32,11 @@ using Bytes = std::span<const std::byte>;
 Result<cv::Mat> DecodeJpeg(Bytes encoded,
                            Channels channels,
                            int halvings,
-                           const std::string& place);
-Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& place);
-Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& place);
+                           const std::string& where);
+Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& where);
+Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& where);
 // Decodes BMP and WebP.
-Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& place);
+Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& where);
 
 bool StartsWith(Bytes bytes, size_t at, std::string_view text);
 
@@ -44,9 +44,9 @@ bool StartsWith(Bytes bytes, size_t at, std::string_view text);
 cv::Mat Converted(const cv::Mat& image, Channels channels);
 
 // Returns the error for a picture that cannot be decoded.
-Status Damaged(const std::string& place, const std::string& why);
+Status Damaged(const std::string& where, const std::string& why);
 
 // Allocates an image. Returns an error if the size is zero or exceeds kMaxPixels.
-Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::string& place);
+Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::string& where);
 
 }  // namespace lararium::image

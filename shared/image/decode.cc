@@ -32,16 +32,16 @@ cv::Mat Converted(const cv::Mat& image, Channels channels) {
   return converted;
 }
 
-Status Damaged(const std::string& place, const std::string& why) {
-  return Status::Error(place, "the image is damaged or cut short (" + why + ")",
+Status Damaged(const std::string& where, const std::string& why) {
+  return Status::Error(where, "the image is damaged or cut short (" + why + ")",
                        "replace it, or save it again as PNG");
 }
 
-Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::string& place) {
+Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::string& where) {
   if (width == 0 || height == 0 || width > kMaxPixels || height > kMaxPixels ||
       width * height > kMaxPixels) {
     return Status::Error(
-        place, "is an image of " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
+        where, "is an image of " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
         "scale it to at most " + std::to_string(kMaxPixels / 1'000'000) + " million");
   }
   return cv::Mat(static_cast<int>(height), static_cast<int>(width), type);
@@ -61,20 +61,20 @@ bool IsTiff(Bytes encoded) {
 
 Result<cv::Mat> DecodeImage(Bytes encoded,
                             Channels channels,
-                            const std::string& place,
+                            const std::string& where,
                             int jpeg_halvings) {
   CHECK(jpeg_halvings >= 0 && jpeg_halvings <= kMostJpegHalvings);
   const std::optional<ImageHeader> header = ReadImageHeader(encoded);
   if (header && header->format == ImageHeader::Format::kJpeg) {
-    return DecodeJpeg(encoded, channels, jpeg_halvings, place);
+    return DecodeJpeg(encoded, channels, jpeg_halvings, where);
   }
   if (header && header->format == ImageHeader::Format::kPng) {
-    return DecodePng(encoded, channels, place);
+    return DecodePng(encoded, channels, where);
   }
   if (IsTiff(encoded)) {
-    return DecodeTiff(encoded, channels, place);
+    return DecodeTiff(encoded, channels, where);
   }
-  return DecodeByLibav(encoded, channels, place);
+  return DecodeByLibav(encoded, channels, where);
 }
 
 Result<cv::Mat> ReadImage(const std::filesystem::path& file, Channels channels) {

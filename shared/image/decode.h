@@ -24,11 +24,11 @@ inline constexpr int kMostJpegHalvings = 3;
 
 // Decodes a PNG, JPEG, BMP, TIFF or WebP; of several pictures in a file, the first. Incomplete
 // pictures are errors. EXIF's orientation is ignored, because a camera model describes the sensor.
-// Errors call the picture `place`. jpeg_halvings, 0 to kMostJpegHalvings: how often the width and
+// Errors call the picture `where`. jpeg_halvings, 0 to kMostJpegHalvings: how often the width and
 // height of a JPEG are halved, rounded up, which saves time. Other formats keep their size.
 Result<cv::Mat> DecodeImage(std::span<const std::byte> encoded,
                             Channels channels,
-                            const std::string& place,
+                            const std::string& where,
                             int jpeg_halvings = 0);
 Result<cv::Mat> ReadImage(const std::filesystem::path& file, Channels channels);
 

@@ -157,21 +157,21 @@ class JpegWriter {
 Result<cv::Mat> DecodeJpeg(Bytes encoded,
                            Channels channels,
                            int halvings,
-                           const std::string& place) {
+                           const std::string& where) {
   JpegReader reader;
   if (!reader.Open(encoded, halvings)) {
-    return Damaged(place, reader.message());
+    return Damaged(where, reader.message());
   }
   const J_COLOR_SPACE colours = reader.info().jpeg_color_space;
   if (colours == JCS_CMYK || colours == JCS_YCCK) {
-    return Status::Error(place, "has the colours of a printer (CMYK)", "save it again as RGB");
+    return Status::Error(where, "has the colours of a printer (CMYK)", "save it again as RGB");
   }
   const bool grey = channels == Channels::kGrey || colours == JCS_GRAYSCALE;
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
                             MakeImage(reader.info().output_width, reader.info().output_height,
-                                      grey ? CV_8UC1 : CV_8UC3, place));
+                                      grey ? CV_8UC1 : CV_8UC3, where));
   if (!reader.Read(grey, image)) {
-    return Damaged(place, reader.message());
+    return Damaged(where, reader.message());
   }
   return Converted(image, channels);
 }

@@ -46,7 +46,7 @@ LibavPtr<AVCodecContext> OpenDecoder(AVCodecID id) {
   return avcodec_open2(context.get(), codec, nullptr) == 0 ? std::move(context) : nullptr;
 }
 
-Result<LibavPtr<AVFrame>> DecodeFrame(AVCodecID id, Bytes encoded, const std::string& place) {
+Result<LibavPtr<AVFrame>> DecodeFrame(AVCodecID id, Bytes encoded, const std::string& where) {
   av_log_set_level(AV_LOG_FATAL);  // Errors are reported as Status.
   const LibavPtr<AVCodecContext> decoder = OpenDecoder(id);
   LibavPtr<AVPacket> packet(av_packet_alloc());
@@ -54,7 +54,7 @@ Result<LibavPtr<AVFrame>> DecodeFrame(AVCodecID id, Bytes encoded, const std::st
   if (decoder == nullptr || packet == nullptr || frame == nullptr ||
       encoded.size() > size_t{INT32_MAX} - AV_INPUT_BUFFER_PADDING_SIZE ||
       av_new_packet(packet.get(), static_cast<int>(encoded.size())) != 0) {
-    return Status::Error(place, "no decoder for this format is installed", "save it again as PNG");
+    return Status::Error(where, "no decoder for this format is installed", "save it again as PNG");
   }
   std::memcpy(packet->data, encoded.data(), encoded.size());
   int error = avcodec_send_packet(decoder.get(), packet.get());
@@ -62,17 +62,17 @@ Result<LibavPtr<AVFrame>> DecodeFrame(AVCodecID id, Bytes encoded, const std::st
     error = avcodec_receive_frame(decoder.get(), frame.get());
   }
   if (error != 0 || frame->decode_error_flags != 0) {
-    return Damaged(place, error != 0 ? LibavMessage(error) : "its decoder found errors");
+    return Damaged(where, error != 0 ? LibavMessage(error) : "its decoder found errors");
   }
   return frame;
 }
 
-Result<cv::Mat> ToMat(const AVFrame& frame, Channels channels, const std::string& place) {
+Result<cv::Mat> ToMat(const AVFrame& frame, Channels channels, const std::string& where) {
   const bool alpha = channels == Channels::kBgra;
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
                             MakeImage(static_cast<uint64_t>(std::max(frame.width, 0)),
                                       static_cast<uint64_t>(std::max(frame.height, 0)),
-                                      alpha ? CV_8UC4 : CV_8UC3, place));
+                                      alpha ? CV_8UC4 : CV_8UC3, where));
   const LibavPtr<SwsContext> scaler(sws_getContext(
       frame.width, frame.height, static_cast<AVPixelFormat>(frame.format), frame.width,
       frame.height, alpha ? AV_PIX_FMT_BGRA : AV_PIX_FMT_BGR24,
@@ -81,24 +81,24 @@ Result<cv::Mat> ToMat(const AVFrame& frame, Channels channels, const std::string
   const int stride[] = {static_cast<int>(image.step)};
   if (scaler == nullptr || sws_scale(scaler.get(), frame.data, frame.linesize, 0, frame.height,
                                      rows, stride) != frame.height) {
-    return Status::Error(place, "has an unknown pixel format", "save it again as PNG");
+    return Status::Error(where, "has an unknown pixel format", "save it again as PNG");
   }
   return channels == Channels::kGrey ? Converted(image, channels) : image;
 }
 
 }  // namespace
 
-Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& place) {
+Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& where) {
   const std::optional<AVCodecID> codec = CodecOf(encoded);
   if (!codec) {
-    return Status::Error(place, "cannot be read as an image",
+    return Status::Error(where, "cannot be read as an image",
                          "give a PNG, JPEG, TIFF, WebP or BMP file");
   }
   if (ClaimedSize(*codec, encoded) > encoded.size()) {
-    return Damaged(place, "shorter than its header says");
+    return Damaged(where, "shorter than its header says");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const LibavPtr<AVFrame> frame, DecodeFrame(*codec, encoded, place));
-  return ToMat(*frame, channels, place);
+  LARARIUM_ASSIGN_OR_RETURN(const LibavPtr<AVFrame> frame, DecodeFrame(*codec, encoded, where));
+  return ToMat(*frame, channels, where);
 }
 
 }  // namespace lararium::image

@@ -145,18 +145,18 @@ class PngWriter {
 
 }  // namespace
 
-Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& place) {
+Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& where) {
   PngReader reader(encoded);
   if (!reader.Open()) {
-    return Damaged(place, reader.message());
+    return Damaged(where, reader.message());
   }
   // libpng's conversion to grey applies gamma; OpenCV's and that of our videos do not.
   const bool convert = channels == Channels::kGrey && !reader.grey();
   const Channels stored = convert ? Channels::kBgr : channels;
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
-                            MakeImage(reader.width(), reader.height(), TypeOf(stored), place));
+                            MakeImage(reader.width(), reader.height(), TypeOf(stored), where));
   if (!reader.Read(stored, image)) {
-    return Damaged(place, reader.message());
+    return Damaged(where, reader.message());
   }
   return convert ? Converted(image, channels) : image;
 }

@@ -67,21 +67,21 @@ bool ReadPixels(TIFF* tiff, cv::Mat& rgba) {
 
 }  // namespace
 
-Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& place) {
+Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& where) {
   static const bool silent = (TIFFSetErrorHandler(nullptr), TIFFSetWarningHandler(nullptr), true);
   static_cast<void>(silent);
   Memory memory{encoded};
   const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen(
-      place.c_str(), "rm", &memory, Read, Refuse, Seek, Close, Size, nullptr, nullptr));
+      where.c_str(), "rm", &memory, Read, Refuse, Seek, Close, Size, nullptr, nullptr));
   uint32_t width = 0;
   uint32_t height = 0;
   if (tiff == nullptr || TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width) == 0 ||
       TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height) == 0) {
-    return Damaged(place, "it has no page that can be read");
+    return Damaged(where, "it has no page that can be read");
   }
-  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, MakeImage(width, height, CV_8UC4, place));
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, MakeImage(width, height, CV_8UC4, where));
   if (!ReadPixels(tiff.get(), image)) {
-    return Damaged(place, "its pixels cannot be read");
+    return Damaged(where, "its pixels cannot be read");
   }
   if (channels == Channels::kBgra) {
     cv::cvtColor(image, image, cv::COLOR_RGBA2BGRA);

@@ -34,12 +34,12 @@ float SeenThrough(const CameraResponse::Curve& curve, float exposure) {
 
 }  // namespace
 
-Status CameraResponse::Validate(std::string_view place) const {
+Status CameraResponse::Validate(std::string_view where) const {
   for (size_t c = 0; c < 3; ++c) {
     for (size_t i = 0; i < 256; ++i) {
       const float value = linear[c][i];
       if (!(value >= 0.0f && value < kLargest) || (i > 0 && value < linear[c][i - 1])) {
-        return Status::Error(place,
+        return Status::Error(where,
                              std::string("the camera's response falls or is not a number at "
                                          "value ") +
                                  std::to_string(i) + " of channel " + kChannels[c],
@@ -47,7 +47,7 @@ Status CameraResponse::Validate(std::string_view place) const {
       }
     }
     if (!(linear[c][kReference] > 0.0f)) {
-      return Status::Error(place, "the camera's response is 0 in the middle",
+      return Status::Error(where, "the camera's response is 0 in the middle",
                            "calibrate the camera again");
     }
   }

@@ -28,7 +28,7 @@ struct CameraResponse {
   // The linear sRGB value of the byte that the camera gives an exposure, interpolated between
   // bytes; 1 from the exposure of white on.
   glm::vec3 Seen(const glm::vec3& exposure) const;
-  Status Validate(std::string_view place) const;
+  Status Validate(std::string_view where) const;
 
   friend bool operator==(const CameraResponse&, const CameraResponse&) = default;
 };

@@ -72,28 +72,28 @@ void BlendGlossyMaps(std::span<const GlossyMap* const> maps,
   }
 }
 
-Result<GlossyMap> ParseGlossyMap(std::span<const std::byte> bytes, const std::string& place) {
+Result<GlossyMap> ParseGlossyMap(std::span<const std::byte> bytes, const std::string& where) {
   uint32_t header[3] = {};
   if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic, sizeof(kMagic)) != 0) {
-    return Status::Error(place, "is not a reflection map", "bake the project again");
+    return Status::Error(where, "is not a reflection map", "bake the project again");
   }
   std::memcpy(header, bytes.data() + sizeof(kMagic), sizeof(header));
   if (header[0] != kVersion) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "has version " + std::to_string(header[0]) + ", this program reads " +
                              std::to_string(kVersion),
                          "bake the project again, or update this program");
   }
   if (header[1] != GlossyMap::kSize || header[2] != GlossyMap::kLayers ||
       bytes.size() != kHeaderBytes + GlossyMap::kTexels * sizeof(uint32_t)) {
-    return Status::Error(place, "does not have the size of a reflection map",
+    return Status::Error(where, "does not have the size of a reflection map",
                          "bake the project again");
   }
   GlossyMap map;
   map.texels.resize(GlossyMap::kTexels);
   std::memcpy(map.texels.data(), bytes.data() + kHeaderBytes, map.texels.size() * sizeof(uint32_t));
   if (!std::all_of(map.texels.begin(), map.texels.end(), IsFinite)) {
-    return Status::Error(place, "contains light values that are not finite",
+    return Status::Error(where, "contains light values that are not finite",
                          "bake the project again");
   }
   return map;

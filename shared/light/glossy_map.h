@@ -52,8 +52,8 @@ void BlendGlossyMaps(std::span<const GlossyMap* const> maps,
                      std::span<const float> weights,
                      std::span<uint32_t> blended);
 
-// Parses and checks the bytes of a glossy map file; errors call the bytes `place`.
-Result<GlossyMap> ParseGlossyMap(std::span<const std::byte> bytes, const std::string& place);
+// Parses and checks the bytes of a glossy map file; errors call the bytes `where`.
+Result<GlossyMap> ParseGlossyMap(std::span<const std::byte> bytes, const std::string& where);
 std::vector<std::byte> SerializeGlossyMap(const GlossyMap& map);
 
 }  // namespace lararium::light

@@ -1,9 +1,9 @@
-#include "shared/core/units.h"
+#include "shared/light/quadrature.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "shared/light/quadrature.h"
+#include "shared/core/units.h"
 
 namespace lararium::light {
 namespace {

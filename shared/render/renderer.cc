@@ -527,7 +527,7 @@ Status Renderer::State::PutTogether(const RenderScene& scene,
   LARARIUM_RETURN_IF_ERROR(scene.see_through ? CompositeSeeThrough(scene, picture)
                                              : Composite(scene, picture));
   if (&picture != &target) {
-    upscaler.Enlarge(picture, target);
+    upscaler.Upscale(picture, target);
   }
   return Status();
 }

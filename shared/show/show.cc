@@ -298,7 +298,7 @@ TrackingLossFader::View Show::Update(const vision::TrackedFrame& tracked,
                           tracked.reason == vision::TrackReason::kTooDark);
   }
   TrackingLossFader::View view;
-  view.rung =
+  view.state =
       camera_from_stage ? TrackingLossFader::State::kShown : TrackingLossFader::State::kGone;
   view.camera_from_stage = camera_from_stage;
   view.place = place;
@@ -321,7 +321,7 @@ void Show::Locate(vision::TrackedFrame tracked, StagedFrame& staged) {
   }
   place_ = view.place;
   staged.place = place_;
-  staged.rung = view.rung;
+  staged.state = view.state;
   staged.opacity = view.opacity;
   staged.lost_seconds = view.lost_seconds;
   staged.camera_from_stage = view.camera_from_stage ? view.camera_from_stage : located;

@@ -99,7 +99,7 @@ struct StagedFrame {
   // (tracking_loss_fader.h).
   std::optional<geometry::Rigid3> camera_from_stage;
   float opacity = 1.0f;  // Opacity of people and of their effect on light.
-  TrackingLossFader::State rung = TrackingLossFader::State::kShown;
+  TrackingLossFader::State state = TrackingLossFader::State::kShown;
   double lost_seconds = 0.0;  // Time since the last pose; 0 while there is one.
   StagedGuide guide;          // Guide for a visitor whose tracking is lost.
   // The tracker's gain after GainFilter; linear R, G, B.

@@ -124,7 +124,7 @@ std::string TrackingText(const StagedFrame& staged) {
                   static_cast<double>(tracked.confidence));
     return text;
   }
-  const char* what = staged.rung == TrackingLossFader::State::kSearching ? "searching" : "lost";
+  const char* what = staged.state == TrackingLossFader::State::kSearching ? "searching" : "lost";
   std::snprintf(text, sizeof(text), "%s for %.1f s: %s", what, staged.lost_seconds,
                 std::string(vision::Name(tracked.reason)).c_str());
   return text;

@@ -94,8 +94,8 @@ void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses) 
 }
 
 Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
-                                              std::string_view place) {
-  LARARIUM_ASSIGN_OR_RETURN(const auto entries, ChoosePlaces(bundle, place));
+                                              std::string_view where) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto entries, ChoosePlaces(bundle, where));
   std::vector<ShowPlace> places;
   for (const bundle::PlaceEntry& entry : entries) {
     LARARIUM_ASSIGN_OR_RETURN(places.emplace_back(), LoadPlace(bundle, entry));
@@ -387,7 +387,7 @@ Status LoadSounds(const bundle::Bundle& bundle, std::vector<audio::SoundData>& s
 Result<std::string> ChooseLanguage(std::span<const std::string> languages,
                                    const std::string& chosen,
                                    const std::string& kind,
-                                   const std::string& place) {
+                                   const std::string& where) {
   if (chosen.empty()) {
     return languages.empty() ? std::string() : languages.front();
   }
@@ -398,20 +398,20 @@ Result<std::string> ChooseLanguage(std::span<const std::string> languages,
     }
     known += (known.empty() ? "" : ", ") + language;
   }
-  return Status::Error(place, "has no " + kind + " in the language '" + chosen + "'",
+  return Status::Error(where, "has no " + kind + " in the language '" + chosen + "'",
                        known.empty() ? "it has none at all" : "choose one of: " + known);
 }
 
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
-                                    std::string_view place,
+                                    std::string_view where,
                                     const LanguageChoice& languages,
                                     float finest) {
   const bundle::ShowManifest& manifest = bundle.manifest();
   ShowContent content;
   content.title = manifest.title;
-  LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, place));
+  LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, where));
   for (const bundle::PlaceEntry& entry : manifest.places) {
-    if (!place.empty() && entry.name != place) {
+    if (!where.empty() && entry.name != where) {
       LARARIUM_ASSIGN_OR_RETURN(content.elsewhere.emplace_back(), LoadStage(bundle, entry));
     }
   }

@@ -91,11 +91,11 @@ inline constexpr std::string_view kNoCaptions = "off";
 
 // Returns `chosen` if `languages` contains it, and an error otherwise. If `chosen` is empty,
 // returns the first language, or "" if there is none. kind: "speech" or "captions", for the error.
-// place: where the error happened.
+// where: where the error happened.
 Result<std::string> ChooseLanguage(std::span<const std::string> languages,
                                    const std::string& chosen,
                                    const std::string& kind,
-                                   const std::string& place);
+                                   const std::string& where);
 
 // A trained place and how the drama is staged there.
 struct ShowPlace {
@@ -141,14 +141,14 @@ void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses);
 
 // Loads all places of the bundle, or only the named one. Each member's reader validates it.
 Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
-                                              std::string_view place = {});
+                                              std::string_view where = {});
 
 // Loads a show from a bundle at all of its places, or only at the named one. Each member's reader
 // validates it. A line without the chosen language uses the show's first language that it has.
 // finest: detail of the cast in metres, as in human::ParseHuman; if positive, ShowContent::finer
 // reads more detail from the bundle's file.
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
-                                    std::string_view place = {},
+                                    std::string_view where = {},
                                     const LanguageChoice& languages = {},
                                     float finest = 0.0f);
 

@@ -171,13 +171,13 @@ TrackingLossFader::View TrackingLossFader::MakeView(double time) const {
     view.camera_from_stage = shown_;
   }
   if (!lost_since_) {
-    view.rung = State::kShown;
+    view.state = State::kShown;
   } else if (!seen_) {
-    view.rung = State::kSearching;
+    view.state = State::kSearching;
   } else if (!shown_) {
-    view.rung = State::kGone;
+    view.state = State::kGone;
   } else {
-    view.rung = opacity_ < 1.0f ? State::kFading : State::kHeld;
+    view.state = opacity_ < 1.0f ? State::kFading : State::kHeld;
   }
   return view;
 }

@@ -39,7 +39,7 @@ class TrackingLossFader {
 
   // What to draw in a frame.
   struct View {
-    State rung = State::kSearching;
+    State state = State::kSearching;
     // Pose with which people are drawn; empty: they are not drawn.
     std::optional<geometry::Rigid3> camera_from_stage;
     uint32_t place = 0;  // Place in which the pose lies.

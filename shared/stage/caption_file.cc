@@ -87,12 +87,12 @@ Status CheckCues(const std::vector<CaptionCue>& cues, const std::string& place) 
   return Status();
 }
 
-Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& place) {
+Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& where) {
   if (text.size() > kMaxBytes) {
-    return Status::Error(place, "is longer than 64 MiB");
+    return Status::Error(where, "is longer than 64 MiB");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView root(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
+  const JsonView root(json, where);
   LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   CaptionBook book;
   LARARIUM_ASSIGN_OR_RETURN(book.names, ReadByLanguage(root, "names", ReadName));

@@ -38,10 +38,10 @@ struct CaptionBook {
 bool IsLanguageTag(std::string_view tag);
 
 // Checks the order, the duration and the number of text lines of the cues.
-Status CheckCues(const std::vector<CaptionCue>& cues, const std::string& place);
+Status CheckCues(const std::vector<CaptionCue>& cues, const std::string& where);
 
-// Error messages begin with `place` and name the field.
-Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& place);
+// Error messages begin with `where` and name the field.
+Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& where);
 std::string FormatCaptions(const CaptionBook& book);
 
 }  // namespace lararium::stage

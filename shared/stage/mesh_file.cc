@@ -36,19 +36,19 @@ std::vector<std::byte> SerializeMesh(const geometry::TriangleMesh& mesh) {
 }
 
 Result<geometry::TriangleMesh> ParseMesh(std::span<const std::byte> bytes,
-                                         const std::string& place) {
+                                         const std::string& where) {
   if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(std::max_align_t) != 0) {
     const std::vector<std::byte> aligned(bytes.begin(), bytes.end());
-    return ParseMesh(aligned, place);
+    return ParseMesh(aligned, where);
   }
   LARARIUM_ASSIGN_OR_RETURN(
       const fb::Mesh* from,
-      OpenFlatbuffer<fb::Mesh>(bytes, fb::MeshIdentifier(), kMeshKind, place));
+      OpenFlatbuffer<fb::Mesh>(bytes, fb::MeshIdentifier(), kMeshKind, where));
   geometry::TriangleMesh mesh;
   ReadBlock(from->positions(), mesh.positions);
   ReadBlock(from->normals(), mesh.normals);
   ReadBlock(from->indices(), mesh.indices);
-  LARARIUM_RETURN_IF_ERROR(mesh.Validate(place));
+  LARARIUM_RETURN_IF_ERROR(mesh.Validate(where));
   return mesh;
 }
 

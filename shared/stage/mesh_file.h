@@ -15,8 +15,8 @@ namespace lararium::stage {
 // Deterministic: the same mesh gives the same bytes.
 std::vector<std::byte> SerializeMesh(const geometry::TriangleMesh& mesh);
 
-// Checks structure, version, sizes, indices and numbers first. Error messages begin with `place`.
+// Checks structure, version, sizes, indices and numbers first. Error messages begin with `where`.
 Result<geometry::TriangleMesh> ParseMesh(std::span<const std::byte> bytes,
-                                         const std::string& place);
+                                         const std::string& where);
 
 }  // namespace lararium::stage

@@ -687,12 +687,12 @@ int ObjectUse::FindGrip(std::string_view name) const { return FindByName(grips, 
 
 Result<ObjectUse> ParseObjectUse(std::string_view text,
                                  const Prop& prop,
-                                 const std::string& place) {
+                                 const std::string& where) {
   if (text.size() > kMaxTextBytes) {
-    return Status::Error(place, "is longer than 1 MiB");
+    return Status::Error(where, "is longer than 1 MiB");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView root(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
+  const JsonView root(json, where);
   UseReader reader(root, prop);
   LARARIUM_ASSIGN_OR_RETURN(ObjectUse use, reader.Read());
   if (!reader.has_footprint() && !use.carry) {
@@ -704,8 +704,8 @@ Result<ObjectUse> ParseObjectUse(std::string_view text,
   return use;
 }
 
-Result<std::shared_ptr<ObjectModel>> ObjectModel::Create(Prop prop, const std::string& place) {
-  LARARIUM_RETURN_IF_ERROR(prop.Validate(place));
+Result<std::shared_ptr<ObjectModel>> ObjectModel::Create(Prop prop, const std::string& where) {
+  LARARIUM_RETURN_IF_ERROR(prop.Validate(where));
   std::shared_ptr<ObjectModel> model(new ObjectModel);
   ComputeBounds(prop, model->lower_, model->upper_);
   for (const PropPart& part : prop.parts) {
@@ -714,7 +714,7 @@ Result<std::shared_ptr<ObjectModel>> ObjectModel::Create(Prop prop, const std::s
   if (prop.use.empty()) {
     AddDefaultFootprint(model->lower_, model->upper_, model->use_);
   } else {
-    LARARIUM_ASSIGN_OR_RETURN(model->use_, ParseObjectUse(prop.use, prop, place));
+    LARARIUM_ASSIGN_OR_RETURN(model->use_, ParseObjectUse(prop.use, prop, where));
   }
   model->prop_ = std::move(prop);
   return model;

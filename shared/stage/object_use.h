@@ -184,8 +184,8 @@ struct ObjectUse {
   int FindGrip(std::string_view name) const;
 };
 
-// Error messages begin with `place` and name the field.
-Result<ObjectUse> ParseObjectUse(std::string_view text, const Prop& prop, const std::string& place);
+// Error messages begin with `where` and name the field.
+Result<ObjectUse> ParseObjectUse(std::string_view text, const Prop& prop, const std::string& where);
 
 // Bounding box of a part's meshes, part frame. If there are no meshes, lower > upper.
 struct PartBounds {
@@ -197,7 +197,7 @@ struct PartBounds {
 class ObjectModel {
  public:
   // If prop.use is empty, the object is scenery: it cannot be used, and its bounds block walkers.
-  static Result<std::shared_ptr<ObjectModel>> Create(Prop prop, const std::string& place);
+  static Result<std::shared_ptr<ObjectModel>> Create(Prop prop, const std::string& where);
 
   const Prop& prop() const { return prop_; }
   // Mutable so that show::TakeLight can move the transfer vectors elsewhere.

@@ -162,9 +162,9 @@ const Claim* Paradata::Find(Subject subject, std::string_view name) const {
   return found == Of(subject).end() ? nullptr : &found->second;
 }
 
-Result<Paradata> ParseParadata(std::string_view text, const std::string& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json root, ParseJson(text, place));
-  const JsonView view(root, place);
+Result<Paradata> ParseParadata(std::string_view text, const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json root, ParseJson(text, where));
+  const JsonView view(root, where);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
   if (schema > kSchema) {
     return view.Problem("was written by a newer Lararium (schema " + std::to_string(schema) +

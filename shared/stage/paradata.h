@@ -72,8 +72,8 @@ struct Paradata {
 };
 
 // Checks every field. Errors: an unknown field, a source that is not listed, control characters.
-// Messages begin with `place`.
-Result<Paradata> ParseParadata(std::string_view text, const std::string& place);
+// Messages begin with `where`.
+Result<Paradata> ParseParadata(std::string_view text, const std::string& where);
 std::string FormatParadata(const Paradata& paradata);
 
 }  // namespace lararium::stage

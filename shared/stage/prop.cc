@@ -17,11 +17,11 @@ bool LiesBetween(const glm::vec3& v, float low, float high) {
   return v.x >= low && v.y >= low && v.z >= low && v.x <= high && v.y <= high && v.z <= high;
 }
 
-Status ValidatePart(const Prop& prop, size_t index, const std::string& place) {
+Status ValidatePart(const Prop& prop, size_t index, const std::string& where) {
   const PropPart& part = prop.parts[index];
-  const std::string at = place + ": part '" + part.name + "'";
+  const std::string at = where + ": part '" + part.name + "'";
   if (part.name.empty()) {
-    return Status::Error(place, "a part has no name");
+    return Status::Error(where, "a part has no name");
   }
   if (prop.FindPart(part.name) != static_cast<int>(index)) {
     return Status::Error(at, "two parts have this name");
@@ -40,9 +40,9 @@ Status ValidatePart(const Prop& prop, size_t index, const std::string& place) {
   return Status();
 }
 
-Status ValidateLight(const Prop& prop, const std::string& place) {
+Status ValidateLight(const Prop& prop, const std::string& where) {
   if (prop.light_shown.size() != prop.light.key_poses.size()) {
-    return Status::Error(place, "does not say which parts are shown in the key poses of its light",
+    return Status::Error(where, "does not say which parts are shown in the key poses of its light",
                          "bake the project again");
   }
   std::vector<human::LightTransfer::Surface> surfaces;
@@ -51,35 +51,35 @@ Status ValidateLight(const Prop& prop, const std::string& place) {
       surfaces.push_back({part.name, mesh.positions.size()});
     }
   }
-  return prop.light.Validate(surfaces, prop.parts.size(), place);
+  return prop.light.Validate(surfaces, prop.parts.size(), where);
 }
 
 }  // namespace
 
-Status PropMesh::Validate(size_t material_count, const std::string& place) const {
+Status PropMesh::Validate(size_t material_count, const std::string& where) const {
   const size_t count = positions.size();
   if (normals.size() != count || albedo.size() != count || (!uvs.empty() && uvs.size() != count)) {
-    return Status::Error(place, "its vertex arrays differ in length");
+    return Status::Error(where, "its vertex arrays differ in length");
   }
-  LARARIUM_RETURN_IF_ERROR(human::ValidateTriangles(indices, coarser, count, place));
+  LARARIUM_RETURN_IF_ERROR(human::ValidateTriangles(indices, coarser, count, where));
   if (!std::all_of(positions.begin(), positions.end(),
                    [](const glm::vec3& p) { return human::Finite(p); }) ||
       !std::all_of(normals.begin(), normals.end(), IsUnit) ||
       !std::all_of(uvs.begin(), uvs.end(), [](const glm::vec2& uv) {
         return std::isfinite(uv.x) && std::isfinite(uv.y);
       })) {
-    return Status::Error(place, "a position, normal or texture coordinate is not valid");
+    return Status::Error(where, "a position, normal or texture coordinate is not valid");
   }
   if (!std::all_of(albedo.begin(), albedo.end(),
                    [](const glm::vec3& a) { return LiesBetween(a, 0.0f, 1.0f); })) {
-    return Status::Error(place, "an albedo is outside 0..1");
+    return Status::Error(where, "an albedo is outside 0..1");
   }
   if (!LiesBetween(emission, 0.0f, kMaxEmission)) {
-    return Status::Error(place, "its emission is out of range");
+    return Status::Error(where, "its emission is out of range");
   }
   if (material != human::Material::kNone &&
       (material < 0 || static_cast<size_t>(material) >= material_count)) {
-    return Status::Error(place, "names a material that does not exist");
+    return Status::Error(where, "names a material that does not exist");
   }
   return Status();
 }
@@ -90,20 +90,20 @@ int Prop::FindPart(std::string_view part) const {
   return found == parts.end() ? -1 : static_cast<int>(found - parts.begin());
 }
 
-Status Prop::Validate(const std::string& place) const {
+Status Prop::Validate(const std::string& where) const {
   if (parts.empty() || parts.size() > kMaxParts) {
-    return Status::Error(place, "it must have from 1 to " + std::to_string(kMaxParts) + " parts");
+    return Status::Error(where, "it must have from 1 to " + std::to_string(kMaxParts) + " parts");
   }
   for (const std::shared_ptr<const human::Texture>& texture : textures) {
-    LARARIUM_RETURN_IF_ERROR(texture->Validate(place));
+    LARARIUM_RETURN_IF_ERROR(texture->Validate(where));
   }
   for (const human::Material& material : materials) {
-    LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), place));
+    LARARIUM_RETURN_IF_ERROR(material.Validate(textures.size(), where));
   }
   for (size_t i = 0; i < parts.size(); ++i) {
-    LARARIUM_RETURN_IF_ERROR(ValidatePart(*this, i, place));
+    LARARIUM_RETURN_IF_ERROR(ValidatePart(*this, i, where));
   }
-  return ValidateLight(*this, place);
+  return ValidateLight(*this, where);
 }
 
 }  // namespace lararium::stage

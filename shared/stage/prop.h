@@ -49,7 +49,7 @@ struct PropMesh {
   // Emitted linear RGB radiance: 1 is white in an image of gain 1.
   glm::vec3 emission = glm::vec3(0.0f);
 
-  Status Validate(size_t material_count, const std::string& place) const;
+  Status Validate(size_t material_count, const std::string& where) const;
 };
 
 // A part that can move relative to the others, such as a lid or a door leaf.
@@ -83,12 +83,12 @@ struct Prop {
   std::vector<uint32_t> light_shown;
 
   int FindPart(std::string_view part) const;  // Index into `parts`; -1: none.
-  Status Validate(const std::string& place) const;
+  Status Validate(const std::string& where) const;
 };
 
 // ParseProp checks structure, version, sizes, indices and numbers; error messages begin with
-// `place`. SerializeProp is deterministic: the same prop gives the same bytes.
-Result<Prop> ParseProp(std::span<const std::byte> bytes, const std::string& place);
+// `where`. SerializeProp is deterministic: the same prop gives the same bytes.
+Result<Prop> ParseProp(std::span<const std::byte> bytes, const std::string& where);
 std::vector<std::byte> SerializeProp(const Prop& prop);
 
 }  // namespace lararium::stage

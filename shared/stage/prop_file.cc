@@ -87,7 +87,7 @@ void ReadLight(const prop_fb::LightTransfer* from, BlockReader& reader, Prop& pr
 }
 
 // Reads a buffer whose structure has been verified.
-Result<Prop> ReadProp(const prop_fb::Prop& from, size_t file_size, const std::string& place) {
+Result<Prop> ReadProp(const prop_fb::Prop& from, size_t file_size, const std::string& where) {
   BlockReader reader(file_size);
   Prop prop;
   reader.Read(from.name(), prop.name);
@@ -98,9 +98,9 @@ Result<Prop> ReadProp(const prop_fb::Prop& from, size_t file_size, const std::st
   reader.Read(from.credits(), prop.credits);
   ReadLight(from.light(), reader, prop);
   if (!reader.ok()) {
-    return Status::Error(place, "the file is damaged: its parts overlap", kRemedy);
+    return Status::Error(where, "the file is damaged: its parts overlap", kRemedy);
   }
-  LARARIUM_RETURN_IF_ERROR(prop.Validate(place));
+  LARARIUM_RETURN_IF_ERROR(prop.Validate(where));
   return prop;
 }
 
@@ -169,15 +169,15 @@ flatbuffers::Offset<prop_fb::LightTransfer> WriteLight(flatbuffers::FlatBufferBu
 
 }  // namespace
 
-Result<Prop> ParseProp(std::span<const std::byte> bytes, const std::string& place) {
+Result<Prop> ParseProp(std::span<const std::byte> bytes, const std::string& where) {
   if (reinterpret_cast<uintptr_t>(bytes.data()) % alignof(std::max_align_t) != 0) {
     const std::vector<std::byte> aligned(bytes.begin(), bytes.end());
-    return ParseProp(aligned, place);
+    return ParseProp(aligned, where);
   }
   LARARIUM_ASSIGN_OR_RETURN(
       const prop_fb::Prop* from,
-      OpenFlatbuffer<prop_fb::Prop>(bytes, prop_fb::PropIdentifier(), kPropKind, place));
-  return ReadProp(*from, bytes.size(), place);
+      OpenFlatbuffer<prop_fb::Prop>(bytes, prop_fb::PropIdentifier(), kPropKind, where));
+  return ReadProp(*from, bytes.size(), where);
 }
 
 std::vector<std::byte> SerializeProp(const Prop& prop) {

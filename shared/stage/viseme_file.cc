@@ -31,12 +31,12 @@ Result<human::VisemeTrack::Key> ReadKey(const JsonView& view) {
 
 }  // namespace
 
-Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& place) {
+Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& where) {
   if (text.size() > kMaxTextBytes) {
-    return Status::Error(place, "is longer than 16 MiB");
+    return Status::Error(where, "is longer than 16 MiB");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView root(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
+  const JsonView root(json, where);
   LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   human::VisemeTrack track;
   LARARIUM_ASSIGN_OR_RETURN(const double duration, root.Number("duration", 0.0, kMaxVisemeSeconds));
@@ -51,7 +51,7 @@ Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string
     }
     track.keys.push_back(key);
   }
-  LARARIUM_RETURN_IF_ERROR(track.Validate(place));
+  LARARIUM_RETURN_IF_ERROR(track.Validate(where));
   return track;
 }
 

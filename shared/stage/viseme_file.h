@@ -10,8 +10,8 @@
 
 namespace lararium::stage {
 
-// Error messages begin with `place` and name the field.
-Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& place);
+// Error messages begin with `where` and name the field.
+Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& where);
 std::string FormatVisemes(const human::VisemeTrack& track);
 
 }  // namespace lararium::stage

@@ -4,7 +4,8 @@ namespace lararium::vision {
 
 using geometry::CameraModel;
 
-BackgroundRelocalizer::BackgroundRelocalizer(Relocalizer& relocalizer, int threads) : relocalizer_(relocalizer) {
+BackgroundRelocalizer::BackgroundRelocalizer(Relocalizer& relocalizer, int threads)
+    : relocalizer_(relocalizer) {
   if (threads != 1) {
     thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
   }

@@ -16,7 +16,7 @@ int CoarsestLevel(int width) {
   return std::clamp(static_cast<int>(std::lround(std::log2(width / kWidth))), 1, 8);
 }
 
-FollowMap::FollowMap(std::shared_ptr<const SceneDatabase> database)
+TrackedMap::TrackedMap(std::shared_ptr<const SceneDatabase> database)
     : database_(std::move(database)),
       pyramids_(database_->keyframes.size()),
       point_begin_(database_->points.size() + 1, 0),
@@ -54,24 +54,24 @@ FollowMap::FollowMap(std::shared_ptr<const SceneDatabase> database)
   });
 }
 
-std::span<const uint32_t> FollowMap::KeyframesOf(uint32_t point) const {
+std::span<const uint32_t> TrackedMap::KeyframesOf(uint32_t point) const {
   return {point_keyframes_.data() + point_begin_[point],
           point_begin_[point + 1] - point_begin_[point]};
 }
 
-std::span<const Observation> FollowMap::ObservationsIn(uint32_t keyframe) const {
+std::span<const Observation> TrackedMap::ObservationsIn(uint32_t keyframe) const {
   return {database_->observations.data() + keyframe_begin_[keyframe],
           keyframe_begin_[keyframe + 1] - keyframe_begin_[keyframe]};
 }
 
-int FollowMap::CellOf(double x, double y) const {
+int TrackedMap::CellOf(double x, double y) const {
   const int column =
       std::clamp(static_cast<int>(x * kColumns / database_->camera.width), 0, kColumns - 1);
   const int row = std::clamp(static_cast<int>(y * kRows / database_->camera.height), 0, kRows - 1);
   return row * kColumns + column;
 }
 
-void FollowMap::FillGrid(uint32_t keyframe) {
+void TrackedMap::FillGrid(uint32_t keyframe) {
   const Rigid3& camera_from_map = database_->keyframes[keyframe].camera_from_map;
   const uint32_t first = keyframe_begin_[keyframe];
   const auto observations = ObservationsIn(keyframe);
@@ -101,7 +101,7 @@ void FollowMap::FillGrid(uint32_t keyframe) {
   }
 }
 
-Eigen::Vector3d FollowMap::PlaneAt(uint32_t keyframe, uint32_t point) const {
+Eigen::Vector3d TrackedMap::PlaneAt(uint32_t keyframe, uint32_t point) const {
   // A plane's inverse depth is affine in the image: 1/z = n . (x, y, 1).
   const SceneDatabase& db = *database_;
   const Eigen::Vector3d p =

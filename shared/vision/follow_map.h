@@ -15,9 +15,9 @@
 namespace lararium::vision {
 
 // Immutable; trackers of several cameras may share it.
-class FollowMap {
+class TrackedMap {
  public:
-  explicit FollowMap(std::shared_ptr<const SceneDatabase> database);
+  explicit TrackedMap(std::shared_ptr<const SceneDatabase> database);
 
   const SceneDatabase& database() const { return *database_; }
 

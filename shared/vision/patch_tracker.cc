@@ -24,7 +24,7 @@ constexpr uint32_t kAimInterval = 8;  // Frames between searches for a better ke
 
 }  // namespace
 
-PatchTracker::PatchTracker(std::shared_ptr<const FollowMap> map)
+PatchTracker::PatchTracker(std::shared_ptr<const TrackedMap> map)
     : map_(std::move(map)), not_before_(map_->database().points.size(), 0) {
   slots_.reserve(kMostSlots);
   for (Fit* fit : {&fit_, &searched_}) {

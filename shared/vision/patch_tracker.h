@@ -40,7 +40,7 @@ struct FollowedPose {
 // Allocates nothing in steady state.
 class PatchTracker {
  public:
-  explicit PatchTracker(std::shared_ptr<const FollowMap> map);
+  explicit PatchTracker(std::shared_ptr<const TrackedMap> map);
 
   // Replaces the objects that hide map points. Points behind an occluder are not searched for while
   // it is trusted. It is trusted after points behind it were not found, and never if hardly any
@@ -93,7 +93,7 @@ class PatchTracker {
     // Position of the point in the keyframe, on the plane z = 1 and as a raw pixel.
     Eigen::Vector2d key_plane = Eigen::Vector2d::Zero();
     Eigen::Vector2d key_pixel = Eigen::Vector2d::Zero();
-    Eigen::Vector3d tangent = Eigen::Vector3d::Zero();  // See FollowMap::PlaneAt.
+    Eigen::Vector3d tangent = Eigen::Vector3d::Zero();  // See TrackedMap::PlaneAt.
     Eigen::Matrix2d plane_from_key_pixel = Eigen::Matrix2d::Zero();
     int failures = 0;                        // Number of frames in a row without agreement.
     uint32_t occluder = OccluderSet::kNone;  // Occluder that hides the point.
@@ -226,7 +226,7 @@ class PatchTracker {
   static constexpr uint32_t kFreshFrames = 3;
   static constexpr uint32_t kFresh = 0x80000000;
 
-  std::shared_ptr<const FollowMap> map_;
+  std::shared_ptr<const TrackedMap> map_;
   OccluderSet occluders_;
   double scale_ = 0.0;  // Mean of the keyframes' median depths, map units.
   std::array<FreshFrame, kFreshFrames> fresh_;

@@ -39,7 +39,7 @@ class SmoothedPoses final : public PoseSource {
     return tracked;
   }
 
-  void FindAnew() override { poses_->FindAnew(); }
+  void Relocalize() override { poses_->Relocalize(); }
 
   void Seen(std::vector<SeenPoint>& seen) const override { poses_->Seen(seen); }
 

@@ -146,8 +146,8 @@ Status ValidateObservations(const SceneDatabase& db) {
 
 // ------------------------------------------------------------ keyframe images
 
-Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const std::string& place) {
-  const Status bad = Status::Error(place, "a keyframe's image is damaged", "train the place again");
+Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const std::string& where) {
+  const Status bad = Status::Error(where, "a keyframe's image is damaged", "train the place again");
   // A block of 8 x 8 pixels takes at least two bits; a smaller file is a decompression bomb.
   constexpr int64_t kPixelsPerByte = 256;
   const auto encoded = std::as_bytes(jpeg);
@@ -159,7 +159,7 @@ Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const s
       static_cast<int64_t>(jpeg.size()) * kPixelsPerByte < static_cast<int64_t>(size.area())) {
     return bad;
   }
-  auto grey = image::DecodeImage(encoded, image::Channels::kGrey, place);
+  auto grey = image::DecodeImage(encoded, image::Channels::kGrey, where);
   return grey.ok() && grey->size() == size ? std::move(grey) : bad;
 }
 
@@ -212,10 +212,10 @@ void ReadForest(const fb::Scene& scene, DescriptorForest& forest) {
 }
 
 // Reads the descriptors and fills in the point to which each belongs.
-Status ReadDescriptors(const fb::Scene& scene, const std::string& place, SceneDatabase& db) {
+Status ReadDescriptors(const fb::Scene& scene, const std::string& where, SceneDatabase& db) {
   const auto& bytes = *scene.descriptors();
   if (bytes.size() % kDescriptorSize != 0) {
-    return Status::Error(place, "the descriptors are cut off", "train the place again");
+    return Status::Error(where, "the descriptors are cut off", "train the place again");
   }
   db.descriptors.resize(bytes.size() / kDescriptorSize);
   for (size_t i = 0; i < db.descriptors.size(); ++i) {
@@ -223,7 +223,7 @@ Status ReadDescriptors(const fb::Scene& scene, const std::string& place, SceneDa
   }
   db.descriptor_begin = NumbersFrom(*scene.descriptor_begin());
   if (!std::is_sorted(db.descriptor_begin.begin(), db.descriptor_begin.end())) {
-    return Status::Error(place, "the descriptor ranges of the points are inconsistent",
+    return Status::Error(where, "the descriptor ranges of the points are inconsistent",
                          "train the place again");
   }
   db.descriptor_point.assign(db.descriptors.size(), 0);
@@ -236,10 +236,10 @@ Status ReadDescriptors(const fb::Scene& scene, const std::string& place, SceneDa
   return Status();
 }
 
-Status ReadKeyframes(const fb::Scene& scene, const std::string& place, SceneDatabase& db) {
+Status ReadKeyframes(const fb::Scene& scene, const std::string& where, SceneDatabase& db) {
   const auto& from = *scene.keyframes();
   if (from.size() > kMaxKeyframes) {
-    return Status::Error(place, "has too many keyframes");
+    return Status::Error(where, "has too many keyframes");
   }
   const cv::Size size(db.camera.width, db.camera.height);
   db.keyframes.resize(from.size());
@@ -260,7 +260,7 @@ Status ReadKeyframes(const fb::Scene& scene, const std::string& place, SceneData
     if (source.grey_jpeg()->size() == 0) {
       return;
     }
-    auto grey = DecodeGrey({source.grey_jpeg()->data(), source.grey_jpeg()->size()}, size, place);
+    auto grey = DecodeGrey({source.grey_jpeg()->data(), source.grey_jpeg()->size()}, size, where);
     if (grey) {
       keyframe.grey = *grey;
     } else {
@@ -344,21 +344,21 @@ Status SceneDatabase::Validate() const {
 }
 
 Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
-                                         const std::string& place) {
+                                         const std::string& where) {
   const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
   constexpr std::string_view kRemedy = "train the place again, or copy the file again";
   constexpr size_t kSmallest = 8;  // Root offset and identifier.
   if (bytes.size() < kSmallest || bytes.size() > FLATBUFFERS_MAX_BUFFER_SIZE ||
       !fb::SceneBufferHasIdentifier(data)) {
-    return Status::Error(place, "is not a scene database", kRemedy);
+    return Status::Error(where, "is not a scene database", kRemedy);
   }
   flatbuffers::Verifier verifier(data, bytes.size(), 64, kMaxKeyframes + 64);
   if (!fb::VerifySceneBuffer(verifier)) {
-    return Status::Error(place, "is damaged or cut off", kRemedy);
+    return Status::Error(where, "is damaged or cut off", kRemedy);
   }
   const fb::Scene& scene = *fb::GetScene(data);
   if (scene.version() != kVersion) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "has format version " + std::to_string(scene.version()) +
                              ", this program reads version " + std::to_string(kVersion),
                          "train the place with this version");
@@ -366,7 +366,7 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
   SceneDatabase db;
   db.camera = CameraFrom(*scene.camera());
   if (const Status status = db.camera.Validate(); !status.ok()) {
-    return status.At(place);
+    return status.At(where);
   }
   db.mean_reprojection_error_px = scene.mean_reprojection_error_px();
   db.points = VectorsFrom(*scene.points());
@@ -379,15 +379,15 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
   if (scene.descriptor_sessions() != nullptr) {
     db.descriptor_sessions = NumbersFrom(*scene.descriptor_sessions());
   }
-  LARARIUM_RETURN_IF_ERROR(ReadDescriptors(scene, place, db));
+  LARARIUM_RETURN_IF_ERROR(ReadDescriptors(scene, where, db));
   ReadForest(scene, db.forest);
   db.observations.reserve(scene.observations()->size());
   for (const fb::Observation* o : *scene.observations()) {
     db.observations.push_back({o->point(), o->keyframe(), o->x(), o->y(), o->scale()});
   }
-  LARARIUM_RETURN_IF_ERROR(ReadKeyframes(scene, place, db));
+  LARARIUM_RETURN_IF_ERROR(ReadKeyframes(scene, where, db));
   if (const Status status = db.Validate(); !status.ok()) {
-    return status.At(place);
+    return status.At(where);
   }
   return db;
 }

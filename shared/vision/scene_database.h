@@ -79,7 +79,7 @@ struct SceneDatabase {
 // Parses a database. Every size, index and number and the FlatBuffers structure are checked, so a
 // damaged file gives an error and never a partial database. place names the data in errors.
 Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
-                                         const std::string& place);
+                                         const std::string& where);
 Result<SceneDatabase> LoadSceneDatabase(const std::filesystem::path& file);
 // Deterministic: the same database gives the same bytes.
 std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& database);

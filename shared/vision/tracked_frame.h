@@ -72,7 +72,7 @@ class PoseSource {
   virtual TrackedFrame Track(const geometry::Frame& frame) = 0;
   // Makes the source locate the next frame without a prior. May be called from any thread. Does
   // nothing in a source that does not track from frame to frame.
-  virtual void FindAnew() {}
+  virtual void Relocalize() {}
   // Fills in the points of TrackedFrame::map that support the last pose. Empty without a pose, or
   // from a source that does not use map points.
   virtual void Seen(std::vector<SeenPoint>& seen) const { seen.clear(); }

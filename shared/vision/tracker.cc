@@ -55,8 +55,8 @@ class Tracker final : public PoseSource {
       : options_(options), camera_(camera), maps_(std::move(maps)), relocalizer_(maps_, options) {
     if (options.follow) {
       for (const auto& map : maps_) {
-        followers_.push_back(
-            std::make_unique<PatchTracker>(std::make_shared<const FollowMap>(map)));
+        patch_trackers_.push_back(
+            std::make_unique<PatchTracker>(std::make_shared<const TrackedMap>(map)));
       }
       background_ = std::make_unique<BackgroundRelocalizer>(relocalizer_, options.threads);
     }
@@ -92,12 +92,12 @@ class Tracker final : public PoseSource {
     return tracked;
   }
 
-  void FindAnew() override { find_anew_ = true; }
+  void Relocalize() override { find_anew_ = true; }
 
   void Seen(std::vector<SeenPoint>& seen) const override {
     seen.clear();
     if (by_patches_) {
-      const std::span<const SeenPoint> patches = followers_[map_]->seen();
+      const std::span<const SeenPoint> patches = patch_trackers_[map_]->seen();
       seen.assign(patches.begin(), patches.end());
     } else if (found_in_) {
       for (const LocatedPoint& located : relocalizer_.points(*found_in_)) {
@@ -109,7 +109,7 @@ class Tracker final : public PoseSource {
   void SetOccluders(uint32_t map, std::span<const OccluderMesh> meshes) override {
     CHECK(map < maps_.size());
     if (options_.follow) {
-      followers_[map]->SetOccluders(meshes);
+      patch_trackers_[map]->SetOccluders(meshes);
     }
   }
 
@@ -138,7 +138,8 @@ class Tracker final : public PoseSource {
       const Rigid3& pose = *tracked.camera_from_map;
       motion_.Add(static_cast<double>(tracked.frame.index), pose);
       if (anchored) {
-        followers_[map_]->Merge(pyramid_, tracked.camera, pose, relocalizer_.points(map_), pose);
+        patch_trackers_[map_]->Merge(pyramid_, tracked.camera, pose, relocalizer_.points(map_),
+                                     pose);
       }
       CheckInBackground(tracked);
     }
@@ -158,7 +159,7 @@ class Tracker final : public PoseSource {
     if (const auto turn = EstimateTurn(tracked.camera, motion.rotation)) {
       predictions[count++] = Rigid3{*turn, motion.translation} * before;
     }
-    const FollowedPose followed = followers_[map_]->Follow(
+    const FollowedPose followed = patch_trackers_[map_]->Follow(
         pyramid_, tracked.camera, std::span(predictions.data(), count), &before, frames);
     if (!followed.honest) {
       return false;
@@ -222,7 +223,7 @@ class Tracker final : public PoseSource {
   // Chooses patches for the pose and aligns them. Returns whether they agree with it.
   bool Refine(TrackedFrame& tracked, const Rigid3* before, double frames) {
     const Rigid3 rough = *tracked.camera_from_map;
-    PatchTracker& patch_tracker = *followers_[map_];
+    PatchTracker& patch_tracker = *patch_trackers_[map_];
     patch_tracker.Start(tracked.camera, rough);
     const FollowedPose followed =
         patch_tracker.Follow(pyramid_, tracked.camera, std::span(&rough, 1), before, frames);
@@ -244,11 +245,11 @@ class Tracker final : public PoseSource {
     tracked.matches = followed.expected;
     tracked.inliers = followed.agreeing;
     if (const auto gain =
-            gain_.Estimate(tracked.frame.bgr, *maps_[map_], followers_[map_]->seen())) {
+            gain_.Estimate(tracked.frame.bgr, *maps_[map_], patch_trackers_[map_]->seen())) {
       last_gain_ = *gain;
     }
     tracked.gain = last_gain_;
-    tracked.shutter = followers_[map_]->shutter();
+    tracked.shutter = patch_trackers_[map_]->shutter();
     share_ = followed.share();
     blur_px_ = followed.blur_px;
     depth_ = followed.evidence.depths[1];
@@ -300,8 +301,8 @@ class Tracker final : public PoseSource {
                                    kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
       constexpr double kMostBlurPx = 2.0;  // Patches of a more blurred image are not usable.
       if (checked_blur_px_ < kMostBlurPx) {
-        followers_[map_]->Merge(checked_image_, checked_camera_, *checked_pose_,
-                                relocalizer_.points(map_), *tracked.camera_from_map);
+        patch_trackers_[map_]->Merge(checked_image_, checked_camera_, *checked_pose_,
+                                     relocalizer_.points(map_), *tracked.camera_from_map);
       }
       return;
     }
@@ -326,20 +327,20 @@ class Tracker final : public PoseSource {
       Report(followed, tracked);
       tracked.followed = false;
     } else if (located.map == map_) {
-      followers_[map_]->Start(tracked.camera, ours);
+      patch_trackers_[map_]->Start(tracked.camera, ours);
     }
   }
 
   FollowedPose FollowAnew(uint32_t map, const CameraModel& camera, const Rigid3& pose) {
-    followers_[map]->Start(camera, pose);
-    return followers_[map]->Follow(pyramid_, camera, std::span(&pose, 1), nullptr, 1.0);
+    patch_trackers_[map]->Start(camera, pose);
+    return patch_trackers_[map]->Follow(pyramid_, camera, std::span(&pose, 1), nullptr, 1.0);
   }
 
   TrackerOptions options_;
   CameraModel camera_;
   std::vector<std::shared_ptr<const SceneDatabase>> maps_;
   Relocalizer relocalizer_;
-  std::vector<std::unique_ptr<PatchTracker>> followers_;  // [maps]
+  std::vector<std::unique_ptr<PatchTracker>> patch_trackers_;  // [maps]
   ImagePyramid pyramid_;
   cv::Mat small_before_;
   MotionModel motion_;
@@ -351,7 +352,7 @@ class Tracker final : public PoseSource {
   double blur_px_ = 0.0;
   bool had_pose_ = false;
   std::atomic<bool> find_anew_ = false;
-  bool by_patches_ = false;           // The last pose comes from followers_[map_].
+  bool by_patches_ = false;           // The last pose comes from patch_trackers_[map_].
   std::optional<uint32_t> found_in_;  // The map in which relocalizer_ located the last frame.
 
   int64_t checked_index_ = 0;  // Index of the frame that was last located without a prior.

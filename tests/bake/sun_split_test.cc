@@ -16,7 +16,7 @@ using test::DiscOn;
 using test::Irradiance;
 using test::MakeProbe;
 
-glm::vec3 Even(const glm::vec3& d) { return {0.4f + 0.2f * d.y, 0.5f + 0.2f * d.y, 0.8f}; }
+glm::vec3 EvenSky(const glm::vec3& d) { return {0.4f + 0.2f * d.y, 0.5f + 0.2f * d.y, 0.8f}; }
 
 glm::vec3 SunDirection(Random& random) {
   return glm::normalize(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
@@ -27,7 +27,7 @@ TEST(SunSplit, FindsWhereHowLargeAndHowBrightADiscIs) {
   for (const float radius : {0.02f, 0.05f}) {
     for (int i = 0; i < 4; ++i) {
       const light::Sun sun{SunDirection(random), {5.0f, 4.0f, 3.0f}, radius};
-      const ProbeImage image = MakeProbe(512, DiscOn(Even, sun));
+      const ProbeImage image = MakeProbe(512, DiscOn(EvenSky, sun));
       const SplitProbe split = SplitSun(image);
       ASSERT_TRUE(split.sun) << "seed 11, sun " << i;
       EXPECT_LT(glm::distance(split.sun->direction, sun.direction), 0.004f) << "seed 11, " << i;
@@ -41,7 +41,7 @@ TEST(SunSplit, SkyAndSunTogetherAreTheWholeImage) {
   Random random(12);
   for (int i = 0; i < 3; ++i) {
     const light::Sun sun{SunDirection(random), {9.0f, 8.0f, 6.0f}, 0.02f};
-    const ProbeImage image = MakeProbe(512, DiscOn(Even, sun));
+    const ProbeImage image = MakeProbe(512, DiscOn(EvenSky, sun));
     const SplitProbe split = SplitSun(image);
     ASSERT_TRUE(split.sun);
     for (int k = 0; k < 10; ++k) {
@@ -73,18 +73,18 @@ float Undershoot(const light::ShRgb& light) {
 
 TEST(SunSplit, WhatIsLeftDoesNotRing) {
   const light::Sun sun{glm::normalize(glm::vec3(1, 1, 0)), glm::vec3(6.0f), 0.01f};
-  const ProbeImage image = MakeProbe(512, DiscOn(Even, sun));
+  const ProbeImage image = MakeProbe(512, DiscOn(EvenSky, sun));
   EXPECT_LT(Undershoot(ProjectProbe(image, {})), -0.1f);
   EXPECT_GT(Undershoot(ProjectProbeLight(image, {}).sky), 0.4f);
 }
 
 TEST(SunSplit, AnEvenSkyAWideWindowAndAWeakLampAreNoSuns) {
-  EXPECT_FALSE(SplitSun(MakeProbe(256, Even)).sun);
+  EXPECT_FALSE(SplitSun(MakeProbe(256, EvenSky)).sun);
   // The source is 40 degrees wide.
-  EXPECT_FALSE(SplitSun(MakeProbe(256, DiscOn(Even, {{0, 0, -1}, glm::vec3(4.0f), 0.35f}))).sun);
+  EXPECT_FALSE(SplitSun(MakeProbe(256, DiscOn(EvenSky, {{0, 0, -1}, glm::vec3(4.0f), 0.35f}))).sun);
   // The source gives 4 % of the irradiance of a surface that faces it.
   const SplitProbe lamp =
-      SplitSun(MakeProbe(512, DiscOn(Even, {{0, 0, -1}, glm::vec3(0.06f), 0.02f})));
+      SplitSun(MakeProbe(512, DiscOn(EvenSky, {{0, 0, -1}, glm::vec3(0.06f), 0.02f})));
   EXPECT_FALSE(lamp.sun);
   EXPECT_NEAR(lamp.share, 0.04, 0.01);
 }
@@ -92,11 +92,11 @@ TEST(SunSplit, AnEvenSkyAWideWindowAndAWeakLampAreNoSuns) {
 TEST(SunSplit, WorksAcrossTheSeamAndAtThePoles) {
   for (const glm::vec3& direction :
        {glm::vec3(0, 0, 1), glm::vec3(0, 1, 0), glm::normalize(glm::vec3(0.01f, -1, 0.01f))}) {
-    const ProbeImage image = MakeProbe(512, DiscOn(Even, {direction, glm::vec3(5.0f), 0.03f}));
+    const ProbeImage image = MakeProbe(512, DiscOn(EvenSky, {direction, glm::vec3(5.0f), 0.03f}));
     const SplitProbe split = SplitSun(image);
     ASSERT_TRUE(split.sun);
     const double disc =
-        Irradiance(image, direction).g - Irradiance(MakeProbe(512, Even), direction).g;
+        Irradiance(image, direction).g - Irradiance(MakeProbe(512, EvenSky), direction).g;
     EXPECT_LT(glm::distance(split.sun->direction, direction), 0.005f);
     EXPECT_NEAR(split.sun->irradiance.g, disc, 0.01 * disc);
   }

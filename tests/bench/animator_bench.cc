@@ -31,35 +31,35 @@ std::shared_ptr<const Human> MakePerson(size_t joints) {
 }
 
 // Walks in a circle, looks at a target, holds an object in one hand and smiles.
-Performance Busy() {
-  Performance performance;
-  performance.seed = 4;
-  performance.gaze.kind = GazeKind::kPerson;
-  performance.gaze.target = {0.5f, 1.6f, -2.0f};
-  StartReach(performance.reaches[kRight], {{0.2f, 1.1f, -0.35f}, kNoTurn}, 0.5f);
-  SetHandPose(performance.hands[kRight], HandPose::kCylinder, 0.3f);
-  SetExpression(performance.face, Expression::kJoy, 1.0f, 0.5f);
-  return performance;
+AnimationState Busy() {
+  AnimationState animation_state;
+  animation_state.seed = 4;
+  animation_state.gaze.kind = GazeKind::kPerson;
+  animation_state.gaze.target = {0.5f, 1.6f, -2.0f};
+  StartReach(animation_state.reaches[kRight], {{0.2f, 1.1f, -0.35f}, kNoTurn}, 0.5f);
+  SetHandPose(animation_state.hands[kRight], HandPose::kCylinder, 0.3f);
+  SetExpression(animation_state.face, Expression::kJoy, 1.0f, 0.5f);
+  return animation_state;
 }
 
-void BenchPerformance(benchmark::State& state) {
+void BenchAnimator(benchmark::State& state) {
   const auto model = MakeAnimationRig(MakePerson(static_cast<size_t>(state.range(0))));
   Animator animator(model);
-  Performance performance = Busy(), previous;
+  AnimationState animation_state = Busy(), previous;
   glm::vec3 position(0.0f);
   float heading = 0.0f;
   for (auto _ : state) {
     for (int tick = 0; tick < 2; ++tick) {  // Ticks at 120 Hz for a frame at 60 Hz.
       heading += 0.3f * kTick;
       position += 1.2f * kTick * (TurnY(heading) * glm::vec3(0.0f, 0.0f, -1.0f));
-      previous = performance;
-      UpdateAnimationState(*model, position, heading, kTick, {}, performance);
+      previous = animation_state;
+      UpdateAnimationState(*model, position, heading, kTick, {}, animation_state);
     }
-    animator.Pose(Interpolate(previous, performance, 0.5f));
+    animator.Pose(Interpolate(previous, animation_state, 0.5f));
     benchmark::DoNotOptimize(animator.skin().data());
   }
 }
-BENCHMARK(BenchPerformance)->Arg(70)->Arg(163)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BenchAnimator)->Arg(70)->Arg(163)->Unit(benchmark::kMicrosecond);
 
 // A third of the joints move. Expected: a tenth of the memory, in the time of the plain clip.
 void BenchCompressedClip(benchmark::State& state) {

@@ -169,7 +169,7 @@ void BenchFollow(benchmark::State& state) {
     truth.push_back(PathPose(0.1 * std::sin(2.0 * M_PI * i / kFrames)));
     pictures.push_back(Photograph(wall, truth.back()));
   }
-  PatchTracker patch_tracker(std::make_shared<FollowMap>(MakeDatabase(wall)));
+  PatchTracker patch_tracker(std::make_shared<TrackedMap>(MakeDatabase(wall)));
   patch_tracker.Start(kCamera, truth.front());
   ImagePyramid pyramid;
   Rigid3 before = truth.front();

@@ -151,7 +151,7 @@ Cost Measure(SceneDatabase& map, const std::vector<cv::Mat>& frames) {
   cost.build_ms = ThreadCpuMilliseconds() - start;
   Localizer localizer(map, {});
   FeatureExtractor extractor;
-  const FeatureOptions options = LevelOfDetail(kFeatureBudget).options();
+  const FeatureOptions options = FeatureScaleController(kFeatureBudget).options();
   Features features;
   std::vector<double> first_ms;
   std::vector<double> locate_ms;

@@ -13,17 +13,17 @@
 namespace lararium::geometry {
 namespace {
 
-Eigen::Vector3d RandomVector(Random& random, double size = 1.0) {
+Eigen::Vector3d RandomOffset(Random& random, double size = 1.0) {
   return size * Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal());
 }
 
 Rigid3 RandomRigid(Random& random) {
-  return {RotationFromVector(RandomVector(random)), RandomVector(random, 3.0)};
+  return {RotationFromVector(RandomOffset(random)), RandomOffset(random, 3.0)};
 }
 
 Similarity3 RandomSimilarity(Random& random) {
-  return {random.Uniform(0.1, 5.0), RotationFromVector(RandomVector(random)),
-          RandomVector(random, 3.0)};
+  return {random.Uniform(0.1, 5.0), RotationFromVector(RandomOffset(random)),
+          RandomOffset(random, 3.0)};
 }
 
 TEST(Rigid3, InverseAndCompositionActAsMaps) {
@@ -31,7 +31,7 @@ TEST(Rigid3, InverseAndCompositionActAsMaps) {
   for (int i = 0; i < 100; ++i) {
     const Rigid3 a_from_b = RandomRigid(random);
     const Rigid3 b_from_c = RandomRigid(random);
-    const Eigen::Vector3d point = RandomVector(random);
+    const Eigen::Vector3d point = RandomOffset(random);
     EXPECT_LT(((a_from_b * b_from_c) * point - a_from_b * (b_from_c * point)).norm(), 1e-12);
     EXPECT_LT((a_from_b.Inverse() * (a_from_b * point) - point).norm(), 1e-12);
     EXPECT_LT((a_from_b * a_from_b.Center()).norm(), 1e-12);
@@ -44,7 +44,7 @@ TEST(Similarity3, InverseAndCompositionActAsMaps) {
   for (int i = 0; i < 100; ++i) {
     const Similarity3 a_from_b = RandomSimilarity(random);
     const Similarity3 b_from_c = RandomSimilarity(random);
-    const Eigen::Vector3d point = RandomVector(random);
+    const Eigen::Vector3d point = RandomOffset(random);
     EXPECT_LT(((a_from_b * b_from_c) * point - a_from_b * (b_from_c * point)).norm(), 1e-11);
     EXPECT_LT((a_from_b.Inverse() * (a_from_b * point) - point).norm(), 1e-11);
   }
@@ -104,7 +104,7 @@ TEST(EstimateSimilarity, RecoversTheTransform) {
     std::vector<Eigen::Vector3d> in_a;
     std::vector<Eigen::Vector3d> in_b;
     for (int k = 0; k < 3 + i; ++k) {
-      in_b.push_back(RandomVector(random));
+      in_b.push_back(RandomOffset(random));
       in_a.push_back(truth * in_b.back());
     }
     const Similarity3 found = EstimateSimilarity(in_a, in_b).value();
@@ -119,7 +119,7 @@ TEST(EstimateSimilarity, NeverReturnsAReflection) {
   std::vector<Eigen::Vector3d> in_a;
   std::vector<Eigen::Vector3d> in_b;
   for (int k = 0; k < 10; ++k) {
-    in_b.push_back(RandomVector(random));
+    in_b.push_back(RandomOffset(random));
     in_a.emplace_back(-in_b.back().x(), in_b.back().y(), in_b.back().z());
   }
   EXPECT_NEAR(EstimateSimilarity(in_a, in_b).value().rotation.toRotationMatrix().determinant(), 1.0,
@@ -139,7 +139,7 @@ TEST(EstimateSimilarity, RefusesPointsOnALine) {
 TEST(RotationVector, IsInverseOfItsRotation) {
   Random random(6);
   for (const double size : {0.0, 1e-12, 1e-7, 1e-3, 1.0, std::numbers::pi - 1e-6}) {
-    const Eigen::Vector3d w = size * RandomVector(random).normalized();
+    const Eigen::Vector3d w = size * RandomOffset(random).normalized();
     const Eigen::Quaterniond rotation = RotationFromVector(w);
     EXPECT_LT((VectorFromRotation(rotation) - w).norm(), 1e-9) << size;
     Eigen::Quaterniond opposite = rotation;
@@ -157,7 +157,7 @@ TEST(Skew, IsTheCrossProduct) {
 TEST(GlmConvert, KeepsTheMap) {
   Random random(7);
   const Similarity3 a_from_b = RandomSimilarity(random);
-  const Eigen::Vector3d point = RandomVector(random);
+  const Eigen::Vector3d point = RandomOffset(random);
   const glm::vec4 moved = ToGlm(a_from_b) * glm::vec4(ToGlm(point), 1.0f);
   EXPECT_LT((ToEigen(glm::vec3(moved)) - a_from_b * point).norm(), 1e-4);
   EXPECT_LT(ToEigen(ToGlm(a_from_b.rotation)).angularDistance(a_from_b.rotation), 1e-3);

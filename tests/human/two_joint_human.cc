@@ -1,8 +1,8 @@
-#include "shared/core/units.h"
+#include "tests/human/two_joint_human.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "tests/human/two_joint_human.h"
+#include "shared/core/units.h"
 
 namespace lararium::human {
 namespace {

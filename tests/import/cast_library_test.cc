@@ -12,7 +12,7 @@ namespace lararium::import {
 namespace {
 
 using lararium::test::TemporaryFolder;
-using test::TinyCastLibrary;
+using tiny::TinyCastLibrary;
 
 Result<CastMesh> Read(const char* text) {
   const auto json = ParseJson(text, "mesh.json");

@@ -250,7 +250,8 @@ cv::Mat Decode(const human::Texture& texture) {
 TEST(CastPaint, DyesWhatIsCoveredAndKeepsTheCover) {
   cv::Mat image(32, 32, CV_8UC4, cv::Scalar(40, 40, 40, 255));
   image(cv::Rect(0, 0, 32, 16)) = cv::Scalar(90, 90, 90, 0);
-  const auto dyed = DyedTexture("hair", test::Png(image), glm::vec3(0.8f, 0.4f, 0.2f), 512);
+  const auto dyed =
+      DyedTexture("hair", lararium::test::Png(image), glm::vec3(0.8f, 0.4f, 0.2f), 512);
   ASSERT_TRUE(dyed.ok()) << dyed.message();
   const cv::Mat result = Decode(*dyed);
   ASSERT_EQ(result.channels(), 4);
@@ -271,7 +272,7 @@ TEST(CastPaint, BringsTheSkinToItsTintAndOnlyPaintsHairsWhereTheyGrow) {
   paint.uvs = uvs;
   paint.indices = indices;
   paint.tint = glm::vec3(0.6f, 0.4f, 0.3f);
-  const auto plain = SkinTexture("skin", test::Png(image), paint);
+  const auto plain = SkinTexture("skin", lararium::test::Png(image), paint);
   ASSERT_TRUE(plain.ok()) << plain.message();
   const cv::Scalar mean = cv::mean(Decode(*plain));
   EXPECT_NEAR(mean[2], 0.6 * 255, 4.0);
@@ -280,7 +281,7 @@ TEST(CastPaint, BringsTheSkinToItsTintAndOnlyPaintsHairsWhereTheyGrow) {
 
   paint.stubble = 1.0f;
   paint.beard = {1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f};
-  const auto shaved = SkinTexture("skin", test::Png(image), paint);
+  const auto shaved = SkinTexture("skin", lararium::test::Png(image), paint);
   ASSERT_TRUE(shaved.ok());
   const cv::Mat result = Decode(*shaved);
   const double left = cv::mean(result(cv::Rect(10, 100, 60, 800)))[1];

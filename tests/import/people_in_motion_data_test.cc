@@ -57,7 +57,7 @@ class Watched {
   void Tick() {
     stage_.Advance();
     stage_.Perform();
-    animator_.Pose(State().performance);
+    animator_.Pose(State().animation_state);
     WatchHands();
     WatchFeet();
   }
@@ -85,10 +85,10 @@ class Watched {
     float worst = 0.0f;
     for (const human::JointIndex eye : body.eyes) {
       const human::JointFrame frame = At(eye);
-      const glm::vec3 observation = frame.rotation *
-                                    glm::conjugate(body.rest[static_cast<size_t>(eye)].rotation) *
-                                    glm::vec3(0.0f, 0.0f, -1.0f);
-      const float cosine = glm::dot(observation, glm::normalize(at - frame.position));
+      const glm::vec3 line_of_sight = frame.rotation *
+                                      glm::conjugate(body.rest[static_cast<size_t>(eye)].rotation) *
+                                      glm::vec3(0.0f, 0.0f, -1.0f);
+      const float cosine = glm::dot(line_of_sight, glm::normalize(at - frame.position));
       worst = std::max(worst, std::acos(std::clamp(cosine, -1.0f, 1.0f)));
     }
     return worst * 180.0f / kPiF;
@@ -108,7 +108,7 @@ class Watched {
   void WatchHands() {
     for (const int side : {human::kRight, human::kLeft}) {
       const human::ReachGoal goal =
-          human::Goal(State().performance.reaches[static_cast<size_t>(side)]);
+          human::Goal(State().animation_state.reaches[static_cast<size_t>(side)]);
       if (goal.weight >= 1.0f) {
         const human::GripFrame palm = human::ActorFromPalm(
             animator_.model().reach, animator_.human().skeleton, animator_.pose(), side);
@@ -120,8 +120,8 @@ class Watched {
   // Measures the movement of a flat foot from where it was planted.
   void WatchFeet() {
     for (size_t side = 0; side < 2; ++side) {
-      const human::Locomotion::Foot& foot = State().performance.locomotion.feet[side];
-      const bool hangs = State().performance.sitting.amount > 0.0f && feet_hang;
+      const human::Locomotion::Foot& foot = State().animation_state.locomotion.feet[side];
+      const bool hangs = State().animation_state.sitting.amount > 0.0f && feet_hang;
       const bool flat = foot.planted && std::abs(foot.pitch) < 1e-4f && !hangs;
       const glm::vec3 ankle =
           StageFromActorPose(State()) * At(sitting().body.legs[side].ankle).position;

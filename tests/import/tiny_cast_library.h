@@ -10,7 +10,7 @@
 
 #include "shared/core/json.h"
 
-namespace lararium::import::test {
+namespace lararium::import::tiny {
 
 class TinyCastLibrary {
  public:
@@ -116,4 +116,4 @@ class TinyCastLibrary {
   Json modifiers_;
 };
 
-}  // namespace lararium::import::test
+}  // namespace lararium::import::tiny

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "editor/cli/align_commands.h"
+#include "editor/document/place_edits.h"
 #include "editor/jobs/baking.h"
 #include "editor/jobs/picked_frames.h"
 #include "shared/core/random.h"

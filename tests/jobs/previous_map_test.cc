@@ -119,7 +119,7 @@ TEST_F(FormerMapTest, GoesWithASessionThatIsRemoved) {
   NoProgress progress;
   ASSERT_TRUE(RemoveFromMap(paths_, place_, 1, progress).ok());
   EXPECT_FALSE(HasPreviousMap(paths_, "site")) << "it has what was picked in that session";
-  EXPECT_TRUE(LoadTrainingReport(MapAtHand(paths_, "site").report)->recordings.added.empty());
+  EXPECT_TRUE(LoadTrainingReport(CurrentMap(paths_, "site").report)->recordings.added.empty());
 }
 
 class Cancels : public Progress {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/jobs/baking.h"
 #include "editor/document/project.h"
+#include "editor/jobs/baking.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::editor {

@@ -185,13 +185,13 @@ TEST(StagePlace, ShapesNeedNoBakingAndKeepWhatTheyDo) {
   }
 }
 
-TEST(StageAnew, FollowsSizesPoseAndWhatItDoes) {
+TEST(Restage, FollowsSizesPoseAndWhatItDoes) {
   OccluderDocument counter;
   counter.shape = OccluderShape{OccluderShape::Kind::kBox, 2.0, 1.0, 0.5};
   counter.stage_from_mesh.scale = 0.5;
   counter.blocks_sound = counter.blocks_walking = false;
   stage::Occluder staged;
-  StageAnew(counter, {}, staged);
+  Restage(counter, {}, staged);
   EXPECT_EQ(staged.mesh.positions, MakeShapeMesh(*counter.shape).positions);
   EXPECT_EQ(staged.stage_from_mesh.scale, 0.5);
   EXPECT_TRUE(staged.receives_shadow && !staged.blocks_sound && !staged.blocks_walking);
@@ -199,14 +199,14 @@ TEST(StageAnew, FollowsSizesPoseAndWhatItDoes) {
   OccluderDocument model;
   model.file = "counter.glb";
   const size_t corners = staged.mesh.positions.size();
-  StageAnew(model, {}, staged);
+  Restage(model, {}, staged);
   EXPECT_EQ(staged.mesh.positions.size(), corners) << "the mesh of a file stays";
   EXPECT_TRUE(staged.blocks_sound && staged.blocks_walking);
 
   OccluderDocument drawn;
   Similarity3 map_from_stage;
   map_from_stage.scale = 4.0;
-  StageAnew(drawn, map_from_stage, staged);
+  Restage(drawn, map_from_stage, staged);
   EXPECT_EQ(staged.stage_from_mesh.scale, 0.25) << "drawn in the map";
 }
 

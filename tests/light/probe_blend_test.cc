@@ -23,7 +23,8 @@ ProbeLight Sunny(const glm::vec3& direction, float irradiance) {
 }
 
 TEST(ProbeBlend, AtAProbeItIsThatProbe) {
-  const PlacedProbe probes[] = {{{0, 1, 0}, 12.0, EvenProbe(1.0f)}, {{4, 1, 0}, 12.0, EvenProbe(3.0f)}};
+  const PlacedProbe probes[] = {{{0, 1, 0}, 12.0, EvenProbe(1.0f)},
+                                {{4, 1, 0}, 12.0, EvenProbe(3.0f)}};
   EXPECT_NEAR(Blend(probes, {0, 1, 0}, 12.0).sky[0].r, 1.0f, 1e-5f);
   EXPECT_NEAR(Blend(probes, {4, 1, 0}, 12.0).sky[0].r, 3.0f, 1e-5f);
   EXPECT_FLOAT_EQ(Blend(probes, {2, 1, 0}, 12.0).sky[0].r, 2.0f);
@@ -32,8 +33,9 @@ TEST(ProbeBlend, AtAProbeItIsThatProbe) {
 }
 
 TEST(ProbeBlend, DoesNotJumpFarOrNear) {
-  const PlacedProbe probes[] = {
-      {{0, 0, 0}, 12.0, EvenProbe(1.0f)}, {{3, 0, 0}, 12.0, EvenProbe(3.0f)}, {{0, 0, 2}, 12.0, EvenProbe(5.0f)}};
+  const PlacedProbe probes[] = {{{0, 0, 0}, 12.0, EvenProbe(1.0f)},
+                                {{3, 0, 0}, 12.0, EvenProbe(3.0f)},
+                                {{0, 0, 2}, 12.0, EvenProbe(5.0f)}};
   float before = Blend(probes, {-1, 0, 0}, 12.0).sky[0].r;
   for (int i = 1; i <= 600; ++i) {
     const float now = Blend(probes, {-1.0f + 0.01f * i, 0, 0}, 12.0).sky[0].r;
@@ -43,8 +45,9 @@ TEST(ProbeBlend, DoesNotJumpFarOrNear) {
 }
 
 TEST(ProbeBlend, BetweenHoursAlsoAcrossMidnight) {
-  const PlacedProbe probes[] = {
-      {{0, 0, 0}, 10.0, EvenProbe(1.0f)}, {{0, 0, 0}, 14.0, EvenProbe(3.0f)}, {{0, 0, 0}, 22.0, EvenProbe(0.0f)}};
+  const PlacedProbe probes[] = {{{0, 0, 0}, 10.0, EvenProbe(1.0f)},
+                                {{0, 0, 0}, 14.0, EvenProbe(3.0f)},
+                                {{0, 0, 0}, 22.0, EvenProbe(0.0f)}};
   EXPECT_FLOAT_EQ(Blend(probes, {5, 0, 0}, 11.0).sky[0].r, 1.5f);
   EXPECT_FLOAT_EQ(Blend(probes, {5, 0, 0}, 18.0).sky[0].r, 1.5f);
   EXPECT_FLOAT_EQ(Blend(probes, {5, 0, 0}, 4.0).sky[0].r, 0.5f);  // 6 of the 12 hours to 10

@@ -47,9 +47,9 @@ ViewCamera AheadOfView() {
   return view;
 }
 
-std::vector<GhostFace> FacesOf(const geometry::TriangleMesh& mesh,
-                               const Vector3d& at = Vector3d::Zero()) {
-  std::vector<GhostFace> faces;
+std::vector<OverlayFace> FacesOf(const geometry::TriangleMesh& mesh,
+                                 const Vector3d& at = Vector3d::Zero()) {
+  std::vector<OverlayFace> faces;
   AddFaces(MakeOverlayMesh(mesh), {1.0, Eigen::Quaterniond::Identity(), at}, AheadOfView(), 7,
            faces);
   return faces;
@@ -78,7 +78,7 @@ TEST(OverlayMesh, TrianglesWithoutAreaAreLeftOut) {
 }
 
 TEST(OverlayMesh, FacesLieWhereTheCameraSeesThem) {
-  const std::vector<GhostFace> faces = FacesOf(Triangle({0, 0, 5}, {1, 0, 5}, {0, 1, 5}));
+  const std::vector<OverlayFace> faces = FacesOf(Triangle({0, 0, 5}, {1, 0, 5}, {0, 1, 5}));
   ASSERT_EQ(faces.size(), 1u);
   ASSERT_EQ(faces[0].corners, 3);
   EXPECT_TRUE(faces[0].outline[0].isApprox(Vector2d(400.0, 300.0)));
@@ -91,13 +91,13 @@ TEST(OverlayMesh, FacesLieWhereTheCameraSeesThem) {
 TEST(OverlayMesh, WhatLiesBehindTheCameraIsCutOff) {
   EXPECT_TRUE(FacesOf(Triangle({0, 0, -5}, {1, 0, -5}, {0, 1, -5})).empty());
   // One corner behind the camera leaves a quadrilateral, two leave a triangle.
-  const std::vector<GhostFace> one = FacesOf(Triangle({0, 0, -1}, {1, 0, 3}, {0, 1, 3}));
-  const std::vector<GhostFace> two = FacesOf(Triangle({0, 0, -1}, {1, 0, -1}, {0, 1, 3}));
+  const std::vector<OverlayFace> one = FacesOf(Triangle({0, 0, -1}, {1, 0, 3}, {0, 1, 3}));
+  const std::vector<OverlayFace> two = FacesOf(Triangle({0, 0, -1}, {1, 0, -1}, {0, 1, 3}));
   ASSERT_EQ(one.size(), 1u);
   ASSERT_EQ(two.size(), 1u);
   EXPECT_EQ(one[0].corners, 4);
   EXPECT_EQ(two[0].corners, 3);
-  for (const GhostFace& face : {one[0], two[0]}) {
+  for (const OverlayFace& face : {one[0], two[0]}) {
     for (int i = 0; i < face.corners; ++i) {
       EXPECT_TRUE(face.outline[static_cast<size_t>(i)].allFinite());
     }
@@ -113,10 +113,10 @@ TEST(OverlayMesh, ASheetOfTwoSidesIsOutlined) {
 }
 
 TEST(OverlayMesh, StandingWithinASolidShowsItsWallsAhead) {
-  const std::vector<GhostFace> faces = FacesOf(Cube());
+  const std::vector<OverlayFace> faces = FacesOf(Cube());
   EXPECT_FALSE(faces.empty());
-  for (const GhostFace& face : faces) {
-    EXPECT_GE(face.distance, kGhostNear);
+  for (const OverlayFace& face : faces) {
+    EXPECT_GE(face.distance, kOverlayNear);
   }
 }
 
@@ -135,10 +135,10 @@ TEST(OverlayMesh, TheShadeTellsFacesApartAndIsTheSameFromEitherSide) {
 }
 
 TEST(OverlayMesh, FartherFacesComeFirst) {
-  std::vector<GhostFace> faces = FacesOf(Cube(), {0.2, 0.3, 6.0});
+  std::vector<OverlayFace> faces = FacesOf(Cube(), {0.2, 0.3, 6.0});
   SortFarthestFirst(faces);
   double before = std::numeric_limits<double>::infinity();
-  for (const GhostFace& face : faces) {
+  for (const OverlayFace& face : faces) {
     EXPECT_LE(face.distance, before);
     before = face.distance;
   }

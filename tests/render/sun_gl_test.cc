@@ -21,7 +21,7 @@ constexpr int kSunHeight = 480;
 constexpr int kGrey = 190;
 constexpr double kPixelsPerMetre = 200.0;
 
-double LinearFromSunSrgb(double c) {
+double SunLinearFromSrgb(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
@@ -77,8 +77,8 @@ class SunTest : public GlTest {
   static double Kept(const cv::Mat& picture, double x, double z) {
     const int column = static_cast<int>(std::lround(0.5 * (kSunWidth - 1) + kPixelsPerMetre * x));
     const int row = static_cast<int>(std::lround(0.5 * (kSunHeight - 1) + kPixelsPerMetre * z));
-    return LinearFromSunSrgb(picture.at<cv::Vec3b>(row, column)[1] / 255.0) /
-           LinearFromSunSrgb(kGrey / 255.0);
+    return SunLinearFromSrgb(picture.at<cv::Vec3b>(row, column)[1] / 255.0) /
+           SunLinearFromSrgb(kGrey / 255.0);
   }
   // The first position from x on at which the floor keeps more than a share.
   static double EdgeAt(const cv::Mat& picture, double x, double end, double share) {
@@ -224,7 +224,7 @@ TEST_F(SunTest, PenumbraGrowsWithDistanceByTheAngularRadius) {
             *scene_.display.Project(*scene_.camera_from_stage * Eigen::Vector3d(x, 0.0, 0.0));
         const cv::Vec3b colour = picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y())),
                                                        static_cast<int>(std::lround(pixel.x())));
-        const double kept = LinearFromSunSrgb(colour[1] / 255.0) / LinearFromSunSrgb(kGrey / 255.0);
+        const double kept = SunLinearFromSrgb(colour[1] / 255.0) / SunLinearFromSrgb(kGrey / 255.0);
         if (colour[0] == colour[2] && kept > 0.25 + 0.75 * share && kept <= 1.0) {
           return x;
         }

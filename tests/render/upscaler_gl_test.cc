@@ -9,7 +9,7 @@
 namespace lararium::render {
 namespace {
 
-class EnlargerTest : public GlTest {
+class UpscalerTest : public GlTest {
  protected:
   // Every channel of every pixel is noise, so that no two neighbours are equal.
   static void FillWithNoise(const RenderTarget& target) {
@@ -25,13 +25,13 @@ class EnlargerTest : public GlTest {
     auto upscaler = Upscaler::Create(way);
     EXPECT_TRUE(upscaler.ok()) << upscaler.message();
     const RenderTarget target = MakeTarget(width, height);
-    upscaler->Enlarge(picture, target);
+    upscaler->Upscale(picture, target);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return Read(target);
   }
 };
 
-TEST_F(EnlargerTest, BothWaysMakeThePictureThatIsBetweenItsPixelsLinear) {
+TEST_F(UpscalerTest, BothWaysMakeThePictureThatIsBetweenItsPixelsLinear) {
   const RenderTarget picture = MakeTarget(64, 36);
   FillWithNoise(picture);
   const cv::Mat small = Read(picture);
@@ -54,14 +54,14 @@ TEST_F(EnlargerTest, BothWaysMakeThePictureThatIsBetweenItsPixelsLinear) {
   }
 }
 
-TEST_F(EnlargerTest, WhatIsDrawnNextGoesOverTheLargePicture) {
+TEST_F(UpscalerTest, WhatIsDrawnNextGoesOverTheLargePicture) {
   const RenderTarget picture = MakeTarget(16, 16);
   FillWithNoise(picture);
   const RenderTarget target = MakeTarget(32, 32);
   for (const Upscaler::Way way : {Upscaler::Way::kShaders, Upscaler::Way::kProcessor}) {
     auto upscaler = Upscaler::Create(way);
     ASSERT_TRUE(upscaler.ok()) << upscaler.message();
-    upscaler->Enlarge(picture, target);
+    upscaler->Upscale(picture, target);
     glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
     EXPECT_EQ(Read(target).at<cv::Vec3b>(31, 31), cv::Vec3b(0, 0, 255));

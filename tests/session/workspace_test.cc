@@ -311,7 +311,7 @@ TEST_F(WorkspaceTest, AnotherPlaceIsShownAtTheSameMomentAndARemovedOneGivesWay) 
   const auto workspace = Open();
   ASSERT_EQ(workspace->place()->name, "maquette");
   workspace->SetTime(3.0);
-  workspace->ShowPlace("site");
+  workspace->SelectPlace("site");
   EXPECT_EQ(workspace->place()->name, "site");
   EXPECT_EQ(workspace->time(), 3.0);
   const auto remove = [&](const std::string& name) {

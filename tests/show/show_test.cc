@@ -436,7 +436,7 @@ TEST_F(ShowTest, WhileTrackingIsLostPeopleAreHeldThenFadeThenTheVisitorIsGuided)
   EXPECT_EQ(staged.opacity, 1.0f);
   stage(time, false);
   EXPECT_EQ(staged.opacity, 1.0f);
-  EXPECT_EQ(staged.rung, TrackingLossFader::State::kHeld);
+  EXPECT_EQ(staged.state, TrackingLossFader::State::kHeld);
   ASSERT_TRUE(staged.camera_from_stage);
   EXPECT_NEAR((staged.camera_from_stage->Center() - seen->Center()).norm(), 0.0, 1e-6);
   EXPECT_EQ(staged.gain, (std::array<float, 3>{1.0f, 1.0f, 1.0f}));

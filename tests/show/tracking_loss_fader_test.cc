@@ -53,7 +53,7 @@ TEST(TrackingLossFader, WithAPosePeopleAreWhereItSaysAfterTheyAppeared) {
   EXPECT_EQ(At(fader, 0.0, true).opacity, 0.0f) << "they do not pop up";
   const double time = Settle(fader);
   const TrackingLossFader::View view = At(fader, time, true);
-  EXPECT_EQ(view.rung, State::kShown);
+  EXPECT_EQ(view.state, State::kShown);
   EXPECT_EQ(view.opacity, 1.0f);
   EXPECT_EQ(view.guide, 0.0f);
   ASSERT_TRUE(view.camera_from_stage);
@@ -67,8 +67,8 @@ TEST(TrackingLossFader, ClimbsDownInItsOrder) {
   float opacity = 1.0f;
   for (double time = lost; time < lost + 4.0; time += kFrame) {
     const TrackingLossFader::View view = At(fader, time, false);
-    if (rungs.empty() || rungs.back() != view.rung) {
-      rungs.push_back(view.rung);
+    if (rungs.empty() || rungs.back() != view.state) {
+      rungs.push_back(view.state);
     }
     EXPECT_LE(view.opacity, opacity);
     opacity = view.opacity;
@@ -85,19 +85,19 @@ TEST(TrackingLossFader, NobodyStandsInABlackPicture) {
   TrackingLossFader fader;
   const double time = Settle(fader);
   const TrackingLossFader::View covered = fader.Update(time, std::nullopt, 0, Display(), true);
-  EXPECT_EQ(covered.rung, State::kGone);
+  EXPECT_EQ(covered.state, State::kGone);
   EXPECT_EQ(covered.opacity, 0.0f);
   EXPECT_FALSE(covered.camera_from_stage);
   // People return as after any loss.
   const TrackingLossFader::View back = At(fader, time + kFrame, true);
-  EXPECT_EQ(back.rung, State::kShown);
+  EXPECT_EQ(back.state, State::kShown);
   EXPECT_LT(back.opacity, 0.2f);
 }
 
 TEST(TrackingLossFader, WhoNeverFoundThePlaceIsGuidedToo) {
   TrackingLossFader fader;
   for (double time = 0.0; time < 2.5; time += kFrame) {
-    EXPECT_EQ(At(fader, time, false).rung, State::kSearching);
+    EXPECT_EQ(At(fader, time, false).state, State::kSearching);
   }
   EXPECT_GT(At(fader, 2.5, false).guide, 0.9f);
 }

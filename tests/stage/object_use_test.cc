@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Result<ObjectUse> Parse(const std::string& fields) {
+Result<ObjectUse> ParseUse(const std::string& fields) {
   const Prop prop = test::MakeChest();
   return ParseObjectUse("{\"schema\": 1" + (fields.empty() ? "" : ", " + fields) + "}", prop,
                         "chest.object.json");
@@ -51,7 +51,7 @@ TEST(ObjectUse, ReadsWhatTheDocumentationShows) {
 
 TEST(ObjectUse, AHandsAxesAreFingersAndPalm) {
   const auto parsed =
-      Parse(R"("grips": {"g": {"at": [1, 2, 3], "palm": [0, 0, 2], "fingers": [3, 0, 0.5]}})");
+      ParseUse(R"("grips": {"g": {"at": [1, 2, 3], "palm": [0, 0, 2], "fingers": [3, 0, 0.5]}})");
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   const glm::quat hand = parsed->grips[0].part_from_hand.rotation;
   const glm::vec3 fingers = hand * glm::vec3(0, 0, -1);
@@ -62,11 +62,12 @@ TEST(ObjectUse, AHandsAxesAreFingersAndPalm) {
 }
 
 TEST(ObjectUse, WhatStaysIsInTheWayAndWhatIsCarriedIsNot) {
-  EXPECT_EQ(Parse("")->footprint.outline.size(), 4u);
-  EXPECT_TRUE(Parse(R"("footprint": {"outline": []})")->footprint.outline.empty());
-  EXPECT_TRUE(Parse(R"("grips": {"g": {"at": [0, 0, 0], "palm": [0, -1, 0], "fingers": [0, 0, -1]}},
+  EXPECT_EQ(ParseUse("")->footprint.outline.size(), 4u);
+  EXPECT_TRUE(ParseUse(R"("footprint": {"outline": []})")->footprint.outline.empty());
+  EXPECT_TRUE(
+      ParseUse(R"("grips": {"g": {"at": [0, 0, 0], "palm": [0, -1, 0], "fingers": [0, 0, -1]}},
                        "carry": {"hands": {"right": "g"}})")
-                  ->footprint.outline.empty());
+          ->footprint.outline.empty());
 }
 
 TEST(ObjectUse, ErrorsNameTheFieldAndTheRemedy) {
@@ -103,7 +104,7 @@ TEST(ObjectUse, ErrorsNameTheFieldAndTheRemedy) {
       {R"("surfaces": {"top": {"spots": []}})", "spots"},
   };
   for (const auto& mistake : kMistakes) {
-    const auto parsed = Parse(mistake.fields);
+    const auto parsed = ParseUse(mistake.fields);
     ASSERT_FALSE(parsed.ok()) << mistake.fields;
     EXPECT_THAT(parsed.message(), HasSubstr(mistake.problem)) << mistake.fields;
     EXPECT_THAT(parsed.message(), ::testing::StartsWith("chest.object.json"));
@@ -111,7 +112,7 @@ TEST(ObjectUse, ErrorsNameTheFieldAndTheRemedy) {
 }
 
 TEST(ObjectUse, SoundsOfActionsAndStates) {
-  const auto parsed = Parse(R"("states": ["cold", "lit"],
+  const auto parsed = ParseUse(R"("states": ["cold", "lit"],
       "places": {"front": {"at": [0, -0.5]}},
       "sounds": [{"name": "fire", "states": ["lit"], "at": [0, 0.4, 0], "gain_db": -3}],
       "actions": {"knock": {"sound": "knock"},
@@ -127,11 +128,12 @@ TEST(ObjectUse, SoundsOfActionsAndStates) {
   EXPECT_FLOAT_EQ(parsed->sounds[0].gain_db, -3.0f);
   EXPECT_FLOAT_EQ(parsed->sounds[0].position.y, 0.4f);
 
-  EXPECT_THAT(Parse(R"("sounds": [{"name": "fire", "states": ["lit"]}])").message(),
+  EXPECT_THAT(ParseUse(R"("sounds": [{"name": "fire", "states": ["lit"]}])").message(),
               HasSubstr("lit"));
-  EXPECT_THAT(Parse(R"("sounds": [{"name": "fire", "volume": 3}])").message(), HasSubstr("volume"));
-  EXPECT_FALSE(Parse(R"("sounds": [{"name": "fire", "gain_db": 90}])").ok());
-  EXPECT_FALSE(Parse(R"("sounds": [{}])").ok());
+  EXPECT_THAT(ParseUse(R"("sounds": [{"name": "fire", "volume": 3}])").message(),
+              HasSubstr("volume"));
+  EXPECT_FALSE(ParseUse(R"("sounds": [{"name": "fire", "gain_db": 90}])").ok());
+  EXPECT_FALSE(ParseUse(R"("sounds": [{}])").ok());
 }
 
 TEST(ObjectUse, AHingeTurnsAboutItsPartsOrigin) {
@@ -179,7 +181,7 @@ TEST(ObjectLight, MovesWithItsPartAndBurnsInItsStates) {
 
 TEST(ObjectLight, SaysWhatIsWrongWithIt) {
   const auto problem = [](const std::string& light) {
-    return Parse("\"lights\": {\"fire\": " + light + "}").status().message();
+    return ParseUse("\"lights\": {\"fire\": " + light + "}").status().message();
   };
   EXPECT_EQ(problem(R"({"at": [0, 1, 0], "temperature": 1900, "intensity": 1, "radius": 0.1})"),
             "");

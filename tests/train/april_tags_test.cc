@@ -53,7 +53,7 @@ class PrintedTag {
   cv::Mat cells_;
 };
 
-Rigid3 LookAt(const Vector3d& center, const Vector3d& target) {
+Rigid3 LookAtTag(const Vector3d& center, const Vector3d& target) {
   const Vector3d forward = (target - center).normalized();
   const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d camera_from_world;
@@ -116,7 +116,7 @@ struct Setting {
     for (int i = 0; i < cameras; ++i) {
       const double angle = -0.7 + 1.4 * i / std::max(cameras - 1, 1);
       const Vector3d center(1.1 * std::sin(angle), -1.1 * std::cos(angle), 0.35 - 0.08 * i);
-      const Rigid3 camera_from_world = LookAt(center, Vector3d(0.02 * i, 0.0, 0.0));
+      const Rigid3 camera_from_world = LookAtTag(center, Vector3d(0.02 * i, 0.0, 0.0));
       vision::Keyframe keyframe;
       keyframe.frame_index = i;
       keyframe.camera_from_map = geometry::CameraFromB(camera_from_world, map_from_world.Inverse());

@@ -6,18 +6,20 @@
 namespace lararium::train {
 namespace {
 
-using Kind = CaptureAdvice::Kind;
+using AdviceKind = CaptureAdvice::Kind;
 using End = CaptureAdvice::End;
 
 std::string English(const CaptureAdvice& advice) { return AdviceSentence(advice).English(); }
 
 TEST(CaptureAdvice, NamesTheFramesWhyTheyAreWeakAndTheRemedy) {
-  const CaptureAdvice several{
-      .kind = Kind::kNotLocated, .first = "4.png", .last = "5.png", .reason = WeakReason::kBlur};
+  const CaptureAdvice several{.kind = AdviceKind::kNotLocated,
+                              .first = "4.png",
+                              .last = "5.png",
+                              .reason = WeakReason::kBlur};
   EXPECT_EQ(English(several),
             "The frames 4.png to 5.png could not be located (blurred): film this part again, more "
             "slowly or in better light, with the focus fixed.");
-  const CaptureAdvice one{.kind = Kind::kNotLocated,
+  const CaptureAdvice one{.kind = AdviceKind::kNotLocated,
                           .first = "4.png",
                           .last = "4.png",
                           .reason = WeakReason::kFewFeatures};
@@ -27,12 +29,14 @@ TEST(CaptureAdvice, NamesTheFramesWhyTheyAreWeakAndTheRemedy) {
 }
 
 TEST(CaptureAdvice, CountsShortGaps) {
-  EXPECT_TRUE(English({.kind = Kind::kShortGaps, .value = 1}).starts_with("1 short stretch of"));
-  EXPECT_TRUE(English({.kind = Kind::kShortGaps, .value = 3}).starts_with("3 short stretches of"));
+  EXPECT_TRUE(
+      English({.kind = AdviceKind::kShortGaps, .value = 1}).starts_with("1 short stretch of"));
+  EXPECT_TRUE(
+      English({.kind = AdviceKind::kShortGaps, .value = 3}).starts_with("3 short stretches of"));
 }
 
 TEST(CaptureAdvice, SaysHowFarToWalkInMetresOrAsAShareOfWhatIsSeen) {
-  CaptureAdvice advice{.kind = Kind::kOneSide,
+  CaptureAdvice advice{.kind = AdviceKind::kOneSide,
                        .first = "a",
                        .last = "b",
                        .end = End::kLeft,
@@ -48,7 +52,7 @@ TEST(CaptureAdvice, SaysHowFarToWalkInMetresOrAsAShareOfWhatIsSeen) {
 }
 
 TEST(CaptureAdvice, TellsWhatAVisitorDoesWhoIsLocatedPoorly) {
-  CaptureAdvice advice{.kind = Kind::kStepBack,
+  CaptureAdvice advice{.kind = AdviceKind::kStepBack,
                        .first = "a",
                        .last = "b",
                        .end = End::kFar,
@@ -58,7 +62,7 @@ TEST(CaptureAdvice, TellsWhatAVisitorDoesWhoIsLocatedPoorly) {
             "A visitor at frames a to b (at the far end of the plan) who steps back by about 1.0 m "
             "will be located poorly (about 12 points found again): walk the same way again from "
             "further back.");
-  advice.kind = Kind::kTurnLeft;
+  advice.kind = AdviceKind::kTurnLeft;
   advice.end = End::kNone;
   EXPECT_EQ(English(advice),
             "A visitor at frames a to b who turns to the left by 30 degrees will be located poorly "
@@ -66,7 +70,7 @@ TEST(CaptureAdvice, TellsWhatAVisitorDoesWhoIsLocatedPoorly) {
 }
 
 TEST(CaptureAdvice, OfAnEarlierVersionIsSaidAsItWasWritten) {
-  EXPECT_EQ(English({.kind = Kind::kWritten, .text = "Walk 100 %s further."}),
+  EXPECT_EQ(English({.kind = AdviceKind::kWritten, .text = "Walk 100 %s further."}),
             "Walk 100 %s further.");
 }
 

@@ -12,12 +12,12 @@ namespace {
 
 using vision::SceneDatabase;
 
-SceneDatabase Map(int points, int cameras = 10) {
+SceneDatabase StatisticsMap(int points, int cameras = 10) {
   return test::MakeSceneDatabase(test::MakeSyntheticWorld({.points = points, .cameras = cameras}));
 }
 
 TEST(MapStatistics, ErrorIsTheMeanDistanceOverAPointsObservations) {
-  SceneDatabase db = Map(40);
+  SceneDatabase db = StatisticsMap(40);
   float moved = 0.0f;
   uint32_t seen = 0;
   for (vision::Observation& o : db.observations) {
@@ -36,7 +36,7 @@ TEST(MapStatistics, ErrorIsTheMeanDistanceOverAPointsObservations) {
 }
 
 TEST(ErrorQuantilePx, IsNotExceededByThatShareOfTheObservations) {
-  SceneDatabase db = Map(30);
+  SceneDatabase db = StatisticsMap(30);
   ASSERT_GT(db.observations.size(), 100u);
   for (size_t i = 0; i < db.observations.size(); ++i) {  // Errors of 0, 1, 2, ... pixels.
     db.observations[i].y += static_cast<float>(i);
@@ -50,7 +50,7 @@ TEST(ErrorQuantilePx, IsNotExceededByThatShareOfTheObservations) {
 }
 
 TEST(MapStatistics, APointThatNobodySawHasNoError) {
-  SceneDatabase db = Map(10);
+  SceneDatabase db = StatisticsMap(10);
   std::erase_if(db.observations, [](const vision::Observation& o) { return o.point == 3; });
   const MapStatistics statistics = MeasureStatistics(db);
   EXPECT_LT(statistics.point_error_px[3], 0.0f);
@@ -59,7 +59,7 @@ TEST(MapStatistics, APointThatNobodySawHasNoError) {
 }
 
 TEST(MapStatistics, ObservationsOfAPointAreItsObservations) {
-  const SceneDatabase db = Map(25);
+  const SceneDatabase db = StatisticsMap(25);
   const MapStatistics statistics = MeasureStatistics(db);
   size_t all = 0;
   for (uint32_t point = 0; point < db.points.size(); ++point) {
@@ -72,7 +72,7 @@ TEST(MapStatistics, ObservationsOfAPointAreItsObservations) {
 }
 
 TEST(MapStatistics, KeyframesCountWhatTheyObserve) {
-  SceneDatabase db = Map(30);
+  SceneDatabase db = StatisticsMap(30);
   std::erase_if(db.observations, [](const vision::Observation& o) { return o.keyframe == 2; });
   for (vision::Observation& o : db.observations) {
     o.x += o.keyframe == 5 ? 2.0f : 0.0f;
@@ -84,7 +84,7 @@ TEST(MapStatistics, KeyframesCountWhatTheyObserve) {
 }
 
 TEST(MapStatistics, OfOneKeyframeMoreThatObservesNothingAreAsIfMeasured) {
-  SceneDatabase db = Map(30);
+  SceneDatabase db = StatisticsMap(30);
   MapStatistics statistics = MeasureStatistics(db);
   vision::Keyframe added = db.keyframes.back();
   added.frame_index += 1;
@@ -98,7 +98,7 @@ TEST(MapStatistics, OfOneKeyframeMoreThatObservesNothingAreAsIfMeasured) {
 }
 
 TEST(MapStatistics, TellsTheOnlySessionOfAPoint) {
-  SceneDatabase db = Map(4);
+  SceneDatabase db = StatisticsMap(4);
   db.session_masks = {1u, 4u, 5u, 0x80000000u};
   const MapStatistics statistics = MeasureStatistics(db);
   EXPECT_EQ(statistics.session_points[0], 2u);
@@ -109,7 +109,7 @@ TEST(MapStatistics, TellsTheOnlySessionOfAPoint) {
 }
 
 TEST(MapStatistics, SigmaIsTheNoiseOfTheObservations) {
-  SceneDatabase db = Map(600, 12);
+  SceneDatabase db = StatisticsMap(600, 12);
   Random random(4);
   for (vision::Observation& o : db.observations) {
     o.x += static_cast<float>(0.7 * random.Normal());
@@ -143,7 +143,7 @@ Eigen::Vector3d Triangulated(const SceneDatabase& db, uint32_t point, Random& ra
 }
 
 TEST(DistanceDeviation, IsHowMuchTriangulatedDistancesScatter) {
-  const SceneDatabase db = Map(20);
+  const SceneDatabase db = StatisticsMap(20);
   MapStatistics statistics = MeasureStatistics(db);
   statistics.sigma_px = 0.5;
   const double expected = *DistanceDeviation(db, statistics, 2, 11);
@@ -160,7 +160,7 @@ TEST(DistanceDeviation, IsHowMuchTriangulatedDistancesScatter) {
 }
 
 TEST(DistanceDeviation, IsUnknownWhereOneImageSawAPoint) {
-  SceneDatabase db = Map(20);
+  SceneDatabase db = StatisticsMap(20);
   std::erase_if(db.observations,
                 [](const vision::Observation& o) { return o.point == 2 && o.keyframe != 4; });
   const MapStatistics statistics = MeasureStatistics(db);

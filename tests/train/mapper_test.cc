@@ -10,8 +10,8 @@
 namespace lararium::train {
 namespace {
 
-using test::MakeWorld;
-using test::World;
+using synthetic::MakeWorld;
+using synthetic::World;
 
 class CancelAtOnce : public Progress {
  public:

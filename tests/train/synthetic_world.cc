@@ -8,7 +8,7 @@
 #include "editor/train/two_view.h"
 #include "shared/core/random.h"
 
-namespace lararium::train::test {
+namespace lararium::train::synthetic {
 namespace {
 
 using geometry::CameraModel;
@@ -129,4 +129,4 @@ double World::CenterError(const Reconstruction& reconstruction) const {
   return sum / static_cast<double>(found.size());
 }
 
-}  // namespace lararium::train::test
+}  // namespace lararium::train::synthetic

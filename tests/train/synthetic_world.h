@@ -10,7 +10,7 @@
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 
-namespace lararium::train::test {
+namespace lararium::train::synthetic {
 
 struct WorldOptions {
   int images = 12;
@@ -44,4 +44,4 @@ struct World {
 // arc at a distance of about 4 and at varying heights.
 World MakeWorld(const WorldOptions& options);
 
-}  // namespace lararium::train::test
+}  // namespace lararium::train::synthetic

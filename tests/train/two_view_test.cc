@@ -11,8 +11,8 @@
 namespace lararium::train {
 namespace {
 
-using test::MakeWorld;
-using test::World;
+using synthetic::MakeWorld;
+using synthetic::World;
 
 // Observations of the points that both images see.
 PointPairs Common(const World& world, uint32_t a, uint32_t b, bool on_plane) {

@@ -19,10 +19,10 @@ class FollowerTest : public testing::TestWithParam<int> {
  protected:
   FollowerTest()
       : poster_(test::MakePoster()),
-        map_(std::make_shared<const FollowMap>(test::MapOfPoster(poster_))) {}
+        map_(std::make_shared<const TrackedMap>(test::MapOfPoster(poster_))) {}
 
   cv::Mat poster_;
-  std::shared_ptr<const FollowMap> map_;
+  std::shared_ptr<const TrackedMap> map_;
 };
 
 // If the prediction is so far off that only the exhaustive search finds the patches, the evidence

@@ -479,7 +479,7 @@ TEST_F(Tracker, FindsOneFrameAnewWhereItIsAsked) {
   const auto tracker = Create();
   for (int i = 0; i < 6; ++i) {
     if (i == 3) {
-      tracker->FindAnew();
+      tracker->Relocalize();
     }
     const TrackedFrame tracked =
         tracker->Track(PhotographPoster(poster_, PosterPose(0.01 * i, 0.0, 1.5), i));

@@ -451,9 +451,9 @@ std::string Preview(const Rig& rig, const BoneMap& map) {
   return text.str();
 }
 
-Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view place) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json parsed, ParseJson(json, place));
-  const JsonView root(parsed, std::string(place));
+Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where) {
+  LARARIUM_ASSIGN_OR_RETURN(const Json parsed, ParseJson(json, where));
+  const JsonView root(parsed, std::string(where));
   LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   LARARIUM_ASSIGN_OR_RETURN(const JsonView bones, root.Field("bones"));
   return ParseBoneNames(bones);

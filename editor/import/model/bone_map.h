@@ -87,7 +87,7 @@ std::string Preview(const Rig& rig, const BoneMap& map);
 
 // Reads the file of a saved map: {"schema": 1, "bones": {"l_shoulder": "LeftArm", ...}}. Errors
 // name the field. An unknown H-Anim joint is an error.
-Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view place);
+Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where);
 // Reads only the object "bones".
 Result<BoneNames> ParseBoneNames(const JsonView& bones);
 Result<BoneNames> LoadBoneNames(const std::filesystem::path& file);

@@ -58,12 +58,12 @@ Result<std::vector<std::byte>> PackModel(const BuiltModel& model) {
   return bytes;
 }
 
-Result<BuiltModel> UnpackModel(std::span<const std::byte> bytes, const std::string& place) {
+Result<BuiltModel> UnpackModel(std::span<const std::byte> bytes, const std::string& where) {
   const auto text = TakeBlock(bytes);
   LARARIUM_ASSIGN_OR_RETURN(
-      const Json head, ParseJson({reinterpret_cast<const char*>(text.data()), text.size()}, place));
+      const Json head, ParseJson({reinterpret_cast<const char*>(text.data()), text.size()}, where));
   BuiltModel model;
-  LARARIUM_ASSIGN_OR_RETURN(model.human, human::ParseHuman(TakeBlock(bytes), place));
+  LARARIUM_ASSIGN_OR_RETURN(model.human, human::ParseHuman(TakeBlock(bytes), where));
   // PackModel wrote this in the child process, which a hostile file may have taken over.
   try {
     model.bones = head.at("bones").get<BoneNames>();
@@ -85,14 +85,14 @@ Result<BuiltModel> UnpackModel(std::span<const std::byte> bytes, const std::stri
     for (const Json& use : head.at("uses")) {
       model.uses.push_back({use.at(0).get<int>(), use.at(1).get<int>()});
       if (model.uses.back().colour >= images || model.uses.back().normal >= images) {
-        return Status::Error(place, "its reader returned invalid data");
+        return Status::Error(where, "its reader returned invalid data");
       }
     }
   } catch (const Json::exception&) {
-    return Status::Error(place, "its reader returned invalid data");
+    return Status::Error(where, "its reader returned invalid data");
   }
   if (model.uses.size() != model.human.materials.size()) {
-    return Status::Error(place, "its reader returned invalid data");
+    return Status::Error(where, "its reader returned invalid data");
   }
   return model;
 }

@@ -29,6 +29,6 @@ Result<std::vector<std::byte>> PackModel(const BuiltModel& model);
 
 // Validates everything, because a hostile file may have taken over the child process. Errors
 // name the file.
-Result<BuiltModel> UnpackModel(std::span<const std::byte> bytes, const std::string& place);
+Result<BuiltModel> UnpackModel(std::span<const std::byte> bytes, const std::string& where);
 
 }  // namespace lararium::import

@@ -66,8 +66,8 @@ bool CanBeRead(const std::string& extension) {
 // Checks one document and stops at the first error.
 class Checker {
  public:
-  Checker(const GltfDocument& document, const std::string& place)
-      : document_(document), json_(document.json), place_(place) {}
+  Checker(const GltfDocument& document, const std::string& where)
+      : document_(document), json_(document.json), place_(where) {}
 
   Status Check() {
     for (const auto& check :
@@ -517,15 +517,15 @@ class Checker {
   const std::string& place_;
 };
 
-Result<GltfDocument> SplitBinary(std::span<const std::byte> bytes, const std::string& place) {
+Result<GltfDocument> SplitBinary(std::span<const std::byte> bytes, const std::string& where) {
   const auto cut = [&] {
-    return Status::Error(place, "the file is cut off or damaged", "copy or export it again");
+    return Status::Error(where, "the file is cut off or damaged", "copy or export it again");
   };
   if (bytes.size() < kHeaderBytes + kChunkHeaderBytes || ReadU32(bytes, 8) > bytes.size()) {
     return cut();
   }
   if (ReadU32(bytes, 4) != 2) {
-    return Status::Error(place, "is GLB of version " + std::to_string(ReadU32(bytes, 4)),
+    return Status::Error(where, "is GLB of version " + std::to_string(ReadU32(bytes, 4)),
                          "export it as glTF 2.0");
   }
   GltfDocument document;
@@ -542,9 +542,9 @@ Result<GltfDocument> SplitBinary(std::span<const std::byte> bytes, const std::st
     const auto chunk = bytes.subspan(at, length);
     if (type == kJsonChunk && !has_json) {
       if (length > kMaxJsonBytes) {
-        return Status::Error(place, "its description is larger than 64 MiB");
+        return Status::Error(where, "its description is larger than 64 MiB");
       }
-      LARARIUM_ASSIGN_OR_RETURN(document.json, ParseJson(Text(chunk), place));
+      LARARIUM_ASSIGN_OR_RETURN(document.json, ParseJson(Text(chunk), where));
       has_json = true;
     } else if (type == kBinaryChunk && !has_binary) {
       document.binary.assign(chunk.begin(), chunk.end());
@@ -596,14 +596,14 @@ bool LooksLikeGltf(std::span<const std::byte> bytes) {
   return first != std::string_view::npos && head[first] == '{';
 }
 
-Result<GltfDocument> ParseGltf(std::span<const std::byte> bytes, const std::string& place) {
+Result<GltfDocument> ParseGltf(std::span<const std::byte> bytes, const std::string& where) {
   GltfDocument document;
   if (Text(bytes).starts_with("glTF")) {
-    LARARIUM_ASSIGN_OR_RETURN(document, SplitBinary(bytes, place));
+    LARARIUM_ASSIGN_OR_RETURN(document, SplitBinary(bytes, where));
   } else {
-    LARARIUM_ASSIGN_OR_RETURN(document.json, ParseJson(Text(bytes), place));
+    LARARIUM_ASSIGN_OR_RETURN(document.json, ParseJson(Text(bytes), where));
   }
-  LARARIUM_RETURN_IF_ERROR(Checker(document, place).Check());
+  LARARIUM_RETURN_IF_ERROR(Checker(document, where).Check());
   return document;
 }
 

@@ -32,7 +32,7 @@ bool LooksLikeGltf(std::span<const std::byte> bytes);
 // Errors: chunks that do not fit, unsupported versions and extensions, indices out of range,
 // accessors outside their buffers, nodes that are their own ancestors, counts above our limits.
 // Each names the location in the file.
-Result<GltfDocument> ParseGltf(std::span<const std::byte> bytes, const std::string& place);
+Result<GltfDocument> ParseGltf(std::span<const std::byte> bytes, const std::string& where);
 
 // The document with node i named "n<i>" and mesh i "m<i>", in its original format.
 std::vector<std::byte> SerializeWithIndexNames(const GltfDocument& document);

@@ -39,10 +39,10 @@ Result<BuiltModel> BuildInChild(const std::filesystem::path& file,
 }
 
 // A texture that cannot be used adds a note, and its material gets none.
-void AddTextures(const std::string& place, BuiltModel& model, ImportedHuman& imported) {
+void AddTextures(const std::string& where, BuiltModel& model, ImportedHuman& imported) {
   std::vector<int16_t> texture_of(model.images.size(), human::Material::kNone);
   for (size_t i = 0; i < model.images.size(); ++i) {
-    auto texture = PrepareTexture(model.images[i].encoded, model.images[i].name, place);
+    auto texture = PrepareTexture(model.images[i].encoded, model.images[i].name, where);
     if (texture.ok()) {
       texture_of[i] = static_cast<int16_t>(imported.human.textures.size());
       imported.human.textures.push_back(
@@ -125,7 +125,7 @@ Result<Bytes> PackMesh(const geometry::TriangleMesh& mesh) {
 }
 
 Result<geometry::TriangleMesh> UnpackMesh(std::span<const std::byte> bytes,
-                                          const std::string& place) {
+                                          const std::string& where) {
   uint64_t count = 0;
   geometry::TriangleMesh mesh;
   if (bytes.size() >= sizeof(count)) {
@@ -133,7 +133,7 @@ Result<geometry::TriangleMesh> UnpackMesh(std::span<const std::byte> bytes,
     bytes = bytes.subspan(sizeof(count));
   }
   if (count > kMaxMeshVertices || count * sizeof(glm::vec3) > bytes.size()) {
-    return Status::Error(place, "its reader returned invalid data");
+    return Status::Error(where, "its reader returned invalid data");
   }
   mesh.positions.resize(count);
   const size_t position_bytes = count * sizeof(glm::vec3);

@@ -129,10 +129,10 @@ bool Wait(pid_t child, unsigned seconds, int& status) {
   }
 }
 
-Result<std::vector<std::byte>> ReadAll(int fd, const std::string& place) {
+Result<std::vector<std::byte>> ReadAll(int fd, const std::string& where) {
   const off_t size = lseek(fd, 0, SEEK_END);
   if (size < 1 || static_cast<size_t>(size) > kMaxMessageBytes) {
-    return Status::Error(place, "is too large once it is read", "simplify the model");
+    return Status::Error(where, "is too large once it is read", "simplify the model");
   }
   std::vector<std::byte> bytes(static_cast<size_t>(size));
   size_t at = 0;
@@ -142,17 +142,17 @@ Result<std::vector<std::byte>> ReadAll(int fd, const std::string& place) {
       continue;
     }
     if (got <= 0) {
-      return Status::Error(place, "the result of its reader was lost");
+      return Status::Error(where, "the result of its reader was lost");
     }
     at += static_cast<size_t>(got);
   }
   return bytes;
 }
 
-Status Crashed(const std::string& place, int status) {
+Status Crashed(const std::string& where, int status) {
   const bool time = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
   const bool memory = WIFEXITED(status);  // An uncaught exception: out of memory.
-  return Status::Error(place,
+  return Status::Error(where,
                        time     ? "reading it takes too long"
                        : memory ? "reading it takes too much memory"
                                 : "the library that reads it crashed: the file is damaged",
@@ -162,35 +162,35 @@ Status Crashed(const std::string& place, int status) {
 }  // namespace
 
 Result<std::vector<std::byte>> RunInChild(
-    const std::string& place,
+    const std::string& where,
     const std::function<Result<std::vector<std::byte>>()>& work,
     const IsolationLimits& limits) {
   const Descriptor message(memfd_create("lararium-import", MFD_CLOEXEC));
   if (message.get() < 0) {
-    return Status::Error(place, std::string("no memory to read it: ") + std::strerror(errno));
+    return Status::Error(where, std::string("no memory to read it: ") + std::strerror(errno));
   }
   const pid_t child = ForkApart();
   if (child < 0) {
-    return Status::Error(place, std::string("cannot start its reader: ") + std::strerror(errno));
+    return Status::Error(where, std::string("cannot start its reader: ") + std::strerror(errno));
   }
   if (child == 0) {
     RunChild(message.get(), work, limits);
   }
   int status = 0;
   if (!Wait(child, limits.wall_seconds, status)) {
-    return Status::Error(place, "reading it takes too long", "simplify the model");
+    return Status::Error(where, "reading it takes too long", "simplify the model");
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    return Crashed(place, status);
+    return Crashed(where, status);
   }
-  LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, ReadAll(message.get(), place));
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, ReadAll(message.get(), where));
   const bool done = bytes[0] == static_cast<std::byte>(kDone);
   bytes.erase(bytes.begin());
   if (!done) {
-    // The text already begins with `place`.
+    // The text already begins with `where`.
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return Status::Error(place,
-                         text.starts_with(place + ": ") ? text.substr(place.size() + 2) : text);
+    return Status::Error(where,
+                         text.starts_with(where + ": ") ? text.substr(where.size() + 2) : text);
   }
   return bytes;
 }

@@ -19,10 +19,10 @@ struct IsolationLimits {
 };
 
 // Runs `work` in a forked child and returns its result. A child that crashes or exceeds memory
-// or time gives an error that names `place`. Only the calling thread exists in the child, so
+// or time gives an error that names `where`. Only the calling thread exists in the child, so
 // that `work` must not start threads or wait for others (no TBB, no OpenCV).
 Result<std::vector<std::byte>> RunInChild(
-    const std::string& place,
+    const std::string& where,
     const std::function<Result<std::vector<std::byte>>()>& work,
     const IsolationLimits& limits = {});
 

@@ -84,8 +84,8 @@ std::filesystem::path FindTexture(const std::filesystem::path& model, std::strin
 
 Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
                                       const std::string& name,
-                                      const std::string& place) {
-  const std::string at = place + ": texture '" + name + "'";
+                                      const std::string& where) {
+  const std::string at = where + ": texture '" + name + "'";
   const std::optional<image::ImageHeader> size = image::ReadImageHeader(encoded);
   if (!size) {
     return Status::Error(at, "is neither PNG, JPEG nor BMP, or is damaged", "convert it to PNG");
@@ -99,7 +99,7 @@ Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, image::DecodeImage(encoded, image::Channels::kBgra, at));
   human::Texture texture{name, {}};
   LARARIUM_ASSIGN_OR_RETURN(texture.encoded, Encode(std::move(image)));
-  LARARIUM_RETURN_IF_ERROR(texture.Validate(place));
+  LARARIUM_RETURN_IF_ERROR(texture.Validate(where));
   return texture;
 }
 

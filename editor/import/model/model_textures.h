@@ -32,10 +32,10 @@ struct TextureUse {
 std::filesystem::path FindTexture(const std::filesystem::path& model, std::string_view uri);
 
 // Decodes an image (PNG, JPEG or BMP), scales it down to kMaxTextureSide and encodes it as
-// JPEG, or as PNG if a part is transparent. Errors name `place`. Refuses images of more than 67
+// JPEG, or as PNG if a part is transparent. Errors name `where`. Refuses images of more than 67
 // million pixels before decoding.
 Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
                                       const std::string& name,
-                                      const std::string& place);
+                                      const std::string& where);
 
 }  // namespace lararium::import

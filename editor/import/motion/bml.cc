@@ -137,8 +137,8 @@ struct Behaviour {
 
 class BmlReader {
  public:
-  BmlReader(std::string_view text, std::string place, const BmlStage& stage)
-      : text_(text), place_(std::move(place)), stage_(stage) {}
+  BmlReader(std::string_view text, std::string where, const BmlStage& stage)
+      : text_(text), place_(std::move(where)), stage_(stage) {}
 
   Result<BmlImport> Read(double begin) {
     pugi::xml_document document;
@@ -744,13 +744,13 @@ class BmlReader {
 }  // namespace
 
 Result<BmlImport> ImportBml(std::string_view text,
-                            const std::string& place,
+                            const std::string& where,
                             const BmlStage& stage,
                             double begin) {
   if (text.size() > kMaxBmlBytes) {
-    return Status::Error(place, "is longer than 4 MiB", "split it");
+    return Status::Error(where, "is longer than 4 MiB", "split it");
   }
-  return BmlReader(text, place, stage).Read(begin);
+  return BmlReader(text, where, stage).Read(begin);
 }
 
 }  // namespace lararium::import

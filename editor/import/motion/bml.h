@@ -53,9 +53,9 @@ struct BmlImport {
 // Reads one block, or several in an enclosing element. A block with the composition APPEND
 // begins when the previous one has ended, others at `begin` (seconds of the drama). Errors:
 // invalid XML, a document type (which may contain entities), no <bml>, more than 2000
-// behaviours. `place` names the text in messages.
+// behaviours. `where` names the text in messages.
 Result<BmlImport> ImportBml(std::string_view text,
-                            const std::string& place,
+                            const std::string& where,
                             const BmlStage& stage,
                             double begin = 0.0);
 

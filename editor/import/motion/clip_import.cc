@@ -10,7 +10,7 @@ namespace {
 
 Result<const human::Clip*> Choose(const std::vector<human::Clip>& clips,
                                   const std::string& name,
-                                  const std::string& place) {
+                                  const std::string& where) {
   if (name.empty()) {
     return &*std::max_element(
         clips.begin(), clips.end(),
@@ -23,7 +23,7 @@ Result<const human::Clip*> Choose(const std::vector<human::Clip>& clips,
     }
     names += (names.empty() ? "" : ", ") + clip.name;
   }
-  return Status::Error(place, "there is no clip '" + name + "' in it", "there are: " + names);
+  return Status::Error(where, "there is no clip '" + name + "' in it", "there are: " + names);
 }
 
 // Mean rotation over the joints between two keys, radians.

@@ -43,11 +43,11 @@ class Retargeter {
         source_body_(human::MakeBodyRig(source)),
         target_body_(human::MakeBodyRig(target)) {}
 
-  Status Check(const std::string& place) const {
+  Status Check(const std::string& where) const {
     for (const auto& [body, whose] :
          {std::pair{&source_body_, "clip's skeleton"}, std::pair{&target_body_, "figure"}}) {
       if (!body->walks()) {
-        return Status::Error(place, std::string("the ") + whose + " lacks the pelvis or a leg",
+        return Status::Error(where, std::string("the ") + whose + " lacks the pelvis or a leg",
                              "name its bones in a bone map");
       }
     }
@@ -318,13 +318,13 @@ class Retargeter {
 
 // The keys from one time to another.
 Result<human::Clip> ClipPart(const human::Clip& clip,
-                         size_t joints,
-                         const RetargetOptions& options,
-                         const std::string& place) {
+                             size_t joints,
+                             const RetargetOptions& options,
+                             const std::string& where) {
   const size_t keys = clip.KeyCount(joints);
   const float from = std::max(options.from, 0.0f), to = std::min(options.to, clip.duration);
   if (!(to >= from)) {
-    return Status::Error(place, "the requested part of it is empty",
+    return Status::Error(where, "the requested part of it is empty",
                          "it lasts " + std::to_string(clip.duration) + " s");
   }
   const auto first =

@@ -71,10 +71,10 @@ stage::Prop Stool() {
     for (const float z : {-1.0f, 1.0f}) {
       AddLeg({14 * x, 42, 12 * z}, {18 * x, 0, 15 * z}, 212, mesh);
     }
-    stage::PropMesh rung =
+    stage::PropMesh state =
         BentRod({{16 * x, 18, -13.5f}, {16 * x, 18, 13.5f}}, 1.2f, PlainPaint(Tone(213)));
-    PanelWithWood(2, rung);
-    Append(rung, mesh);
+    PanelWithWood(2, state);
+    Append(state, mesh);
   }
   return Wooden("stool", std::move(mesh));
 }

@@ -69,14 +69,14 @@ void DrawGrid(const CornerGrid& grid, const ImVec2& at, const ImVec2& size, floa
   }
 }
 
-void ShowGrid(const CornerGrid& grid, float width, float aspect) {
+void DrawGrid(const CornerGrid& grid, float width, float aspect) {
   const ImVec2 size(width, width / aspect);
   DrawGrid(grid, ImGui::GetCursorScreenPos(), size, 1.0f);
   ImGui::Dummy(size);
 }
 
 // The picture with its corners, connected row by row.
-void ShowPicture(PictureTextures& pictures,
+void DrawPicture(PictureTextures& pictures,
                  const editor::CalibrationMoment& moment,
                  const train::Board& board,
                  const ImVec2& size) {
@@ -115,7 +115,7 @@ void ShowPicture(PictureTextures& pictures,
 }
 
 // A progress bar with the remaining time.
-void ShowProgress(const editor::BackgroundTask::State& state) {
+void DrawProgress(const editor::BackgroundTask::State& state) {
   std::string text = Tr(state.step.c_str());
   if (const auto left = editor::EstimateSecondsLeft(state.fraction, state.seconds)) {
     text += ", " + Text(Tr("%s left"), editor::FormatDuration(*left).c_str());
@@ -151,7 +151,7 @@ const char* PartText(CalibratedView::Part part) {
 }
 
 // All corners over the image; those of the view under the pointer are enlarged.
-void ShowCoverage(const Calibration& calibration, float width, int pointed) {
+void DrawCoverage(const Calibration& calibration, float width, int pointed) {
   const float scale = width / static_cast<float>(calibration.camera.width);
   const ImVec2 size(width, scale * static_cast<float>(calibration.camera.height));
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -190,7 +190,7 @@ void DrawErrorBar(
 }
 
 // A bar for each view with its error as height. Returns the view under the pointer, or -1.
-int ShowErrors(const Calibration& calibration, const ImVec2& size) {
+int DrawErrors(const Calibration& calibration, const ImVec2& size) {
   double highest = 1e-9;
   for (const CalibratedView& view : calibration.views) {
     if (view.part != CalibratedView::Part::kRejected) {
@@ -223,7 +223,7 @@ int ShowErrors(const Calibration& calibration, const ImVec2& size) {
   return pointed;
 }
 
-void ShowNumbers(const Calibration& calibration) {
+void DrawNumbers(const Calibration& calibration) {
   const geometry::CameraModel& c = calibration.camera;
   const train::CameraDeviation& d = calibration.deviation;
   if (BeginProperties("calibration", 110.0f)) {
@@ -245,7 +245,7 @@ void ShowNumbers(const Calibration& calibration) {
   }
 }
 
-void ShowVerdict(const Calibration& calibration) {
+void DrawVerdict(const Calibration& calibration) {
   const bool good = calibration.verdict == Calibration::Verdict::kGood;
   ImGui::PushStyleColor(ImGuiCol_Text, good ? Colours().text : Colours().warning);
   Heading(editor::VerdictText(calibration.verdict, true).c_str());
@@ -263,7 +263,7 @@ void CalibrationDialog::Clear() {
   written_.clear();
 }
 
-void CalibrationDialog::ShowSource(const editor::ProjectPaths& paths) {
+void CalibrationDialog::DrawSource(const editor::ProjectPaths& paths) {
   PropertyLabel(Tr("Board in"));
   const char* const kinds[] = {Tr("Video"), Tr("Folder of images"), Tr("Live camera")};
   Segmented("source", kinds, source_);
@@ -302,12 +302,12 @@ void CalibrationDialog::Begin(const editor::ProjectPaths& paths) {
   }
 }
 
-void CalibrationDialog::ShowStart(const editor::ProjectPaths& paths) {
+void CalibrationDialog::DrawStart(const editor::ProjectPaths& paths) {
   Hint(
       Tr("Move a chessboard through all of the image, near and far, tilted to all sides, slowly, "
          "with the size, focus and zoom that the place is filmed with. Half a minute is enough."));
   if (BeginProperties("calibrate")) {
-    ShowSource(paths);
+    DrawSource(paths);
     PropertyLabel(Tr("Board"));
     const float width = Px(96);
     ImGui::SetNextItemWidth(width);
@@ -322,7 +322,7 @@ void CalibrationDialog::ShowStart(const editor::ProjectPaths& paths) {
     EndProperties();
   }
   if (static_cast<Source>(source_) == Source::kCamera) {
-    camera_.ShowHint();
+    camera_.DrawHint();
   }
   Hint(Tr("Inner corners are where four squares meet: 10 \xc3\x97 7 squares have 9 \xc3\x97 6."));
   if (ImGui::Button(Tr("Write a board to print"), ImVec2(-FLT_MIN, 0))) {
@@ -346,13 +346,13 @@ void CalibrationDialog::ShowStart(const editor::ProjectPaths& paths) {
   }
 }
 
-void CalibrationDialog::ShowSearch(PictureTextures& pictures) {
+void CalibrationDialog::DrawSearch(PictureTextures& pictures) {
   const editor::CalibrationMoment moment = task_->moment();
   const float available = ImGui::GetContentRegionAvail().x;
   const float side = std::min(Px(320), 0.45f * available);
   ImVec2 picture(available - side - Px(14), 0.0f);
   picture.y = std::min(0.75f * picture.x, 0.6f * ImGui::GetMainViewport()->WorkSize.y);
-  ShowPicture(pictures, moment, board_, picture);
+  DrawPicture(pictures, moment, board_, picture);
   ImGui::SameLine(0.0f, Px(14));
   ImGui::BeginChild("found", ImVec2(side, picture.y));
   Heading(Text(Tr("%d views that differ"), moment.kept).c_str());
@@ -362,14 +362,14 @@ void CalibrationDialog::ShowSearch(PictureTextures& pictures) {
   const float aspect = moment.bgr == nullptr ? 4.0f / 3.0f
                                              : static_cast<float>(moment.bgr->cols) /
                                                    static_cast<float>(moment.bgr->rows);
-  ShowGrid(moment.grid, side, aspect);
+  DrawGrid(moment.grid, side, aspect);
   Hint(Tr("Where corners were seen: fill all of it, its corners too."));
   ImGui::Dummy(ImVec2(0, Px(6)));
   const editor::BackgroundTask::State state = task_->state();
   // A live camera has no progress: the user ends it.
   const bool calibrating = task_->finishing() || state.step == "calibrating";
   if (!task_->live() || calibrating) {
-    ShowProgress(state);
+    DrawProgress(state);
   }
   ImGui::EndChild();
 
@@ -407,7 +407,7 @@ void CalibrationDialog::Use(const editor::ProjectPaths& paths, DialogFields& fie
   open_ = false;
 }
 
-void CalibrationDialog::ShowResult(const editor::ProjectPaths& paths, DialogFields& fields) {
+void CalibrationDialog::DrawResult(const editor::ProjectPaths& paths, DialogFields& fields) {
   const Calibration& calibration = task_->result();
   const float available = ImGui::GetContentRegionAvail().x;
   const float side = std::min(Px(400), 0.5f * available);
@@ -418,17 +418,17 @@ void CalibrationDialog::ShowResult(const editor::ProjectPaths& paths, DialogFiel
                        static_cast<float>(calibration.camera.width);
   // The bars come first, because they determine the view that the map shows.
   ImGui::SetCursorPosY(map.y + height + Px(8));
-  const int pointed = ShowErrors(calibration, ImVec2(width, Px(64)));
+  const int pointed = DrawErrors(calibration, ImVec2(width, Px(64)));
   const ImVec2 end = ImGui::GetCursorPos();
   ImGui::SetCursorPos(map);
-  ShowCoverage(calibration, width, pointed);
+  DrawCoverage(calibration, width, pointed);
   ImGui::SetCursorPos(end);
   ImGui::EndGroup();
   ImGui::SameLine(0.0f, Px(18));
   ImGui::BeginChild("numbers", ImVec2(side, height + Px(110)));
-  ShowVerdict(calibration);
+  DrawVerdict(calibration);
   ImGui::Dummy(ImVec2(0, Px(6)));
-  ShowNumbers(calibration);
+  DrawNumbers(calibration);
   ImGui::EndChild();
   WarningText(problem_);
   const DialogAnswer answer = DialogButtons(Tr("Use them"), "", Tr("Film again"));
@@ -454,17 +454,17 @@ void CalibrationDialog::Show(const editor::ProjectPaths& paths,
   const Page shown = page();
   bool open = true;
   const char* const ids[] = {"calibrate", "calibrating", "calibrated"};
-  ShowModal(Label(Tr("Calibrate a camera"), ids[static_cast<int>(shown)]).c_str(),
+  DrawModal(Label(Tr("Calibrate a camera"), ids[static_cast<int>(shown)]).c_str(),
             shown == Page::kStart ? 520.0f : 1000.0f, open, [&] {
               switch (shown) {
                 case Page::kStart:
-                  ShowStart(paths);
+                  DrawStart(paths);
                   break;
                 case Page::kSearch:
-                  ShowSearch(pictures);
+                  DrawSearch(pictures);
                   break;
                 case Page::kResult:
-                  ShowResult(paths, fields);
+                  DrawResult(paths, fields);
                   break;
               }
               open = open_ && shown == page();

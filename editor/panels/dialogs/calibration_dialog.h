@@ -30,12 +30,12 @@ class CalibrationDialog {
   Page page() const;
   // Ends the running calibration.
   void Clear();
-  void ShowStart(const editor::ProjectPaths& paths);
-  void ShowSource(const editor::ProjectPaths& paths);
+  void DrawStart(const editor::ProjectPaths& paths);
+  void DrawSource(const editor::ProjectPaths& paths);
   void WriteBoard(const editor::ProjectPaths& paths);
   void Begin(const editor::ProjectPaths& paths);
-  void ShowSearch(PictureTextures& pictures);
-  void ShowResult(const editor::ProjectPaths& paths, DialogFields& fields);
+  void DrawSearch(PictureTextures& pictures);
+  void DrawResult(const editor::ProjectPaths& paths, DialogFields& fields);
   void Use(const editor::ProjectPaths& paths, DialogFields& fields);
 
   bool open_ = false;

@@ -99,7 +99,7 @@ void GoTo(editor::Workspace& workspace, EditorState& state, const std::string& p
   }
 }
 
-void ShowProblem(editor::Workspace& workspace, EditorState& state, const Problem& problem) {
+void DrawProblem(editor::Workspace& workspace, EditorState& state, const Problem& problem) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const std::string text = problem.text.Translated(Tr);
@@ -123,7 +123,7 @@ int CountProblems(const editor::Workspace& workspace) {
   return static_cast<int>(Problems(workspace).size());
 }
 
-void ShowChecksTools(editor::Workspace& workspace) {
+void DrawChecksTools(editor::Workspace& workspace) {
   const bool busy = workspace.tasks().Running(editor::Workspace::kChecking);
   ImGui::BeginDisabled(busy);
   if (ImGui::Button(busy ? Tr("Checking\xe2\x80\xa6") : Tr("Check the saved project"))) {
@@ -139,7 +139,7 @@ void ShowChecksTools(editor::Workspace& workspace) {
   }
 }
 
-void ShowChecks(editor::Workspace& workspace, EditorState& state) {
+void DrawChecks(editor::Workspace& workspace, EditorState& state) {
   const std::vector<Problem> problems = Problems(workspace);
   ImGui::BeginChild("list", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
   if (problems.empty()) {
@@ -149,7 +149,7 @@ void ShowChecks(editor::Workspace& workspace, EditorState& state) {
   }
   for (size_t i = 0; i < problems.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    ShowProblem(workspace, state, problems[i]);
+    DrawProblem(workspace, state, problems[i]);
     ImGui::PopID();
   }
   ImGui::EndChild();

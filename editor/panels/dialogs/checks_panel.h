@@ -7,8 +7,8 @@
 
 namespace lararium::panels {
 
-void ShowChecksTools(editor::Workspace& workspace);
-void ShowChecks(editor::Workspace& workspace, EditorState& state);
+void DrawChecksTools(editor::Workspace& workspace);
+void DrawChecks(editor::Workspace& workspace, EditorState& state);
 // The number of known problems.
 int CountProblems(const editor::Workspace& workspace);
 

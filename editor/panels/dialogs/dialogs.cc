@@ -274,7 +274,7 @@ bool PresetGrid(editor::Workspace& workspace, EditorState& state) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float height = side + ImGui::GetTextLineHeight() + Px(6);
     ImGui::BeginGroup();
-    ShowThumbnail(state.pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
+    DrawThumbnail(state.pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
                   side);
     DimText(name);
     ImGui::EndGroup();
@@ -559,11 +559,11 @@ bool OpenDialog(EditorState& state, Dialog dialog) {
   return left != state.left.end();
 }
 
-bool ShowDialogs(editor::Workspace& workspace, EditorState& state) {
+bool DrawDialogs(editor::Workspace& workspace, EditorState& state) {
   if (state.dialog == Dialog::kNone && workspace.TakeNewReport()) {
     state.dialog = Dialog::kTrainingReport;
   }
-  if (state.dialog == Dialog::kKeys && !ShowKeyList(state.keys)) {
+  if (state.dialog == Dialog::kKeys && !DrawKeyList(state.keys)) {
     state.dialog = Dialog::kNone;
   }
   for (const DialogEntry& entry : kDialogs) {
@@ -574,7 +574,7 @@ bool ShowDialogs(editor::Workspace& workspace, EditorState& state) {
     bool calibrate = false;
     // Copied before Escape restores the text of a field.
     const DialogFields typed = state.fields;
-    ShowModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
+    DrawModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
       calibrate = entry.show(workspace, state);
       open = state.dialog == entry.dialog && !calibrate;
     });

@@ -14,7 +14,7 @@ namespace lararium::panels {
 // Shows the open dialog, if there is one. The dialog reports invalid input; Cancel always closes
 // it. Returns true when the user wants to calibrate the camera of its recording (CalibrationDialog)
 // and then return.
-bool ShowDialogs(editor::Workspace& workspace, EditorState& state);
+bool DrawDialogs(editor::Workspace& workspace, EditorState& state);
 
 // The extensions of a kind of file, with the dot, lower case; empty for folders.
 std::span<const char* const> ExtensionsOf(editor::FileKind kind);

@@ -29,7 +29,7 @@ constexpr std::array<const char*, editor::kContentKinds> kKindNames = {
 
 std::string Megabytes(uint64_t bytes) { return Text("%.1f MB", static_cast<double>(bytes) / 1e6); }
 
-void ShowContentsTable(const editor::BundleSummary& contents, bool written) {
+void DrawContentsTable(const editor::BundleSummary& contents, bool written) {
   if (!ImGui::BeginTable("contents", 3, ImGuiTableFlags_BordersInnerH)) {
     return;
   }
@@ -56,7 +56,7 @@ void ShowContentsTable(const editor::BundleSummary& contents, bool written) {
   ImGui::EndTable();
 }
 
-void ShowWarnings(editor::Workspace& workspace, EditorState& state) {
+void DrawWarnings(editor::Workspace& workspace, EditorState& state) {
   if (const int unbaked = state.fields.contents->unbaked(); unbaked > 0) {
     DimText(TrCount("%d thing is baked first; that takes a while.",
                     "%d things are baked first; that takes a while.", unbaked));
@@ -100,7 +100,7 @@ void MakeKeys(editor::Workspace& workspace, DialogFields& fields) {
                       (stem.string() + ".pub").c_str()));
 }
 
-void ShowFields(editor::Workspace& workspace, DialogFields& fields) {
+void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
   if (!BeginProperties("export", 120.0f)) {
     return;
   }
@@ -137,19 +137,19 @@ std::string DrawProblem(const editor::Workspace& workspace, const DialogFields& 
   return workspace.document().places.empty() ? Tr("A show needs a place: train one first.") : "";
 }
 
-void ShowBefore(editor::Workspace& workspace, EditorState& state) {
+void DrawBefore(editor::Workspace& workspace, EditorState& state) {
   DialogFields& fields = state.fields;
   Hint(
       Tr("Packs what visitors need into one file. The project is saved and what is stale is "
          "baked first."));
-  ShowFields(workspace, fields);
+  DrawFields(workspace, fields);
   if (!fields.contents) {
     fields.contents = editor::ForecastShow(workspace.paths(), workspace.document(),
                                            {.max_points = fields.points});
   }
   Heading(Tr("What goes in"));
-  ShowContentsTable(*fields.contents, false);
-  ShowWarnings(workspace, state);
+  DrawContentsTable(*fields.contents, false);
+  DrawWarnings(workspace, state);
   if (fields.exporting && !workspace.export_problem().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", workspace.export_problem().c_str());
@@ -179,7 +179,7 @@ editor::BackgroundTask* Exporting(editor::Workspace& workspace) {
   return nullptr;
 }
 
-void ShowDuring(editor::BackgroundTask& task, EditorState& state) {
+void DrawDuring(editor::BackgroundTask& task, EditorState& state) {
   const editor::BackgroundTask::State now = task.state();
   Hint(Tr("The window can be used meanwhile: the export goes on when this is closed."));
   ImGui::Dummy(ImVec2(0, Px(6)));
@@ -199,11 +199,11 @@ void ShowDuring(editor::BackgroundTask& task, EditorState& state) {
   }
 }
 
-void ShowAfter(editor::Workspace& workspace, EditorState& state) {
+void DrawAfter(editor::Workspace& workspace, EditorState& state) {
   const editor::Workspace::ExportedShow& shown = *workspace.exported();
   Hint(Text(Tr("Wrote %s."), shown.file.c_str()));
   Heading(Tr("What went in"));
-  ShowContentsTable(shown.contents, true);
+  DrawContentsTable(shown.contents, true);
   DimText(shown.contents.is_signed ? Tr("Signed.")
                                    : Tr("Not signed: players that ask for a signature refuse it."));
   DimText(Tr("The player is left with Escape."));
@@ -234,12 +234,12 @@ void ExportDialog(editor::Workspace& workspace, EditorState& state) {
   }
   if (editor::BackgroundTask* task = Exporting(workspace)) {
     fields.exporting = true;
-    ShowDuring(*task, state);
+    DrawDuring(*task, state);
   } else if (fields.exporting && workspace.export_problem().empty() &&
              workspace.exported() != nullptr) {
-    ShowAfter(workspace, state);
+    DrawAfter(workspace, state);
   } else {
-    ShowBefore(workspace, state);
+    DrawBefore(workspace, state);
   }
 }
 

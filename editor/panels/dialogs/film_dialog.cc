@@ -36,7 +36,7 @@ ImVec4 CellColour(CoverageGuide::Cell cell) {
 
 // The directions relative to the beginning, from 180 degrees left to 180 degrees right, with the
 // sky at the top, and a frame around the present view.
-void ShowDirections(const editor::FilmMoment& moment) {
+void DrawDirections(const editor::FilmMoment& moment) {
   constexpr double kHalfViewColumns = 2.0;  // About 30 degrees to either side.
   const float width = ImGui::GetContentRegionAvail().x;
   const float cell = std::floor(width / CoverageGuide::kColumns);
@@ -70,27 +70,27 @@ void ShowDirections(const editor::FilmMoment& moment) {
          "half ones from one place only."));
 }
 
-void ShowShare(const char* label, double share) {
+void DrawShare(const char* label, double share) {
   PropertyLabel(label);
   const std::string text = Text("%.0f %%", 100.0 * share);
   ImGui::ProgressBar(static_cast<float>(share), ImVec2(-FLT_MIN, 0), text.c_str());
 }
 
-void ShowShares(const train::CoverageShares& shares) {
+void DrawShares(const train::CoverageShares& shares) {
   Heading(Text(Tr("%.0f %% covered"), 100.0 * shares.all()).c_str());
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, Colours().chosen);
   if (BeginProperties("shares", 150.0f)) {
-    ShowShare(Tr("Ahead, to both sides"), shares.ahead);
-    ShowShare(Tr("The floor"), shares.floor);
-    ShowShare(Tr("Steps to the side"), shares.sideways);
-    ShowShare(Tr("Nearer and farther"), shares.depth);
+    DrawShare(Tr("Ahead, to both sides"), shares.ahead);
+    DrawShare(Tr("The floor"), shares.floor);
+    DrawShare(Tr("Steps to the side"), shares.sideways);
+    DrawShare(Tr("Nearer and farther"), shares.depth);
     EndProperties();
   }
   ImGui::PopStyleColor();
 }
 
 // The picture with the next step written over it.
-void ShowPicture(EditorState& state, const editor::FilmMoment& moment, const ImVec2& size) {
+void DrawPicture(EditorState& state, const editor::FilmMoment& moment, const ImVec2& size) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 corner(at.x + size.x, at.y + size.y);
@@ -154,7 +154,7 @@ void FilmDialog::Begin(editor::Workspace& workspace, const std::string& place) {
   }
 }
 
-void FilmDialog::ShowStart(editor::Workspace& workspace, EditorState& state) {
+void FilmDialog::DrawStart(editor::Workspace& workspace, EditorState& state) {
   Hint(
       Tr("While you film it says what to do next and how much of the place visitors need is there. "
          "It follows corners in the images; what it says is no map, and training may still find "
@@ -165,7 +165,7 @@ void FilmDialog::ShowStart(editor::Workspace& workspace, EditorState& state) {
     field_.Show(camera_, workspace.paths().folder);
     EndProperties();
   }
-  field_.ShowHint();
+  field_.DrawHint();
   WarningText(problem_);
   const DialogAnswer answer = DialogButtons(Tr("Film"), NameProblem(state.fields.place));
   if (answer == DialogAnswer::kCancel) {
@@ -185,7 +185,7 @@ void FilmDialog::Train(editor::Workspace& workspace, EditorState& state) {
 }
 
 // The buttons during filming.
-void FilmDialog::ShowButtons() {
+void FilmDialog::DrawButtons() {
   const std::string problem =
       film_->moment().frames == 0 ? Tr("Waiting for the camera\xe2\x80\xa6") : "";
   switch (DialogButtons(Tr("Stop and train"), problem, Tr("Discard\xe2\x80\xa6"))) {
@@ -200,7 +200,7 @@ void FilmDialog::ShowButtons() {
   }
 }
 
-void FilmDialog::ShowQuestion(EditorState& state) {
+void FilmDialog::DrawQuestion(EditorState& state) {
   ImGui::TextWrapped("%s", Text(Tr("%.0f s are filmed. Train from them, or discard them?"),
                                 film_->moment().seconds)
                                .c_str());
@@ -216,7 +216,7 @@ void FilmDialog::ShowQuestion(EditorState& state) {
 }
 
 // Filming ended by itself: the camera failed, the disk is full, or the recording is over.
-void FilmDialog::ShowEnded(const editor::Filmed& filmed, EditorState& state) {
+void FilmDialog::DrawEnded(const editor::Filmed& filmed, EditorState& state) {
   if (!filmed.stopped.ok()) {
     WarningText(Text(Tr("Filming has stopped: %s"), filmed.stopped.message().c_str()));
   }
@@ -236,7 +236,7 @@ void FilmDialog::ShowEnded(const editor::Filmed& filmed, EditorState& state) {
 }
 
 // Filming failed, and there is nothing to keep.
-void FilmDialog::ShowFailed(const std::string& problem, EditorState& state) {
+void FilmDialog::DrawFailed(const std::string& problem, EditorState& state) {
   WarningText(problem);
   const DialogAnswer answer = DialogButtons(Tr("Film again"), "");
   if (answer == DialogAnswer::kCancel) {
@@ -247,21 +247,21 @@ void FilmDialog::ShowFailed(const std::string& problem, EditorState& state) {
   }
 }
 
-void FilmDialog::ShowFilming(editor::Workspace& workspace, EditorState& state) {
+void FilmDialog::DrawFilming(editor::Workspace& workspace, EditorState& state) {
   const editor::FilmMoment moment = film_->moment();
   const std::optional<Result<editor::Filmed>> outcome = film_->outcome();
   const float available = ImGui::GetContentRegionAvail().x;
   const float side = std::min(Px(320), 0.45f * available);
   ImVec2 picture(available - side - Px(14), 0.0f);
   picture.y = std::min(0.75f * picture.x, 0.6f * ImGui::GetMainViewport()->WorkSize.y);
-  ShowPicture(state, moment, picture);
+  DrawPicture(state, moment, picture);
   ImGui::SameLine(0.0f, Px(14));
   ImGui::BeginGroup();
   ImGui::PushItemWidth(side);
   ImGui::BeginChild("coverage", ImVec2(side, picture.y));
-  ShowShares(moment.coverage.shares);
+  DrawShares(moment.coverage.shares);
   ImGui::Dummy(ImVec2(0, Px(6)));
-  ShowDirections(moment);
+  DrawDirections(moment);
   ImGui::Dummy(ImVec2(0, Px(6)));
   DimText(Text(Tr("%.0f s, %d images"), moment.seconds, static_cast<int>(moment.frames)));
   ImGui::EndChild();
@@ -269,15 +269,15 @@ void FilmDialog::ShowFilming(editor::Workspace& workspace, EditorState& state) {
   ImGui::EndGroup();
 
   if (outcome && !outcome->ok()) {
-    ShowFailed(outcome->message(), state);
+    DrawFailed(outcome->message(), state);
   } else if (outcome && film_->finishing()) {
     Train(workspace, state);
   } else if (outcome) {
-    ShowEnded(**outcome, state);
+    DrawEnded(**outcome, state);
   } else if (asks_) {
-    ShowQuestion(state);
+    DrawQuestion(state);
   } else {
-    ShowButtons();
+    DrawButtons();
   }
 }
 
@@ -305,9 +305,9 @@ void FilmDialog::Show(editor::Workspace& workspace, EditorState& state) {
   }
   bool open = true;
   const bool filming = film_ != nullptr;
-  ShowModal(Label(Tr("Film a place"), filming ? "filming" : "film").c_str(),
+  DrawModal(Label(Tr("Film a place"), filming ? "filming" : "film").c_str(),
             filming ? 1000.0f : 520.0f, open, [&] {
-              filming ? ShowFilming(workspace, state) : ShowStart(workspace, state);
+              filming ? DrawFilming(workspace, state) : DrawStart(workspace, state);
               open = state.dialog == Dialog::kFilm && filming == (film_ != nullptr);
             });
   if (!open && state.dialog == Dialog::kFilm && filming == (film_ != nullptr)) {

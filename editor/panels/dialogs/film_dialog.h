@@ -20,13 +20,13 @@ class FilmDialog {
   void Show(editor::Workspace& workspace, EditorState& state);
 
  private:
-  void ShowStart(editor::Workspace& workspace, EditorState& state);
+  void DrawStart(editor::Workspace& workspace, EditorState& state);
   void Begin(editor::Workspace& workspace, const std::string& place);
-  void ShowFilming(editor::Workspace& workspace, EditorState& state);
-  void ShowButtons();
-  void ShowQuestion(EditorState& state);
-  void ShowEnded(const editor::Filmed& filmed, EditorState& state);
-  void ShowFailed(const std::string& problem, EditorState& state);
+  void DrawFilming(editor::Workspace& workspace, EditorState& state);
+  void DrawButtons();
+  void DrawQuestion(EditorState& state);
+  void DrawEnded(const editor::Filmed& filmed, EditorState& state);
+  void DrawFailed(const std::string& problem, EditorState& state);
   void Train(editor::Workspace& workspace, EditorState& state);
   // Handles Escape and the close button.
   void Leave(editor::Workspace& workspace, EditorState& state);

@@ -6,13 +6,13 @@
 
 namespace lararium::panels {
 
-void ShowInspectorDialog(const std::string& title, const std::function<bool()>& content) {
+void DrawInspectorDialog(const std::string& title, const std::function<bool()>& content) {
   constexpr float kWidth = 520.0f;  // logical pixels
   if (!ImGui::IsPopupOpen(title.c_str())) {
     return;
   }
   bool open = true;
-  ShowModal(title.c_str(), kWidth, open, [&] { open = !content(); });
+  DrawModal(title.c_str(), kWidth, open, [&] { open = !content(); });
 }
 
 }  // namespace lararium::panels

@@ -10,6 +10,6 @@ namespace lararium::panels {
 
 // Shows the dialog with that title while it is open. Call it where it was opened. content: draws
 // the dialog and returns true when it is done. Escape and the close button close it too.
-void ShowInspectorDialog(const std::string& title, const std::function<bool()>& content);
+void DrawInspectorDialog(const std::string& title, const std::function<bool()>& content);
 
 }  // namespace lararium::panels

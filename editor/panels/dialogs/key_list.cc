@@ -16,7 +16,7 @@ namespace {
 constexpr float kListWidth = 980.0f;  // logical pixels
 constexpr float kKeyWidth = 150.0f;
 
-void ShowRow(const KeyBinding& binding, const std::string& keys) {
+void DrawRow(const KeyBinding& binding, const std::string& keys) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(keys.c_str());
@@ -30,7 +30,7 @@ void ShowRow(const KeyBinding& binding, const std::string& keys) {
   ImGui::PopStyleColor();
 }
 
-void ShowScope(KeyScope scope) {
+void DrawScope(KeyScope scope) {
   Heading(ScopeTitle(scope));
   if (!ImGui::BeginTable(std::to_string(static_cast<int>(scope)).c_str(), 2)) {
     return;
@@ -47,39 +47,39 @@ void ShowScope(KeyScope scope) {
          ++other) {
       keys += Text(Tr(" or %s"), KeyText(bindings[other]).c_str());
     }
-    ShowRow(bindings[i], keys);
+    DrawRow(bindings[i], keys);
   }
   ImGui::EndTable();
   ImGui::Dummy(ImVec2(0, Px(6)));
 }
 
-void ShowColumns() {
+void DrawColumns() {
   if (!ImGui::BeginTable("columns", 2)) {
     return;
   }
   ImGui::TableNextColumn();
   for (const KeyScope scope : {KeyScope::kAlways, KeyScope::kPanels, KeyScope::kViews,
                                KeyScope::kCamera, KeyScope::kAround}) {
-    ShowScope(scope);
+    DrawScope(scope);
   }
   ImGui::TableNextColumn();
   for (const KeyScope scope : {KeyScope::kTimeline, KeyScope::kPicks, KeyScope::kWalk,
                                KeyScope::kLight, KeyScope::kStart}) {
-    ShowScope(scope);
+    DrawScope(scope);
   }
   ImGui::EndTable();
 }
 
 }  // namespace
 
-bool ShowKeyList(std::span<const KeyPress> keys) {
+bool DrawKeyList(std::span<const KeyPress> keys) {
   const ImVec2 window = ImGui::GetMainViewport()->WorkSize;
   bool open = true;
   const std::string title = Label(Tr("Keys"), "keys");
   const bool was_open = ImGui::IsPopupOpen(title.c_str());
-  ShowModal(title.c_str(), std::min(kListWidth, window.x / Px(1.0f) - 32.0f), open, [&] {
+  DrawModal(title.c_str(), std::min(kListWidth, window.x / Px(1.0f) - 32.0f), open, [&] {
     ImGui::BeginChild("keys", ImVec2(0, std::min(Px(720), 0.8f * window.y)));
-    ShowColumns();
+    DrawColumns();
     ImGui::EndChild();
     Hint(
         Tr("While you type into a field, only keys with Ctrl and F1 to F10 mean this. In the "

@@ -10,6 +10,6 @@ namespace lararium::panels {
 
 // keys: those since the last frame; the key that opens the list also closes it. Returns false when
 // it was closed.
-bool ShowKeyList(std::span<const KeyPress> keys);
+bool DrawKeyList(std::span<const KeyPress> keys);
 
 }  // namespace lararium::panels

@@ -6,7 +6,7 @@
 
 namespace lararium::panels {
 
-void LiveCameraDialog::ShowContent(editor::Workspace& workspace, EditorState& state) {
+void LiveCameraDialog::DrawContent(editor::Workspace& workspace, EditorState& state) {
   Hint(
       Tr("Through the camera then shows what the camera sees now, with people in it. It must be "
          "of the lens and proportions that the place was trained with. Nothing of it is saved."));
@@ -15,7 +15,7 @@ void LiveCameraDialog::ShowContent(editor::Workspace& workspace, EditorState& st
     field_.Show(camera, workspace.paths().folder);
     EndProperties();
   }
-  field_.ShowHint();
+  field_.DrawHint();
   std::string problem;
   std::error_code ignored;
   if (!editor::IsCameraNumber(camera) &&
@@ -24,7 +24,7 @@ void LiveCameraDialog::ShowContent(editor::Workspace& workspace, EditorState& st
   }
   const DialogAnswer answer = DialogButtons(Tr("Show"), problem);
   if (answer == DialogAnswer::kAct) {
-    workspace.ShowLiveCamera(camera);
+    workspace.PreviewLiveCamera(camera);
     state.view = ViewKind::kCamera;
   }
   if (answer != DialogAnswer::kNone) {
@@ -39,8 +39,8 @@ void LiveCameraDialog::Show(editor::Workspace& workspace, EditorState& state) {
   }
   bool open = true;
   const DialogFields typed = state.fields;  // Copied before Escape restores the text of a field.
-  ShowModal(Label(Tr("Live camera"), "live").c_str(), 520.0f, open, [&] {
-    ShowContent(workspace, state);
+  DrawModal(Label(Tr("Live camera"), "live").c_str(), 520.0f, open, [&] {
+    DrawContent(workspace, state);
     open = state.dialog == Dialog::kLiveCamera;
   });
   if (!open && state.dialog == Dialog::kLiveCamera) {

@@ -14,7 +14,7 @@ class LiveCameraDialog {
   void Show(editor::Workspace& workspace, EditorState& state);
 
  private:
-  void ShowContent(editor::Workspace& workspace, EditorState& state);
+  void DrawContent(editor::Workspace& workspace, EditorState& state);
 
   CameraField field_;
 };

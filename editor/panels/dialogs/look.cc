@@ -33,7 +33,7 @@ const char* LanguageName(const std::string& language) {
 
 }  // namespace
 
-void ShowLook(editor::Settings& settings) {
+void DrawLook(editor::Settings& settings) {
   const char* const themes[] = {ThemeName(kThemes[0]), ThemeName(kThemes[1])};
   int theme = settings.theme == kThemes[1] ? 1 : 0;
   if (Segmented("theme", themes, theme)) {

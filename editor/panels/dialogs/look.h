@@ -7,7 +7,7 @@
 namespace lararium::panels {
 
 // Rows of buttons, and entries of a menu.
-void ShowLook(editor::Settings& settings);
+void DrawLook(editor::Settings& settings);
 void LookMenu(editor::Settings& settings);
 
 }  // namespace lararium::panels

@@ -41,7 +41,7 @@ Icon IconOf(editor::Message::Level level) {
   return Icon::kInfo;
 }
 
-void ShowTask(editor::BackgroundTask& task) {
+void DrawTask(editor::BackgroundTask& task) {
   const editor::BackgroundTask::State state = task.state();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(editor::TaskText(task.name(), state).c_str());
@@ -62,7 +62,7 @@ void ShowTask(editor::BackgroundTask& task) {
 }
 
 // The choice between two versions of the project; nothing is saved before it.
-void ShowOutsideChoice(editor::Workspace& workspace) {
+void DrawOutsideChoice(editor::Workspace& workspace) {
   const std::string& damage = workspace.outside_damage();
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(
@@ -88,7 +88,7 @@ void ShowOutsideChoice(editor::Workspace& workspace) {
 
 }  // namespace
 
-void ShowMessages(const editor::Workspace& workspace) {
+void DrawMessages(const editor::Workspace& workspace) {
   const bool at_end = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0f;
   if (workspace.messages().empty()) {
     DimText(Tr("Nothing to report."));
@@ -124,12 +124,12 @@ void MarkUnread(const editor::Workspace& workspace, uint64_t read) {
                                       sign.c_str());
 }
 
-void ShowStatusBar(editor::Workspace& workspace) {
+void DrawStatusBar(editor::Workspace& workspace) {
   for (const editor::TaskList::Entry& entry : workspace.tasks().entries()) {
-    ShowTask(*entry.task);
+    DrawTask(*entry.task);
   }
   if (workspace.changed_outside()) {
-    ShowOutsideChoice(workspace);
+    DrawOutsideChoice(workspace);
   }
   const size_t unbuilt = workspace.PeopleLeft();
   if (unbuilt > 0) {

@@ -5,7 +5,7 @@
 namespace lararium::panels {
 
 // The messages, newest last. Errors name the file and the remedy.
-void ShowMessages(const editor::Workspace& workspace);
+void DrawMessages(const editor::Workspace& workspace);
 
 // Marks the corner of the last button where there are warnings or errors after the first read
 // messages.
@@ -13,6 +13,6 @@ void MarkUnread(const editor::Workspace& workspace, uint64_t read);
 
 // One line with the project, the tasks in the background, each with a button to cancel, and
 // decisions that are needed before saving.
-void ShowStatusBar(editor::Workspace& workspace);
+void DrawStatusBar(editor::Workspace& workspace);
 
 }  // namespace lararium::panels

@@ -53,7 +53,7 @@ void MissingFilesPanel::FillOffers(const editor::Workspace& workspace,
   }
 }
 
-void MissingFilesPanel::ShowRow(const editor::Workspace& workspace,
+void MissingFilesPanel::DrawRow(const editor::Workspace& workspace,
                                 const editor::MissingFile& file) {
   ImGui::PushID(file.path.c_str());
   if (ImGui::Button(Tr("Locate\xe2\x80\xa6"))) {
@@ -75,7 +75,7 @@ void MissingFilesPanel::ShowRow(const editor::Workspace& workspace,
   ImGui::PopID();
 }
 
-void MissingFilesPanel::ShowDialog(editor::Workspace& workspace) {
+void MissingFilesPanel::DrawDialog(editor::Workspace& workspace) {
   const editor::ProjectPaths& paths = workspace.paths();
   if (locating_->kind == editor::FileKind::kSound) {
     Hint(Text(Tr("Which recording is %s? It is copied into the project's audio folder."),
@@ -152,14 +152,14 @@ void MissingFilesPanel::Show(editor::Workspace& workspace) {
                     count())
                 .c_str());
     for (const editor::MissingFile& file : missing_) {
-      ShowRow(workspace, file);
+      DrawRow(workspace, file);
     }
     ImGui::Dummy(ImVec2(0, Px(6)));
   }
   if (locating_) {
     bool open = true;
-    ShowModal(Label(Tr("Locate a file"), "locate").c_str(), 620, open, [&] {
-      ShowDialog(workspace);
+    DrawModal(Label(Tr("Locate a file"), "locate").c_str(), 620, open, [&] {
+      DrawDialog(workspace);
       open = locating_.has_value();
     });
     if (!open) {

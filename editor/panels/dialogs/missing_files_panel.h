@@ -24,8 +24,8 @@ class MissingFilesPanel {
   void Show(editor::Workspace& workspace);
 
  private:
-  void ShowRow(const editor::Workspace& workspace, const editor::MissingFile& file);
-  void ShowDialog(editor::Workspace& workspace);
+  void DrawRow(const editor::Workspace& workspace, const editor::MissingFile& file);
+  void DrawDialog(editor::Workspace& workspace);
   void Take(editor::Workspace& workspace, std::span<const editor::Relocation> moves);
   void FillOffers(const editor::Workspace& workspace, const editor::Relocation& located);
 

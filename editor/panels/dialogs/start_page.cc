@@ -137,7 +137,7 @@ void StartPage::OpenDialog(Open dialog, const editor::RecentProjects& recent) {
   folder_ = UsualFolder(recent).string();
 }
 
-void StartPage::ShowActions(const editor::RecentProjects& recent,
+void StartPage::DrawActions(const editor::RecentProjects& recent,
                             bool has_sample,
                             editor::Settings& settings,
                             StartChoice& choice) {
@@ -171,10 +171,10 @@ void StartPage::ShowActions(const editor::RecentProjects& recent,
                           "of it: change whatever you like.")
                      : Tr("The sample was not installed with this program."));
   ImGui::Dummy(ImVec2(0, Px(20)));
-  ShowLook(settings);
+  DrawLook(settings);
 }
 
-void StartPage::ShowPicture(const editor::RecentProject& project,
+void StartPage::DrawPicture(const editor::RecentProject& project,
                             const Face& face,
                             const ImVec2& size) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
@@ -195,7 +195,7 @@ void StartPage::ShowPicture(const editor::RecentProject& project,
   ImGui::Dummy(size);
 }
 
-void StartPage::ShowCard(editor::RecentProjects& recent,
+void StartPage::DrawCard(editor::RecentProjects& recent,
                          const editor::RecentProject& project,
                          float width,
                          StartChoice& choice) {
@@ -217,7 +217,7 @@ void StartPage::ShowCard(editor::RecentProjects& recent,
       from, to, Packed(hovered ? Colours().hover : Colours().panel), Px(6));
   ImGui::SetCursorScreenPos(ImVec2(from.x + Px(kPad), from.y + Px(kPad)));
   ImGui::BeginGroup();
-  ShowPicture(project, face, ImVec2(inner, picture));
+  DrawPicture(project, face, ImVec2(inner, picture));
   if (face.exists) {
     Heading(Elided(project.title, inner).c_str());
   } else {
@@ -256,7 +256,7 @@ void StartPage::ShowCard(editor::RecentProjects& recent,
   }
 }
 
-void StartPage::ShowRecent(editor::RecentProjects& recent, StartChoice& choice) {
+void StartPage::DrawRecent(editor::RecentProjects& recent, StartChoice& choice) {
   Heading(Tr("Recent projects"));
   ImGui::Dummy(ImVec2(0, Px(2)));
   if (recent.entries().empty()) {
@@ -278,7 +278,7 @@ void StartPage::ShowRecent(editor::RecentProjects& recent, StartChoice& choice) 
     } else if (i > 0) {
       ImGui::Dummy(ImVec2(0, Px(kGap) - 2 * ImGui::GetStyle().ItemSpacing.y));
     }
-    ShowCard(recent, entries[i], width, choice);
+    DrawCard(recent, entries[i], width, choice);
   }
   ImGui::PopStyleVar();
 }
@@ -381,10 +381,10 @@ void StartPage::ProjectDialog(editor::RecentProjects& recent, StartChoice& choic
   }
 }
 
-void StartPage::ShowDialog(editor::RecentProjects& recent,
+void StartPage::DrawDialog(editor::RecentProjects& recent,
                            std::span<const KeyPress> keys,
                            StartChoice& choice) {
-  if (dialog_ == Open::kKeys && !ShowKeyList(keys)) {
+  if (dialog_ == Open::kKeys && !DrawKeyList(keys)) {
     dialog_ = Open::kNothing;
   }
   if (dialog_ == Open::kNothing || dialog_ == Open::kKeys) {
@@ -395,7 +395,7 @@ void StartPage::ShowDialog(editor::RecentProjects& recent,
     return;
   }
   bool open = true;
-  ShowModal(Label(TitleOf(dialog_), "dialog").c_str(), 560, open, [&] {
+  DrawModal(Label(TitleOf(dialog_), "dialog").c_str(), 560, open, [&] {
     if (dialog_ == Open::kProject || dialog_ == Open::kLocate) {
       ProjectDialog(recent, choice);
     } else {
@@ -427,7 +427,7 @@ StartChoice StartPage::Show(editor::RecentProjects& recent,
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
   ImGui::BeginChild("actions", ImVec2(Px(kActions), 0), false, ImGuiWindowFlags_NavFlattened);
-  ShowActions(recent, has_sample, settings, choice);
+  DrawActions(recent, has_sample, settings, choice);
   ImGui::EndChild();
   ImGui::SameLine(0.0f, Px(48));
   ImGui::BeginChild("recent", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
@@ -437,9 +437,9 @@ StartChoice StartPage::Show(editor::RecentProjects& recent,
     ImGui::PopStyleColor();
     ImGui::Dummy(ImVec2(0, Px(8)));
   }
-  ShowRecent(recent, choice);
+  DrawRecent(recent, choice);
   ImGui::EndChild();
-  ShowDialog(recent, keys, choice);
+  DrawDialog(recent, keys, choice);
   ImGui::End();
   if (choice.kind != StartChoice::Kind::kNothing) {
     problem_.clear();

@@ -55,17 +55,17 @@ class StartPage {
                   std::span<const KeyPress> keys,
                   StartChoice& choice);
   void OpenDialog(Open dialog, const editor::RecentProjects& recent);
-  void ShowActions(const editor::RecentProjects& recent,
+  void DrawActions(const editor::RecentProjects& recent,
                    bool has_sample,
                    editor::Settings& settings,
                    StartChoice& choice);
-  void ShowRecent(editor::RecentProjects& recent, StartChoice& choice);
-  void ShowCard(editor::RecentProjects& recent,
+  void DrawRecent(editor::RecentProjects& recent, StartChoice& choice);
+  void DrawCard(editor::RecentProjects& recent,
                 const editor::RecentProject& project,
                 float width,
                 StartChoice& choice);
-  void ShowPicture(const editor::RecentProject& project, const Face& face, const ImVec2& size);
-  void ShowDialog(editor::RecentProjects& recent,
+  void DrawPicture(const editor::RecentProject& project, const Face& face, const ImVec2& size);
+  void DrawDialog(editor::RecentProjects& recent,
                   std::span<const KeyPress> keys,
                   StartChoice& choice);
   void NewDialog(StartChoice& choice);

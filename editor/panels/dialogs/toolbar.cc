@@ -99,7 +99,7 @@ void PlaceMenu(editor::Workspace& workspace, EditorState& state) {
     OpenDialog(state, Dialog::kTrainingReport);
   }
   if (ImGui::MenuItem(Tr("Put the former map back"), nullptr, false,
-                      workspace.loaded().has_former && !training)) {
+                      workspace.loaded().has_previous && !training)) {
     workspace.RestorePreviousMap();
   }
   if (ImGui::MenuItem(Tr("Bake"))) {
@@ -129,7 +129,7 @@ void PlaceMenu(editor::Workspace& workspace, EditorState& state) {
   }
 }
 
-void ShowTab(EditorState& state, BottomTab tab) {
+void DrawTab(EditorState& state, BottomTab tab) {
   state.bottom = tab;
   state.focus = tab == BottomTab::kTimeline ? Focus::kTimeline : Focus::kViews;
 }
@@ -180,7 +180,7 @@ void ViewMenu(editor::Workspace& workspace, EditorState& state) {
       {Tr("Messages"), KeyAction::kMessagesTab, BottomTab::kMessages}};
   for (const auto& [label, key, tab] : tabs) {
     if (MenuItem(label, key, state.bottom == tab)) {
-      ShowTab(state, tab);
+      DrawTab(state, tab);
     }
   }
   ImGui::Separator();
@@ -219,8 +219,8 @@ void ViewMenu(editor::Workspace& workspace, EditorState& state) {
     state.place.snap = !state.place.snap;
   }
   ImGui::Separator();
-  if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_wipe)) {
-    state.show_wipe = !state.show_wipe;
+  if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_compare)) {
+    state.show_compare = !state.show_compare;
   }
   if (MenuItem(Tr("Onion skin"), KeyAction::kOnion, state.show_onion)) {
     state.show_onion = !state.show_onion;
@@ -306,7 +306,7 @@ bool WordsFit(float gap) {
   return width <= ImGui::GetContentRegionAvail().x;
 }
 
-bool ShowTool(const Tool& tool, bool words, bool possible) {
+bool DrawTool(const Tool& tool, bool words, bool possible) {
   ImGui::BeginDisabled(!possible);
   const bool pressed = ImGui::Button(Label(NameOf(tool, words).c_str(), tool.label).c_str());
   ImGui::EndDisabled();
@@ -314,7 +314,7 @@ bool ShowTool(const Tool& tool, bool words, bool possible) {
   return pressed;
 }
 
-bool ShowChoice(const char* id, std::span<const Tool> tools, bool words, int& chosen) {
+bool DrawChoice(const char* id, std::span<const Tool> tools, bool words, int& chosen) {
   std::vector<std::string> names;
   std::vector<std::string> tips;
   for (const Tool& tool : tools) {
@@ -355,16 +355,16 @@ void Do(editor::Workspace& workspace, EditorState& state, KeyAction action) {
       workspace.SetEvidence(!workspace.shows_evidence());
       break;
     case KeyAction::kTimelineTab:
-      ShowTab(state, BottomTab::kTimeline);
+      DrawTab(state, BottomTab::kTimeline);
       break;
     case KeyAction::kScriptTab:
-      ShowTab(state, BottomTab::kScript);
+      DrawTab(state, BottomTab::kScript);
       break;
     case KeyAction::kChecksTab:
-      ShowTab(state, BottomTab::kChecks);
+      DrawTab(state, BottomTab::kChecks);
       break;
     case KeyAction::kMessagesTab:
-      ShowTab(state, BottomTab::kMessages);
+      DrawTab(state, BottomTab::kMessages);
       break;
     case KeyAction::kPlay:
       workspace.SetPlaying(!workspace.playing());
@@ -414,7 +414,7 @@ void DoInViews(editor::Workspace& workspace, EditorState& state, KeyAction actio
       state.show_occluders = !state.show_occluders;
       break;
     case KeyAction::kWipe:
-      state.show_wipe = !state.show_wipe;
+      state.show_compare = !state.show_compare;
       break;
     case KeyAction::kOnion:
       state.show_onion = !state.show_onion;
@@ -465,7 +465,7 @@ bool IsNoTyping(const KeyPress& press) {
 
 }  // namespace
 
-void ShowMenuBar(editor::Workspace& workspace, EditorState& state) {
+void DrawMenuBar(editor::Workspace& workspace, EditorState& state) {
   if (!ImGui::BeginMenuBar()) {
     return;
   }
@@ -497,41 +497,41 @@ void ShowMenuBar(editor::Workspace& workspace, EditorState& state) {
   ImGui::EndMenuBar();
 }
 
-void ShowToolbar(editor::Workspace& workspace, EditorState& state) {
+void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
   const float gap = Px(22);
   const bool words = WordsFit(gap);
   const editor::TaskList& tasks = workspace.tasks();
-  if (ShowTool(kTrain, words, !tasks.Running(editor::Workspace::kTraining))) {
+  if (DrawTool(kTrain, words, !tasks.Running(editor::Workspace::kTraining))) {
     OpenTrainDialog(workspace, state);
   }
   ImGui::SameLine();
-  if (ShowTool(kAddSession, words, CanAddSession(workspace))) {
+  if (DrawTool(kAddSession, words, CanAddSession(workspace))) {
     OpenDialog(state, Dialog::kAddSession);
   }
   ImGui::SameLine();
-  if (ShowTool(kBake, words, !tasks.Running(editor::Workspace::kBaking))) {
+  if (DrawTool(kBake, words, !tasks.Running(editor::Workspace::kBaking))) {
     workspace.Bake();
   }
   ImGui::SameLine();
-  if (ShowTool(kExport, words, !tasks.Running(editor::Workspace::kExporting))) {
+  if (DrawTool(kExport, words, !tasks.Running(editor::Workspace::kExporting))) {
     OpenDialog(state, Dialog::kExport);
   }
   ImGui::SameLine(0.0f, gap);
   int view = static_cast<int>(state.view);
-  if (ShowChoice("view", kViews, words, view)) {
+  if (DrawChoice("view", kViews, words, view)) {
     state.view = static_cast<ViewKind>(view);
   }
   ImGui::SameLine(0.0f, gap);
   int mode = static_cast<int>(state.gizmo);
-  if (ShowChoice("gizmo", kModes, words, mode)) {
+  if (DrawChoice("gizmo", kModes, words, mode)) {
     SetGizmo(state, static_cast<GizmoMode>(mode));
   }
   ImGui::SameLine(0.0f, gap);
-  if (ShowTool(kUndo, words, workspace.commands().CanUndo())) {
+  if (DrawTool(kUndo, words, workspace.commands().CanUndo())) {
     workspace.Undo();
   }
   ImGui::SameLine();
-  if (ShowTool(kRedo, words, workspace.commands().CanRedo())) {
+  if (DrawTool(kRedo, words, workspace.commands().CanRedo())) {
     workspace.Redo();
   }
 }

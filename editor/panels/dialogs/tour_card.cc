@@ -15,13 +15,13 @@ namespace {
 
 constexpr float kCardWidth = 380.0f;  // logical pixels
 
-void ShowProgress(const Tour& tour) {
+void DrawProgress(const Tour& tour) {
   const float shown = static_cast<float>(tour.number() + (tour.finished() ? 1 : 0));
   const float all = static_cast<float>(TourSteps().size());
   ImGui::ProgressBar(shown / all, ImVec2(-FLT_MIN, Px(5)), "");
 }
 
-void ShowStep(const TourStep& step) {
+void DrawStep(const TourStep& step) {
   Heading(Tr(step.title));
   std::string text = Tr(step.text);
   if (step.key != KeyAction::kNone) {
@@ -58,7 +58,7 @@ TourFacts FactsOf(const editor::Workspace& workspace, const EditorState& state) 
   return facts;
 }
 
-void ShowTourCard(const editor::Workspace& workspace, EditorState& state, Tour& tour) {
+void DrawTourCard(const editor::Workspace& workspace, EditorState& state, Tour& tour) {
   if (tour.step() == nullptr) {
     return;
   }
@@ -83,13 +83,13 @@ void ShowTourCard(const editor::Workspace& workspace, EditorState& state, Tour& 
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoSavedSettings)) {
     state.keyboard.Begin(Region::kTour);
-    ShowProgress(tour);
+    DrawProgress(tour);
     if (tour.finished()) {
       ImGui::TextWrapped("%s", Tr("That was the tour. Film a place of your own and begin with New "
                                   "from video on the start page."));
       open &= !ImGui::Button(Tr("Close"));
     } else {
-      ShowStep(*tour.step());
+      DrawStep(*tour.step());
       ImGui::Dummy(ImVec2(0, Px(2)));
       if (ImGui::Button(Tr("Skip"))) {
         tour.Skip(facts);

@@ -9,6 +9,6 @@ namespace lararium::panels {
 TourFacts FactsOf(const editor::Workspace& workspace, const EditorState& state);
 
 // Shows the current step as a card over the views, until the tour ends.
-void ShowTourCard(const editor::Workspace& workspace, EditorState& state, Tour& tour);
+void DrawTourCard(const editor::Workspace& workspace, EditorState& state, Tour& tour);
 
 }  // namespace lararium::panels

@@ -14,7 +14,7 @@ namespace lararium::panels {
 
 namespace {
 
-void ShowFigures(const editor::TrainingReport& report) {
+void DrawFigures(const editor::TrainingReport& report) {
   if (!BeginProperties("report", 120.0f)) {
     return;
   }
@@ -36,7 +36,7 @@ void ShowFigures(const editor::TrainingReport& report) {
 }
 
 // Shows the most urgent advice; the page of `train --report` has all of it.
-void ShowAdvice(const editor::TrainingReport& report) {
+void DrawAdvice(const editor::TrainingReport& report) {
   constexpr size_t kMost = 5;
   Heading(Tr("What to film next"));
   const size_t shown = std::min(kMost, report.advice.size());
@@ -53,8 +53,8 @@ void ShowAdvice(const editor::TrainingReport& report) {
 }
 
 // Returns true when the dialog is finished.
-bool ShowEnd(editor::Workspace& workspace) {
-  if (!workspace.loaded().has_former) {
+bool DrawEnd(editor::Workspace& workspace) {
+  if (!workspace.loaded().has_previous) {
     ImGui::Dummy(ImVec2(0, Px(6)));
     const float width = WidestButton(std::array{Tr("Close")}, 110.0f);
     ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - width);
@@ -79,10 +79,10 @@ void TrainingReportDialog(editor::Workspace& workspace, EditorState& state) {
     return;
   }
   Heading(workspace.place()->name.c_str());
-  ShowFigures(*report);
+  DrawFigures(*report);
   ImGui::Dummy(ImVec2(0, Px(4)));
-  ShowAdvice(*report);
-  if (ShowEnd(workspace)) {
+  DrawAdvice(*report);
+  if (DrawEnd(workspace)) {
     state.dialog = Dialog::kNone;
   }
 }

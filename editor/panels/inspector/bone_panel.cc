@@ -115,7 +115,7 @@ bool IsShown(const EditorState& state,
          member.bones.contains(row.joint);
 }
 
-void ShowTable(editor::Workspace& workspace,
+void DrawTable(editor::Workspace& workspace,
                EditorState& state,
                const editor::CastDocument& member,
                const editor::BoneReview& review) {
@@ -144,7 +144,7 @@ void ShowTable(editor::Workspace& workspace,
   ImGui::EndTable();
 }
 
-void ShowVerdict(const editor::BoneReview& review) {
+void DrawVerdict(const editor::BoneReview& review) {
   const auto problems =
       std::count_if(review.rows.begin(), review.rows.end(),
                     [](const editor::BoneRow& row) { return !row.problem.empty(); });
@@ -164,7 +164,7 @@ void ShowVerdict(const editor::BoneReview& review) {
 
 }  // namespace
 
-void ShowBones(editor::Workspace& workspace,
+void DrawBones(editor::Workspace& workspace,
                EditorState& state,
                const editor::CastDocument& member) {
   if (!Fold(Label(Tr("Bones"), "bones"), true)) {
@@ -177,9 +177,9 @@ void ShowBones(editor::Workspace& workspace,
              : Tr("The figure could not be read; the messages below say why."));
     return;
   }
-  ShowVerdict(*review);
+  DrawVerdict(*review);
   CheckRow(Tr("All joints that people can have"), state.cast.all_joints);
-  ShowTable(workspace, state, member, *review);
+  DrawTable(workspace, state, member, *review);
   for (const std::string& note : review->notes) {
     Hint(note);
   }

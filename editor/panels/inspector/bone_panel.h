@@ -7,7 +7,7 @@ namespace lararium::panels {
 
 // A table of the joints and bones of an imported figure: how each was found and what is doubtful.
 // Each row can be changed.
-void ShowBones(editor::Workspace& workspace,
+void DrawBones(editor::Workspace& workspace,
                EditorState& state,
                const editor::CastDocument& member);
 

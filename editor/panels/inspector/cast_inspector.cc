@@ -19,7 +19,7 @@
 namespace lararium::panels {
 namespace {
 
-bool ShowPlainFigure(editor::Workspace& workspace, editor::CastDocument& member) {
+bool DrawPlainFigure(editor::Workspace& workspace, editor::CastDocument& member) {
   bool changed = NumberProperty(workspace, TrIn("person", "Height"), member.height, 0.005,
                                 editor::kMinHeight, editor::kMaxHeight, "%.2f m");
   changed |= ColourProperty(workspace, Tr("Tunic"), member.tunic);
@@ -27,7 +27,7 @@ bool ShowPlainFigure(editor::Workspace& workspace, editor::CastDocument& member)
 }
 
 // With the first change, a preset becomes the project's own recipe.
-RecipeChange ShowRecipeOf(editor::Workspace& workspace,
+RecipeChange DrawRecipeOf(editor::Workspace& workspace,
                           EditorState& state,
                           editor::CastDocument& member) {
   Result<std::optional<import::CastRecipe>> recipe = editor::RecipeOf(member);
@@ -35,7 +35,7 @@ RecipeChange ShowRecipeOf(editor::Workspace& workspace,
     Hint(recipe.message());
     return {};
   }
-  RecipeChange change = ShowRecipe(workspace, state, **recipe);
+  RecipeChange change = DrawRecipe(workspace, state, **recipe);
   if (change.any()) {
     member.recipe = **recipe;
     member.preset.clear();
@@ -54,17 +54,17 @@ std::string KindOf(const editor::CastDocument& member) {
                               : Text(Tr("Imported: %s"), member.model.c_str());
 }
 
-RecipeChange ShowFigure(editor::Workspace& workspace,
+RecipeChange DrawFigure(editor::Workspace& workspace,
                         EditorState& state,
                         editor::CastDocument& member) {
   if (member.recipe || !member.preset.empty()) {
-    return ShowRecipeOf(workspace, state, member);
+    return DrawRecipeOf(workspace, state, member);
   }
   RecipeChange change;
   if (!member.model.empty()) {
-    ShowBones(workspace, state, member);
+    DrawBones(workspace, state, member);
   } else if (BeginProperties("plain figure")) {
-    if (ShowPlainFigure(workspace, member)) {
+    if (DrawPlainFigure(workspace, member)) {
       change.Drag(Tr("figure"));
     }
     EndProperties();
@@ -74,19 +74,19 @@ RecipeChange ShowFigure(editor::Workspace& workspace,
 
 }  // namespace
 
-void ShowActor(editor::Workspace& workspace,
+void DrawActor(editor::Workspace& workspace,
                EditorState& state,
                const editor::CastDocument& member) {
   Heading(member.name.c_str());
   Hint(KindOf(member));
-  ShowPortrait(workspace, state, member, !member.model.empty());
+  DrawPortrait(workspace, state, member, !member.model.empty());
   // The rest scrolls below the portrait, so that changes are always visible.
   constexpr float kLeast = 220.0f;  // logical pixels
   const float height = std::max(ImGui::GetContentRegionAvail().y, Px(kLeast));
   ImGui::BeginChild("figure", ImVec2(0, height), false, ImGuiWindowFlags_NavFlattened);
   editor::CastDocument edited = member;
-  RecipeChange change = ShowFigure(workspace, state, edited);
-  ShowVoice(workspace, edited, change);
+  RecipeChange change = DrawFigure(workspace, state, edited);
+  DrawVoice(workspace, edited, change);
   if (change.any()) {
     workspace.Edit(
         Text(Tr("%s of %s"), change.what.c_str(), member.name.c_str()),
@@ -97,7 +97,7 @@ void ShowActor(editor::Workspace& workspace,
         },
         change.gesture);
   }
-  ShowClips(workspace, state, member);
+  DrawClips(workspace, state, member);
   Hint(Tr("Where people stand and what they do is written in the drama."));
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.Edit(Text(Tr("remove %s"), member.name.c_str()),

@@ -7,7 +7,7 @@ namespace lararium::panels {
 
 // The inspector of a cast member: its figure, voice and recorded motions. The camera's picture
 // shows changes after the figure was built again.
-void ShowActor(editor::Workspace& workspace,
+void DrawActor(editor::Workspace& workspace,
                EditorState& state,
                const editor::CastDocument& member);
 

@@ -45,13 +45,13 @@ class ClipsPanel {
   void Show() {
     for (const editor::ClipDocument& clip : member_.clips) {
       ImGui::PushID(clip.name.c_str());
-      ShowClip(clip);
+      DrawClip(clip);
       ImGui::PopID();
     }
     if (member_.clips.empty()) {
       Hint(Tr("Recorded motions that are carried over to the figure, beside those that it has."));
     }
-    ShowAdding();
+    DrawAdding();
   }
 
  private:
@@ -98,7 +98,7 @@ class ClipsPanel {
     WarnOfUses(name);
   }
 
-  void ShowHeader(const editor::ClipDocument& clip) {
+  void DrawHeader(const editor::ClipDocument& clip) {
     const float button = ImGui::GetFrameHeight();
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
     std::string name = clip.name;
@@ -122,8 +122,8 @@ class ClipsPanel {
     }
   }
 
-  void ShowClip(const editor::ClipDocument& clip) {
-    ShowHeader(clip);
+  void DrawClip(const editor::ClipDocument& clip) {
+    DrawHeader(clip);
     if (BeginProperties("clip", kLabels)) {
       PropertyLabel(Tr("File"));
       ImGui::AlignTextToFramePadding();
@@ -181,7 +181,7 @@ class ClipsPanel {
     return editor::CheckClipName(member_, NewName()).ok() ? "" : Tr("That name is taken.");
   }
 
-  void ShowAdding() {
+  void DrawAdding() {
     if (ImGui::Button(Tr("Add a clip\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
       state_.fields = {};
       ImGui::OpenPopup("new clip");
@@ -189,12 +189,12 @@ class ClipsPanel {
     Tip(Tr("A recorded motion of a BVH, FBX, glTF or VRM file, carried over to the figure"));
     ImGui::SetNextWindowSize(ImVec2(Px(kAddingWidth), 0));
     if (ImGui::BeginPopup("new clip")) {
-      ShowNewClip();
+      DrawNewClip();
       ImGui::EndPopup();
     }
   }
 
-  void ShowNewClip() {
+  void DrawNewClip() {
     DialogFields& fields = state_.fields;
     if (BeginProperties("new clip")) {
       PropertyLabel(Tr("File"));
@@ -228,7 +228,7 @@ class ClipsPanel {
 
 }  // namespace
 
-void ShowClips(editor::Workspace& workspace,
+void DrawClips(editor::Workspace& workspace,
                EditorState& state,
                const editor::CastDocument& member) {
   if (Fold(Label(Tr("Clips"), "clips"), false)) {

@@ -7,7 +7,7 @@ namespace lararium::panels {
 
 // The recorded motions of a cast member: name, length and whether they repeat. Adds and removes
 // motions.
-void ShowClips(editor::Workspace& workspace,
+void DrawClips(editor::Workspace& workspace,
                EditorState& state,
                const editor::CastDocument& member);
 

@@ -35,7 +35,7 @@ namespace {
 
 using geometry::Similarity3;
 
-void ShowProject(editor::Workspace& workspace, EditorState& state) {
+void DrawProject(editor::Workspace& workspace, EditorState& state) {
   Heading(Tr("Project"));
   if (!BeginProperties("project")) {
     return;
@@ -61,15 +61,15 @@ void ShowProject(editor::Workspace& workspace, EditorState& state) {
   }
   PropertyText(Tr("Drama"), workspace.paths().Drama().filename().string());
   EndProperties();
-  ShowLanguages(workspace);
-  ShowSounds(workspace, state);
+  DrawLanguages(workspace);
+  DrawSounds(workspace, state);
 }
 
 std::string SourceText(const editor::SourceDocument& source) {
   return source.empty() ? Tr("none") : source.path;
 }
 
-void ShowMap(const editor::Workspace& workspace, const vision::SceneDatabase& database) {
+void DrawMap(const editor::Workspace& workspace, const vision::SceneDatabase& database) {
   const geometry::CameraModel& camera = database.camera;
   const editor::TrainingReport* training = workspace.loaded().report.get();
   if (training != nullptr) {
@@ -104,7 +104,7 @@ const char* ScaleSource(const editor::LoadedPlace& loaded) {
 }
 
 // The source of the stage's scale, and its error.
-void ShowScale(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+void DrawScale(editor::Workspace& workspace, const editor::PlaceDocument& place) {
   Heading(Tr("Metres"));
   const editor::LoadedPlace& loaded = workspace.loaded();
   editor::TagsDocument tags = place.tags.value_or(editor::TagsDocument());
@@ -189,7 +189,7 @@ void LayOnFloorButton(editor::Workspace& workspace) {
   Tooltip(AboutLayingOnFloor(workspace.loaded()));
 }
 
-void ShowFloor(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+void DrawFloor(editor::Workspace& workspace, const editor::PlaceDocument& place) {
   Heading(Tr("Floor"));
   const editor::LoadedPlace& loaded = workspace.loaded();
   if (!loaded.measures.floor) {
@@ -220,7 +220,7 @@ void TakeOverOccluders(editor::Workspace& workspace, const editor::PlaceDocument
 }
 
 // The choice of another place.
-void ShowOtherPlaces(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+void DrawOtherPlaces(editor::Workspace& workspace, const editor::PlaceDocument& place) {
   const std::shared_ptr<const editor::ProjectDocument> document = workspace.commands().snapshot();
   const ImVec2 wide(-FLT_MIN, 0);
   for (const editor::PlaceDocument& other : document->places) {
@@ -272,12 +272,12 @@ void RemoveSessionButton(editor::Workspace& workspace, uint32_t session, const s
   ImGui::PopID();
 }
 
-void ShowTraining(editor::Workspace& workspace, EditorState& state) {
+void DrawTraining(editor::Workspace& workspace, EditorState& state) {
   if (workspace.loaded().report != nullptr &&
       ImGui::Button(Tr("The training's report\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
     state.dialog = Dialog::kTrainingReport;
   }
-  if (workspace.loaded().has_former) {
+  if (workspace.loaded().has_previous) {
     ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kTraining));
     if (ImGui::Button(Tr("Put the former map back"), ImVec2(-FLT_MIN, 0))) {
       workspace.RestorePreviousMap();
@@ -290,7 +290,7 @@ void ShowTraining(editor::Workspace& workspace, EditorState& state) {
 }
 
 // The recordings of the map with their results.
-void ShowSessions(editor::Workspace& workspace,
+void DrawSessions(editor::Workspace& workspace,
                   const editor::PlaceDocument& place,
                   const train::MapStatistics& statistics) {
   Heading(Tr("Sessions"));
@@ -313,7 +313,7 @@ void ShowSessions(editor::Workspace& workspace,
   }
 }
 
-void ShowPlace(editor::Workspace& workspace,
+void DrawPlace(editor::Workspace& workspace,
                EditorState& state,
                const editor::PlaceDocument& place) {
   Heading(place.name.c_str());
@@ -322,26 +322,26 @@ void ShowPlace(editor::Workspace& workspace,
     PropertyText(TrIn("recording", "Training"), SourceText(place.training));
     PropertyText(Tr("Preview"), place.preview.empty() ? Tr("the training") : place.preview.path);
     if (database != nullptr) {
-      ShowMap(workspace, *database);
+      DrawMap(workspace, *database);
     } else {
       PropertyText(Tr("State"), Tr("not trained"));
     }
     EndProperties();
   }
-  ShowRecordingToLookAt(workspace, state, place);
+  DrawRecordingToLookAt(workspace, state, place);
   if (database != nullptr) {
-    ShowTraining(workspace, state);
-    ShowSessions(workspace, place, *workspace.loaded().statistics);
-    ShowScale(workspace, place);
-    ShowFloor(workspace, place);
+    DrawTraining(workspace, state);
+    DrawSessions(workspace, place, *workspace.loaded().statistics);
+    DrawScale(workspace, place);
+    DrawFloor(workspace, place);
   }
-  ShowPlaceSound(workspace, state, place);
+  DrawPlaceSound(workspace, state, place);
   ImGui::Dummy(ImVec2(0, Px(6)));
-  ShowPlaceName(workspace, state, place);
-  ShowOtherPlaces(workspace, place);
+  DrawPlaceName(workspace, state, place);
+  DrawOtherPlaces(workspace, place);
 }
 
-void ShowStage(editor::Workspace& workspace,
+void DrawStage(editor::Workspace& workspace,
                EditorState& state,
                const editor::PlaceDocument& place) {
   Heading(Tr("Stage"));
@@ -352,7 +352,7 @@ void ShowStage(editor::Workspace& workspace,
     changed = TransformProperties(workspace, transform);
     EndProperties();
   }
-  changed |= ShowTrackball(workspace, state, transform.rotation);
+  changed |= DrawTrackball(workspace, state, transform.rotation);
   if (changed) {
     MoveSelected(workspace, state.selection, transform, "inspector stage");
   }
@@ -373,7 +373,7 @@ const stage::AnchorReport* FindReport(const editor::Workspace& workspace, const 
 }
 
 // Columns: anchor, number of picks, residual, largest angle.
-void ShowAnchorTable(editor::Workspace& workspace,
+void DrawAnchorTable(editor::Workspace& workspace,
                      EditorState& state,
                      const editor::PlaceDocument& place) {
   if (!ImGui::BeginTable("anchors", 4, ImGuiTableFlags_SizingStretchProp)) {
@@ -409,7 +409,7 @@ void ShowAnchorTable(editor::Workspace& workspace,
 }
 
 // Lists picks that this map does not use.
-void ShowLeftOut(const editor::Workspace& workspace) {
+void DrawLeftOut(const editor::Workspace& workspace) {
   if (!workspace.loaded().picks.solution) {
     return;
   }
@@ -425,12 +425,12 @@ void ShowLeftOut(const editor::Workspace& workspace) {
   }
 }
 
-void ShowPicks(editor::Workspace& workspace,
+void DrawPicks(editor::Workspace& workspace,
                EditorState& state,
                const editor::PlaceDocument& place) {
   Heading(Tr("Picks"));
   Hint(Tr("Points of the place, clicked in two or more training images, tie the stage to it."));
-  ShowAnchorTable(workspace, state, place);
+  DrawAnchorTable(workspace, state, place);
   if (BeginProperties("length")) {
     double length = place.picks.length_m;
     if (NumberProperty(workspace, Tr("Length"), length, 0.01, 1e-3, 1e4, "%.3f m")) {
@@ -450,8 +450,8 @@ void ShowPicks(editor::Workspace& workspace,
   }
   Hint(Tr(
       "The length lies between the two length points; without them, between origin and forward."));
-  ShowLeftOut(workspace);
-  ShowPicksList(workspace, state);
+  DrawLeftOut(workspace);
+  DrawPicksList(workspace, state);
   if (state.view != ViewKind::kPicks) {
     if (ImGui::Button(Tr("Pick in the training images"), ImVec2(-FLT_MIN, 0))) {
       state.view = ViewKind::kPicks;
@@ -469,7 +469,7 @@ void ShowPicks(editor::Workspace& workspace,
   }
 }
 
-void ShowNudge(editor::Workspace& workspace, const editor::PlaceDocument& place) {
+void DrawNudge(editor::Workspace& workspace, const editor::PlaceDocument& place) {
   Heading(Tr("Camera nudge"));
   Hint(Tr(
       "Moves the camera along its own axes: right, down, forward. In the camera view: arrow keys, "
@@ -489,7 +489,7 @@ void ShowNudge(editor::Workspace& workspace, const editor::PlaceDocument& place)
   }
 }
 
-void ShowProbe(editor::Workspace& workspace, EditorState& state, editor::ProbeDocument probe) {
+void DrawProbe(editor::Workspace& workspace, EditorState& state, editor::ProbeDocument probe) {
   Heading(probe.name.c_str());
   Hint(Tr(
       "The light at a point of the stage and a time of day. Between probes it is blended, by where "
@@ -513,7 +513,7 @@ void ShowProbe(editor::Workspace& workspace, EditorState& state, editor::ProbeDo
         },
         "probe " + probe.name);
   }
-  ShowLightPanel(workspace, state, probe);
+  DrawLightPanel(workspace, state, probe);
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), probe.name.c_str()), [&](editor::PlaceDocument& p) {
       std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });
@@ -531,7 +531,7 @@ const Entry* FindByName(const std::vector<Entry>& entries, const std::string& na
 
 }  // namespace
 
-void ShowInspector(editor::Workspace& workspace, EditorState& state) {
+void DrawInspector(editor::Workspace& workspace, EditorState& state) {
   using Kind = Selection::Kind;
   // Keeps the document alive: an edit below can replace it.
   const auto document = workspace.commands().snapshot();
@@ -541,18 +541,18 @@ void ShowInspector(editor::Workspace& workspace, EditorState& state) {
     workspace.cast_pictures().Look("", {}, {});
   }
   if (state.selection.kind == Kind::kProject) {
-    ShowProject(workspace, state);
+    DrawProject(workspace, state);
     return;
   }
   if (state.selection.kind == Kind::kActor) {
     if (const auto* member = FindByName(document->cast, name)) {
-      ShowActor(workspace, state, *member);
+      DrawActor(workspace, state, *member);
     }
     return;
   }
   if (state.selection.kind == Kind::kObject) {
     if (const auto* object = FindByName(document->objects, name)) {
-      ShowObject(workspace, state, *object);
+      DrawObject(workspace, state, *object);
     }
     return;
   }
@@ -562,30 +562,30 @@ void ShowInspector(editor::Workspace& workspace, EditorState& state) {
   }
   switch (state.selection.kind) {
     case Kind::kPlace:
-      ShowPlace(workspace, state, *place);
+      DrawPlace(workspace, state, *place);
       break;
     case Kind::kStage:
-      ShowStage(workspace, state, *place);
+      DrawStage(workspace, state, *place);
       break;
     case Kind::kPicks:
-      ShowPicks(workspace, state, *place);
+      DrawPicks(workspace, state, *place);
       break;
     case Kind::kNudge:
-      ShowNudge(workspace, *place);
+      DrawNudge(workspace, *place);
       break;
     case Kind::kProbe:
       if (const auto* probe = FindByName(place->probes, name)) {
-        ShowProbe(workspace, state, *probe);
+        DrawProbe(workspace, state, *probe);
       }
       break;
     case Kind::kOccluder:
       if (const auto* occluder = FindByName(place->occluders, name)) {
-        ShowOccluder(workspace, state, *occluder);
+        DrawOccluder(workspace, state, *occluder);
       }
       break;
     case Kind::kCheckPoint:
       if (const auto* point = FindByName(document->check_points, name)) {
-        ShowCheckPoint(workspace, state, *point);
+        DrawCheckPoint(workspace, state, *point);
       }
       break;
     case Kind::kProject:

@@ -6,6 +6,6 @@
 namespace lararium::panels {
 
 // Shows the properties of the selected object.
-void ShowInspector(editor::Workspace& workspace, EditorState& state);
+void DrawInspector(editor::Workspace& workspace, EditorState& state);
 
 }  // namespace lararium::panels

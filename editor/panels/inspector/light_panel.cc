@@ -90,7 +90,7 @@ void ClickPanorama(EditorState& state, const ProbeDocument& probe, const glm::ve
 }
 
 // The panorama of the probe in stage directions, with straight ahead in the middle.
-void ShowPanorama(editor::Workspace& workspace,
+void DrawPanorama(editor::Workspace& workspace,
                   EditorState& state,
                   const ProbeDocument& probe,
                   const editor::ProbePicture& picture) {
@@ -173,7 +173,7 @@ void BeginPicking(EditorState& state, ProbePicking mode) {
   }
 }
 
-void ShowDirections(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
+void DrawDirections(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
   LightView& light = state.light;
   CheckRow(Tr("Keep the probe level"), light.level);
   Tip(Tr("Turn about the vertical only: for probes that were photographed level."));
@@ -206,7 +206,7 @@ void ShowDirections(editor::Workspace& workspace, EditorState& state, const Prob
   }
 }
 
-void ShowBrightness(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
+void DrawBrightness(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
   LightView& light = state.light;
   if (BeginProperties("brightness")) {
     ProbeDocument changed = probe;
@@ -251,11 +251,11 @@ void ShowBrightness(editor::Workspace& workspace, EditorState& state, const Prob
   }
 }
 
-void ShowViews(editor::Workspace& workspace, EditorState& state) {
+void DrawViews(editor::Workspace& workspace, EditorState& state) {
   LightView& light = state.light;
   CheckRow(Tr("Balls at the probe"), light.balls);
   Tip(Tr("A mirror ball and a grey one in the camera view. Drag the mirror to turn the probe."));
-  CheckRow(Tr("Before and after  (B)"), state.show_wipe);
+  CheckRow(Tr("Before and after  (B)"), state.show_compare);
   Tip(Tr("The camera's image alone to the left of a line that you drag."));
   CheckRow(Tr("Histogram"), light.histogram);
   Tip(Tr("How bright the camera's image is, and how bright people are in it."));
@@ -392,11 +392,11 @@ editor::ProbeLook LookAtProbe(const editor::Workspace& workspace, const ProbeDoc
   return look;
 }
 
-void ShowLightPanel(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
+void DrawLightPanel(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
   LightView& light = state.light;
   KeepPicksOf(light, probe);
   if (const editor::ProbePicture* picture = workspace.probe_picture(probe)) {
-    ShowPanorama(workspace, state, probe, *picture);
+    DrawPanorama(workspace, state, probe, *picture);
     DimText(SunText(probe, *picture));
     for (const std::string& warning : picture->warnings) {
       Hint(warning);
@@ -409,14 +409,14 @@ void ShowLightPanel(editor::Workspace& workspace, EditorState& state, const Prob
   } else {
     Hint(Tr("Reading the probe\xe2\x80\xa6"));
   }
-  ShowDirections(workspace, state, probe);
-  ShowBrightness(workspace, state, probe);
+  DrawDirections(workspace, state, probe);
+  DrawBrightness(workspace, state, probe);
   if (!light.problem.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
     ImGui::TextWrapped("%s", light.problem.c_str());
     ImGui::PopStyleColor();
   }
-  ShowViews(workspace, state);
+  DrawViews(workspace, state);
 }
 
 bool HandleLightKey(editor::Workspace& workspace, EditorState& state, const KeyPress& press) {

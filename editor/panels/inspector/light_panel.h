@@ -10,7 +10,7 @@
 
 namespace lararium::panels {
 
-void ShowLightPanel(editor::Workspace& workspace,
+void DrawLightPanel(editor::Workspace& workspace,
                     EditorState& state,
                     const editor::ProbeDocument& probe);
 

@@ -11,7 +11,9 @@
 
 namespace lararium::panels {
 
-void ShowObject(editor::Workspace& workspace, EditorState& state, const editor::ObjectDocument& object) {
+void DrawObject(editor::Workspace& workspace,
+                EditorState& state,
+                const editor::ObjectDocument& object) {
   Heading(object.name.c_str());
   Hint(Tr("Where it is at the beginning. What people do with it is written in the drama."));
   editor::ObjectDocument edited = object;

@@ -6,7 +6,7 @@
 namespace lararium::panels {
 
 // The inspector of an object: its model and its pose at the beginning.
-void ShowObject(editor::Workspace& workspace,
+void DrawObject(editor::Workspace& workspace,
                 EditorState& state,
                 const editor::ObjectDocument& object);
 

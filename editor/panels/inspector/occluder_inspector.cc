@@ -22,7 +22,7 @@ namespace {
 
 using geometry::Similarity3;
 
-void ShowSizes(editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
+void DrawSizes(editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
   editor::OccluderShape shape = *occluder.shape;
   PropertyText(Tr("Shape"), Tr(editor::EntryOf(shape.kind).label));
   if (ShapeSizes(workspace, shape)) {
@@ -33,14 +33,14 @@ void ShowSizes(editor::Workspace& workspace, const editor::OccluderDocument& occ
 }
 
 // The pose of a model or a shape.
-void ShowPlaced(editor::Workspace& workspace,
+void DrawPlaced(editor::Workspace& workspace,
                 const EditorState& state,
                 const editor::OccluderDocument& occluder) {
   Similarity3 transform = occluder.stage_from_mesh;
   bool changed = false;
   if (BeginProperties("occluder")) {
     if (occluder.shape) {
-      ShowSizes(workspace, occluder);
+      DrawSizes(workspace, occluder);
     } else {
       PropertyText(Tr("File"), occluder.file);
     }
@@ -54,20 +54,20 @@ void ShowPlaced(editor::Workspace& workspace,
 }
 
 // A trackball for rotation in the axes of the view.
-void ShowBall(editor::Workspace& workspace,
+void DrawBall(editor::Workspace& workspace,
               const EditorState& state,
               const editor::OccluderDocument& occluder) {
   if (!Fold(Label(Tr("Turn by hand"), "ball"), false)) {
     return;
   }
   Similarity3 world_from_mesh = workspace.place()->picked_from_stage * occluder.stage_from_mesh;
-  if (ShowTrackball(workspace, state, world_from_mesh.rotation)) {
+  if (DrawTrackball(workspace, state, world_from_mesh.rotation)) {
     MoveSelected(workspace, state.selection, world_from_mesh, "ball of an occluder");
   }
 }
 
 // Columns: corner, number of picks, residual.
-void ShowCornerTable(const editor::OccluderDocument& occluder,
+void DrawCornerTable(const editor::OccluderDocument& occluder,
                      const std::vector<stage::AnchorReport>& reports) {
   if (!ImGui::BeginTable("corners", 3, ImGuiTableFlags_SizingStretchProp)) {
     return;
@@ -91,7 +91,7 @@ void ShowCornerTable(const editor::OccluderDocument& occluder,
 }
 
 // The corners of a drawn occluder.
-void ShowCorners(editor::Workspace& workspace,
+void DrawCorners(editor::Workspace& workspace,
                  EditorState& state,
                  const editor::OccluderDocument& occluder) {
   const double units = workspace.loaded().picks.map_from_picked.scale *
@@ -119,14 +119,14 @@ void ShowCorners(editor::Workspace& workspace,
       Tooltip(Tr("Lays the corners onto the plane that fits them best"));
       EndProperties();
     }
-    ShowCornerTable(occluder, drawn.ok() ? drawn->corners : std::vector<stage::AnchorReport>());
+    DrawCornerTable(occluder, drawn.ok() ? drawn->corners : std::vector<stage::AnchorReport>());
     if (!drawn.ok()) {
       ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
       ImGui::TextWrapped("%s", drawn.message().c_str());
       ImGui::PopStyleColor();
     }
   }
-  ShowPicksList(workspace, state);
+  DrawPicksList(workspace, state);
   if (state.view != ViewKind::kPicks &&
       ImGui::Button(Tr("Draw on the training images"), ImVec2(-FLT_MIN, 0))) {
     state.view = ViewKind::kPicks;
@@ -139,7 +139,7 @@ void ShowCorners(editor::Workspace& workspace,
   ImGui::EndDisabled();
 }
 
-void ShowEffects(editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
+void DrawEffects(editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
   struct Effect {
     bool editor::OccluderDocument::*does;
     const char* label;
@@ -176,22 +176,22 @@ bool ShapeSizes(editor::Workspace& workspace, editor::OccluderShape& shape) {
   return changed;
 }
 
-void ShowOccluder(editor::Workspace& workspace,
+void DrawOccluder(editor::Workspace& workspace,
                   EditorState& state,
                   const editor::OccluderDocument& occluder) {
   Heading(occluder.name.c_str());
   Hint(Tr("It is real, and hides who is behind it."));
   if (occluder.drawn()) {
-    ShowCorners(workspace, state, occluder);
+    DrawCorners(workspace, state, occluder);
   } else {
-    ShowPlaced(workspace, state, occluder);
+    DrawPlaced(workspace, state, occluder);
   }
   if (occluder.kind() == editor::OccluderDocument::Kind::kModel) {
-    ShowAlignment(workspace, state, occluder);
+    DrawAlignment(workspace, state, occluder);
   }
-  ShowEffects(workspace, occluder);
+  DrawEffects(workspace, occluder);
   if (!occluder.drawn()) {
-    ShowBall(workspace, state, occluder);
+    DrawBall(workspace, state, occluder);
   }
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),

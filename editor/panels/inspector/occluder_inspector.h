@@ -6,7 +6,7 @@
 namespace lararium::panels {
 
 // The inspector of a real object that hides people: how it was made, its pose, and its effects.
-void ShowOccluder(editor::Workspace& workspace,
+void DrawOccluder(editor::Workspace& workspace,
                   EditorState& state,
                   const editor::OccluderDocument& occluder);
 

@@ -50,7 +50,7 @@ void PicturedRow(EditorState& state,
   }
   const ImVec2 after = ImGui::GetCursorPos();
   ImGui::SetCursorPos(from);
-  ShowThumbnail(state.pictures, (person ? "person " : "object ") + selection.name, picture, side,
+  DrawThumbnail(state.pictures, (person ? "person " : "object ") + selection.name, picture, side,
                 person ? ThumbnailOf::kPerson : ThumbnailOf::kThing);
   ImGui::SetCursorPos(
       ImVec2(from.x + side + Px(8), from.y + 0.5f * (side - ImGui::GetTextLineHeight())));
@@ -83,7 +83,7 @@ void Section(const char* title,
 
 }  // namespace
 
-void ShowOutliner(editor::Workspace& workspace, EditorState& state) {
+void DrawOutliner(editor::Workspace& workspace, EditorState& state) {
   using Kind = Selection::Kind;
   Row(state, Icon::kProject, Tr("Project"), {Kind::kProject, ""});
   Section(Tr("Places"), &state, Dialog::kTrain, Tr("Adds a place"));
@@ -92,7 +92,7 @@ void ShowOutliner(editor::Workspace& workspace, EditorState& state) {
     const std::string label = shown ? place.name : Text(Tr("%s (not shown)"), place.name.c_str());
     Row(state, Icon::kPlace, label, {Kind::kPlace, place.name});
     if (!shown && state.selection == Selection{Kind::kPlace, place.name}) {
-      workspace.ShowPlace(place.name);
+      workspace.SelectPlace(place.name);
       return;  // The document has changed.
     }
   }

@@ -6,6 +6,6 @@
 namespace lararium::panels {
 
 // The list of everything in the project; a click selects.
-void ShowOutliner(editor::Workspace& workspace, EditorState& state);
+void DrawOutliner(editor::Workspace& workspace, EditorState& state);
 
 }  // namespace lararium::panels

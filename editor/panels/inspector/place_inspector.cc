@@ -87,7 +87,7 @@ void EditAcoustics(editor::Workspace& workspace,
       name, [&](editor::PlaceDocument& place) { change(place.acoustics); }, gesture);
 }
 
-void ShowReverb(editor::Workspace& workspace, const stage::Acoustics& acoustics) {
+void DrawReverb(editor::Workspace& workspace, const stage::Acoustics& acoustics) {
   PropertyLabel(Tr("Walls"));
   std::array<const char*, kReverbs.size()> names;
   std::transform(kReverbs.begin(), kReverbs.end(), names.begin(), [](auto n) { return Tr(n); });
@@ -158,7 +158,7 @@ bool NameAndRemove(const std::string& name) {
   return removed;
 }
 
-void ShowAmbience(editor::Workspace& workspace, stage::Ambience ambience, size_t index) {
+void DrawAmbience(editor::Workspace& workspace, stage::Ambience ambience, size_t index) {
   const std::string name = ambience.sound;
   if (NameAndRemove(name)) {
     EditAcoustics(workspace, Text(Tr("remove %s"), name.c_str()), [&](stage::Acoustics& edited) {
@@ -255,7 +255,7 @@ void Rename(editor::Workspace& workspace,
   workspace.Edit(Text(Tr("rename %s"), from.c_str()), [&](editor::ProjectDocument& document) {
     editor::RenamePlaceInDocument(workspace.paths(), from, to, document);
   });
-  workspace.ShowPlace(to);
+  workspace.SelectPlace(to);
   state.selection = {Selection::Kind::kPlace, to};
 }
 
@@ -285,7 +285,7 @@ bool RenameDialog(editor::Workspace& workspace, EditorState& state, const std::s
 
 }  // namespace
 
-void ShowRecordingToLookAt(editor::Workspace& workspace,
+void DrawRecordingToLookAt(editor::Workspace& workspace,
                            EditorState& state,
                            const editor::PlaceDocument& place) {
   const std::string title = Label(Tr("Recording to look at"), "looked at");
@@ -299,28 +299,28 @@ void ShowRecordingToLookAt(editor::Workspace& workspace,
   Tooltip(
       Tr("What the camera view plays: the recording that the place was trained from, or another "
          "one of it"));
-  ShowInspectorDialog(title, [&] { return RecordingToLookAtDialog(workspace, state); });
+  DrawInspectorDialog(title, [&] { return RecordingToLookAtDialog(workspace, state); });
 }
 
-void ShowPlaceSound(editor::Workspace& workspace,
+void DrawPlaceSound(editor::Workspace& workspace,
                     EditorState& state,
                     const editor::PlaceDocument& place) {
   Heading(Tr("Sound"));
   const stage::Acoustics acoustics = place.acoustics;  // Copied, because edits replace the place.
   if (BeginProperties("sound")) {
-    ShowReverb(workspace, acoustics);
+    DrawReverb(workspace, acoustics);
     EndProperties();
   }
   for (size_t i = 0; i < acoustics.ambience.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    ShowAmbience(workspace, acoustics.ambience[i], i);
+    DrawAmbience(workspace, acoustics.ambience[i], i);
     ImGui::PopID();
   }
   AddAmbienceCombo(workspace, acoustics);
   BringInSoundButton(workspace, state);
 }
 
-void ShowPlaceName(editor::Workspace& workspace,
+void DrawPlaceName(editor::Workspace& workspace,
                    EditorState& state,
                    const editor::PlaceDocument& place) {
   const std::shared_ptr<const editor::ProjectDocument> document = workspace.commands().snapshot();
@@ -338,7 +338,7 @@ void ShowPlaceName(editor::Workspace& workspace,
   ImGui::EndDisabled();
   Tooltip(busy ? Tr("Its map is being made or written. Try again when that is done.")
                : Tr("Its folder gets the name too"));
-  ShowInspectorDialog(title, [&] { return RenameDialog(workspace, state, name); });
+  DrawInspectorDialog(title, [&] { return RenameDialog(workspace, state, name); });
   if (document->places.front().name == name) {
     return;
   }

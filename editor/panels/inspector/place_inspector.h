@@ -9,17 +9,17 @@
 namespace lararium::panels {
 
 // A button that opens the dialog for the recording of the camera view.
-void ShowRecordingToLookAt(editor::Workspace& workspace,
+void DrawRecordingToLookAt(editor::Workspace& workspace,
                            EditorState& state,
                            const editor::PlaceDocument& place);
 
 // The reverberation and the background sound.
-void ShowPlaceSound(editor::Workspace& workspace,
+void DrawPlaceSound(editor::Workspace& workspace,
                     EditorState& state,
                     const editor::PlaceDocument& place);
 
 // Buttons that rename the place and move it to the front.
-void ShowPlaceName(editor::Workspace& workspace,
+void DrawPlaceName(editor::Workspace& workspace,
                    EditorState& state,
                    const editor::PlaceDocument& place);
 

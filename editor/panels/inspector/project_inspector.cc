@@ -135,7 +135,7 @@ bool SoundDialog(editor::Workspace& workspace, EditorState& state) {
 
 }  // namespace
 
-void ShowLanguages(editor::Workspace& workspace) {
+void DrawLanguages(editor::Workspace& workspace) {
   Heading(Tr("Languages"));
   const editor::ProjectDocument& document = workspace.document();
   const Languages of_lines = document.lines == nullptr ? Languages() : document.lines->languages;
@@ -160,7 +160,7 @@ void ShowLanguages(editor::Workspace& workspace) {
   }
 }
 
-void ShowSounds(editor::Workspace& workspace, EditorState& state) {
+void DrawSounds(editor::Workspace& workspace, EditorState& state) {
   Heading(Tr("Sounds"));
   Languages names;
   for (const editor::SoundFile& sound : editor::FindSounds(workspace.paths())) {
@@ -180,7 +180,7 @@ void BringInSoundButton(editor::Workspace& workspace, EditorState& state) {
     ImGui::OpenPopup(title.c_str());
   }
   Tooltip(Tr("Copies a recording into the project, for places, the timeline and the drama"));
-  ShowInspectorDialog(title, [&] { return SoundDialog(workspace, state); });
+  DrawInspectorDialog(title, [&] { return SoundDialog(workspace, state); });
 }
 
 }  // namespace lararium::panels

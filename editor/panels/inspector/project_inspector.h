@@ -8,10 +8,10 @@
 namespace lararium::panels {
 
 // The languages of the voices and of the captions.
-void ShowLanguages(editor::Workspace& workspace);
+void DrawLanguages(editor::Workspace& workspace);
 
 // The project's own sounds, and a button that adds one.
-void ShowSounds(editor::Workspace& workspace, EditorState& state);
+void DrawSounds(editor::Workspace& workspace, EditorState& state);
 void BringInSoundButton(editor::Workspace& workspace, EditorState& state);
 
 }  // namespace lararium::panels

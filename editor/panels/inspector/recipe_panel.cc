@@ -53,25 +53,25 @@ class RecipePanel {
 
   RecipeChange Show() {
     if (Fold(Label(Tr("Body"), "body"), true)) {
-      ShowBody();
+      DrawBody();
     }
     if (Fold(Label(Tr("Features"), "features"), false)) {
-      ShowFeatures();
+      DrawFeatures();
     }
     if (Fold(Label(Tr("Skin and eyes"), "skin"), false)) {
-      ShowSkin();
+      DrawSkin();
     }
     if (Fold(Label(Tr("Hair and beard"), "hair"), false)) {
-      ShowHair();
+      DrawHair();
     }
     if (Fold(Label(Tr("Clothes"), "clothes"), false)) {
-      ShowWardrobe(workspace_, recipe_, change_);
+      DrawWardrobe(workspace_, recipe_, change_);
     }
     return std::move(change_);
   }
 
  private:
-  void ShowSliders(std::span<const RecipeSlider> sliders) {
+  void DrawSliders(std::span<const RecipeSlider> sliders) {
     for (const RecipeSlider& slider : sliders) {
       double value = recipe_.*slider.value;
       if (SliderProperty(workspace_, Tr(slider.label), value, slider.min, slider.max,
@@ -82,13 +82,13 @@ class RecipePanel {
     }
   }
 
-  void ShowBody() {
+  void DrawBody() {
     if (!BeginProperties("body", 110.0f)) {
       return;
     }
-    ShowSliders(kBodySliders);
+    DrawSliders(kBodySliders);
     if (recipe_.sex < 0.75f) {
-      ShowSliders(kWomanSliders);
+      DrawSliders(kWomanSliders);
     }
     double height = recipe_.height.value_or(1.7f);
     if (SliderProperty(workspace_, TrIn("person", "Height"), height, editor::kMinHeight,
@@ -96,11 +96,11 @@ class RecipePanel {
       recipe_.height = static_cast<float>(height);
       change_.Drag(Tr("height"));
     }
-    ShowDescent();
+    DrawDescent();
     EndProperties();
   }
 
-  void ShowDescent() {
+  void DrawDescent() {
     const std::array<const char*, 3> labels = {Tr("European"), Tr("African"), Tr("Asian")};
     for (int i = 0; i < 3; ++i) {
       double share = recipe_.ethnicity[i];
@@ -116,7 +116,7 @@ class RecipePanel {
 
   // ---- Single features -------------------------------------------------------------
 
-  void ShowFeatures() {
+  void DrawFeatures() {
     if (!HasCatalogue()) {
       return;
     }
@@ -125,7 +125,7 @@ class RecipePanel {
     ImGui::InputTextWithHint("##search", Tr("Search: nose, lip, thigh\xe2\x80\xa6"), &search);
     bool any = false;
     for (const editor::CastSliderGroup& group : catalogue_->groups) {
-      any |= ShowGroup(group);
+      any |= DrawGroup(group);
     }
     if (!any) {
       Hint(Tr("No feature is called so."));
@@ -139,7 +139,7 @@ class RecipePanel {
   }
 
   // During a search, groups with results are open and others are hidden.
-  bool ShowGroup(const editor::CastSliderGroup& group) {
+  bool DrawGroup(const editor::CastSliderGroup& group) {
     const std::string& search = state_.cast.search;
     std::vector<const editor::CastSlider*> shown;
     int set = 0;
@@ -161,7 +161,7 @@ class RecipePanel {
     ImGui::Indent(Px(8));
     if (Fold(title, false) && BeginProperties(group.title.c_str(), kFeatureLabel)) {
       for (const editor::CastSlider* slider : shown) {
-        ShowFeature(group, *slider);
+        DrawFeature(group, *slider);
       }
       EndProperties();
     }
@@ -169,7 +169,7 @@ class RecipePanel {
     return true;
   }
 
-  void ShowFeature(const editor::CastSliderGroup& group, const editor::CastSlider& slider) {
+  void DrawFeature(const editor::CastSliderGroup& group, const editor::CastSlider& slider) {
     const auto known = recipe_.modifiers.find(slider.modifier);
     const bool set = known != recipe_.modifiers.end();
     float value = set ? known->second : 0.0f;
@@ -208,7 +208,7 @@ class RecipePanel {
 
   // ---- Parts -----------------------------------------------------------------------
 
-  void ShowSkin() {
+  void DrawSkin() {
     if (!HasCatalogue() || !BeginProperties("skin", 110.0f)) {
       return;
     }
@@ -218,7 +218,7 @@ class RecipePanel {
     }
     PropertyLabel(Tr("Tint"));
     ColourField(Tr("skin tint"), recipe_.skin_tint, glm::vec3(0.7f, 0.52f, 0.4f));
-    ShowSliders(kSkinSliders);
+    DrawSliders(kSkinSliders);
     PartField(Tr("Eyes"), recipe_.eyes, catalogue_->eyes, nullptr);
     PropertyLabel(Tr("Eyelashes"));
     if (NameCombo("##eyelashes", recipe_.eyelashes, catalogue_->eyelashes, Tr("none"))) {
@@ -227,7 +227,7 @@ class RecipePanel {
     EndProperties();
   }
 
-  void ShowHair() {
+  void DrawHair() {
     if (!HasCatalogue() || !BeginProperties("hair", 110.0f)) {
       return;
     }
@@ -327,7 +327,7 @@ class RecipePanel {
 
 }  // namespace
 
-RecipeChange ShowRecipe(editor::Workspace& workspace, EditorState& state, CastRecipe& recipe) {
+RecipeChange DrawRecipe(editor::Workspace& workspace, EditorState& state, CastRecipe& recipe) {
   return RecipePanel(workspace, state, recipe).Show();
 }
 

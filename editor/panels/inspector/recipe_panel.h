@@ -22,11 +22,11 @@ struct RecipeChange {
 };
 
 // Shows the recipe and edits it.
-RecipeChange ShowRecipe(editor::Workspace& workspace,
+RecipeChange DrawRecipe(editor::Workspace& workspace,
                         EditorState& state,
                         import::CastRecipe& recipe);
 
 // Shows the part of the recipe below "Clothes".
-void ShowWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change);
+void DrawWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change);
 
 }  // namespace lararium::panels

@@ -381,7 +381,7 @@ void FieldsOfKind(Item& item) {
   }
 }
 
-void ShowItem(editor::Workspace& workspace, EditorState& state, const TimelineItem& at) {
+void DrawItem(editor::Workspace& workspace, EditorState& state, const TimelineItem& at) {
   const drama::TimelineText& text = *workspace.script().timeline();
   const drama::TimelineLane& lane = text.lanes()[at.lane];
   Item item{workspace, state, at, lane.kind, lane.actor, text.Fields(at)};
@@ -406,7 +406,7 @@ void ShowItem(editor::Workspace& workspace, EditorState& state, const TimelineIt
   }
 }
 
-void ShowBlock(editor::Workspace& workspace, EditorState& state, const drama::TaskRecord& task) {
+void DrawBlock(editor::Workspace& workspace, EditorState& state, const drama::TaskRecord& task) {
   Heading(task.from_timeline ? Tr("As it was played") : Tr("Of the script"));
   if (BeginProperties("block", 84.0f)) {
     PropertyText(Tr("Who"), task.actor);
@@ -432,7 +432,7 @@ void ShowBlock(editor::Workspace& workspace, EditorState& state, const drama::Ta
 
 }  // namespace
 
-void ShowTimelineInspector(editor::Workspace& workspace,
+void DrawTimelineInspector(editor::Workspace& workspace,
                            EditorState& state,
                            const editor::ItemSet& selection,
                            std::optional<uint32_t> block) {
@@ -444,7 +444,7 @@ void ShowTimelineInspector(editor::Workspace& workspace,
     return;
   }
   if (selection.size() == 1) {
-    ShowItem(workspace, state, selection.front());
+    DrawItem(workspace, state, selection.front());
   } else if (selection.size() > 1) {
     const editor::TimeSpan span = editor::SpanOf(*text, selection);
     Heading(TrCount("%d item", "%d items", static_cast<int>(selection.size())).c_str());
@@ -453,7 +453,7 @@ void ShowTimelineInspector(editor::Workspace& workspace,
         Tr("Drag to move them, drag an end to trim them, Delete to remove them, Ctrl+D to "
            "duplicate them."));
   } else if (block && run != nullptr && *block < run->tasks.size()) {
-    ShowBlock(workspace, state, run->tasks[*block]);
+    DrawBlock(workspace, state, run->tasks[*block]);
   } else {
     Hint(Tr("Choose an item to see what it says. Double-click a lane, or press A, to add one."));
   }

@@ -12,7 +12,7 @@
 namespace lararium::panels {
 
 // block: a task of the dry run, where no item is selected.
-void ShowTimelineInspector(editor::Workspace& workspace,
+void DrawTimelineInspector(editor::Workspace& workspace,
                            EditorState& state,
                            const editor::ItemSet& selection,
                            std::optional<uint32_t> block);

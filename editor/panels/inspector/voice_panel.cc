@@ -124,7 +124,7 @@ void ListenButton(editor::Workspace& workspace, const editor::CastDocument& memb
 
 }  // namespace
 
-void ShowVoice(editor::Workspace& workspace, editor::CastDocument& member, RecipeChange& change) {
+void DrawVoice(editor::Workspace& workspace, editor::CastDocument& member, RecipeChange& change) {
   if (!Fold(Label(Tr("Voice"), "voice"), false)) {
     return;
   }

@@ -6,6 +6,6 @@
 namespace lararium::panels {
 
 // The voice of a cast member for lines that are not recorded: edits it and plays a sample.
-void ShowVoice(editor::Workspace& workspace, editor::CastDocument& member, RecipeChange& change);
+void DrawVoice(editor::Workspace& workspace, editor::CastDocument& member, RecipeChange& change);
 
 }  // namespace lararium::panels

@@ -158,7 +158,7 @@ Order Header(Json& garment, bool first, RecipeChange& change) {
   return up ? Order::kUp : off ? Order::kTakeOff : Order::kStay;
 }
 
-Order ShowGarment(editor::Workspace& workspace, Json& garment, bool first, RecipeChange& change) {
+Order DrawGarment(editor::Workspace& workspace, Json& garment, bool first, RecipeChange& change) {
   const Order order = Header(garment, first, change);
   if (BeginProperties("garment")) {
     ColourRow(workspace, garment, change);
@@ -189,10 +189,10 @@ void AddGarment(import::CastRecipe& recipe, RecipeChange& change) {
 
 }  // namespace
 
-void ShowWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change) {
+void DrawWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change) {
   for (size_t i = 0; i < recipe.garments.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    const Order order = ShowGarment(workspace, recipe.garments[i], i == 0, change);
+    const Order order = DrawGarment(workspace, recipe.garments[i], i == 0, change);
     ImGui::PopID();
     const auto at = recipe.garments.begin() + static_cast<std::ptrdiff_t>(i);
     if (order == Order::kUp) {

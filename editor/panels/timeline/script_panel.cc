@@ -209,7 +209,7 @@ void ScriptPanel::Refresh(editor::Workspace& workspace) {
   }
 }
 
-void ScriptPanel::ShowField(editor::Workspace& workspace, EditorState& state) {
+void ScriptPanel::DrawField(editor::Workspace& workspace, EditorState& state) {
   ScriptFieldTask task;
   task.go_to = std::exchange(go_to_, -1);
   Refresh(workspace);
@@ -298,7 +298,7 @@ void ScriptPanel::ShowField(editor::Workspace& workspace, EditorState& state) {
   draw.PopClipRect();
 }
 
-void ScriptPanel::ShowTools(editor::Workspace& workspace, EditorState& state) {
+void ScriptPanel::DrawTools(editor::Workspace& workspace, EditorState& state) {
   Refresh(workspace);
   ImGui::AlignTextToFramePadding();
   const size_t offset = std::min(cursor_, buffer_.size());
@@ -336,7 +336,7 @@ void ScriptPanel::Show(editor::Workspace& workspace, EditorState& state) {
   ImGui::PushFont(ThemeFonts().code);
   ImGui::BeginChild("script", ImGui::GetContentRegionAvail(), false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  ShowField(workspace, state);
+  DrawField(workspace, state);
   ImGui::EndChild();
   ImGui::PopFont();
 }

@@ -17,13 +17,13 @@ namespace lararium::panels {
 
 class ScriptPanel {
  public:
-  void ShowTools(editor::Workspace& workspace, EditorState& state);
+  void DrawTools(editor::Workspace& workspace, EditorState& state);
   void Show(editor::Workspace& workspace, EditorState& state);
 
  private:
   void Refresh(editor::Workspace& workspace);
   void CollectProblems(const editor::Workspace& workspace);
-  void ShowField(editor::Workspace& workspace, EditorState& state);
+  void DrawField(editor::Workspace& workspace, EditorState& state);
   void DrawText(const struct FieldView& view);
   void DrawGutter(const struct FieldView& view);
   void EndTyping(editor::Workspace& workspace);

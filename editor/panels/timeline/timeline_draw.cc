@@ -196,7 +196,7 @@ void DrawVoice(ImDrawList& draw,
   }
 }
 
-void DrawRuler(ImDrawList& draw, const TimeScale& scale, float top, float height) {
+void DrawRulerTicks(ImDrawList& draw, const TimeScale& scale, float top, float height) {
   const RulerStep step = ChooseStep(scale.seconds_per_px, Px(76));
   const double minor = step.seconds / step.parts;
   const auto first = static_cast<int64_t>(std::floor(scale.first / minor));

@@ -50,7 +50,7 @@ void DrawVoice(ImDrawList& draw,
                ImU32 colour);
 
 // The ruler over [scale.left, scale.left + scale.width], and the grid lines down to bottom.
-void DrawRuler(ImDrawList& draw, const TimeScale& scale, float top, float height);
+void DrawRulerTicks(ImDrawList& draw, const TimeScale& scale, float top, float height);
 void DrawGrid(ImDrawList& draw, const TimeScale& scale, float top, float bottom);
 // The current time: a line, and a handle on the ruler.
 void DrawPlayhead(ImDrawList& draw, float x, float top, float bottom);

@@ -9,9 +9,9 @@
 
 namespace lararium::panels {
 
-using editor::TextOf;
 using drama::LaneKind;
 using drama::TaskRecord;
+using editor::TextOf;
 
 namespace {
 

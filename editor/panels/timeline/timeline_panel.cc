@@ -328,7 +328,7 @@ void TimelinePanel::DrawRow(const editor::Workspace& workspace,
   draw.PopClipRect();
 }
 
-void TimelinePanel::ShowRuler(editor::Workspace& workspace, float height) {
+void TimelinePanel::DrawRuler(editor::Workspace& workspace, float height) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImGui::Dummy(ImVec2(Px(kGutter), height));
@@ -354,7 +354,7 @@ void TimelinePanel::ShowRuler(editor::Workspace& workspace, float height) {
   }
   draw.PushClipRect(ImVec2(scale_.left, at.y), ImVec2(scale_.left + scale_.width, at.y + height),
                     true);
-  DrawRuler(draw, scale_, at.y, height);
+  DrawRulerTicks(draw, scale_, at.y, height);
   if (drag_.snapped_to >= 0.0) {
     const float x = scale_.XOf(drag_.snapped_to);
     draw.AddLine(ImVec2(x, at.y), ImVec2(x, at.y + height), Packed(Colours().text, 0.8f), Px(1));
@@ -375,7 +375,7 @@ void TimelinePanel::ScrollToChosen() {
   }
 }
 
-void TimelinePanel::ShowRows(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::BeginChild("rows", ImVec2(0, 0), false,
                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_AlwaysVerticalScrollbar);
@@ -443,16 +443,16 @@ void TimelinePanel::ShowRows(editor::Workspace& workspace, EditorState& state) {
     ImGui::OpenPopup("add menu");
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(8), Px(7)));  // The spacing of menus.
-  ShowContextMenu(workspace, state);
+  DrawContextMenu(workspace, state);
   if (ImGui::BeginPopup("add menu")) {
-    ShowAddMenu(workspace);
+    DrawAddMenu(workspace);
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar();
   ImGui::EndChild();
 }
 
-void TimelinePanel::ShowKindMenu(editor::Workspace& workspace, const std::string& actor) {
+void TimelinePanel::DrawKindMenu(editor::Workspace& workspace, const std::string& actor) {
   for (const drama::LaneName& lane : drama::kLaneNames) {
     if (lane.of_actor == !actor.empty() &&
         ImGui::MenuItem(WithIcon(IconOf(lane.kind), ItemTitle(lane.kind)).c_str())) {
@@ -461,19 +461,19 @@ void TimelinePanel::ShowKindMenu(editor::Workspace& workspace, const std::string
   }
 }
 
-void TimelinePanel::ShowAddMenu(editor::Workspace& workspace) {
+void TimelinePanel::DrawAddMenu(editor::Workspace& workspace) {
   DimText(Text(Tr("At %s"), FormatTime(workspace.time(), 0.01).c_str()));
   for (const editor::CastDocument& member : workspace.document().cast) {
     if (ImGui::BeginMenu(WithIcon(Icon::kPerson, member.name).c_str())) {
-      ShowKindMenu(workspace, member.name);
+      DrawKindMenu(workspace, member.name);
       ImGui::EndMenu();
     }
   }
   ImGui::Separator();
-  ShowKindMenu(workspace, "");
+  DrawKindMenu(workspace, "");
 }
 
-void TimelinePanel::ShowContextMenu(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorState& state) {
   if (!ImGui::BeginPopup("item menu")) {
     return;
   }
@@ -519,9 +519,9 @@ void TimelinePanel::ShowContextMenu(editor::Workspace& workspace, EditorState& s
                                  : nullptr;
     if (row != nullptr && !row->of_object) {
       DimText(row->group.empty() ? Tr("Stage") : row->group);
-      ShowKindMenu(workspace, row->group);
+      DrawKindMenu(workspace, row->group);
     } else {
-      ShowAddMenu(workspace);
+      DrawAddMenu(workspace);
     }
   }
   ImGui::EndPopup();
@@ -529,7 +529,7 @@ void TimelinePanel::ShowContextMenu(editor::Workspace& workspace, EditorState& s
 
 // ---- The panel ----
 
-void TimelinePanel::ShowTools(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawTools(editor::Workspace& workspace, EditorState& state) {
   PlayButton(workspace);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
@@ -548,13 +548,13 @@ void TimelinePanel::ShowTools(editor::Workspace& workspace, EditorState& state) 
   const std::string ripple = WithIcon(Icon::kRipple, Tr("Ripple"));
   const std::string fit = WithIcon(Icon::kFit, Tr("Fit"));
   if (FitsBeside(std::array{snap.c_str(), ripple.c_str(), fit.c_str(), "   "})) {
-    ShowSwitches(workspace);
+    DrawSwitches(workspace);
   } else {
-    ShowSwitchMenu(workspace);
+    DrawSwitchMenu(workspace);
   }
 }
 
-void TimelinePanel::ShowSwitches(const editor::Workspace& workspace) {
+void TimelinePanel::DrawSwitches(const editor::Workspace& workspace) {
   ImGui::SameLine();
   ToggleButton(WithIcon(Icon::kSnap, Tr("Snap")), snap_,
                WithKey(Tr("Items are drawn to others, to the playhead and to the grid; not while "
@@ -570,7 +570,7 @@ void TimelinePanel::ShowSwitches(const editor::Workspace& workspace) {
   Tip(WithKey(Tr("Shows all of the drama; Ctrl and the wheel zoom"), KeyAction::kFit));
 }
 
-void TimelinePanel::ShowSwitchMenu(const editor::Workspace& workspace) {
+void TimelinePanel::DrawSwitchMenu(const editor::Workspace& workspace) {
   ImGui::SameLine();
   if (ImGui::Button("\xe2\x80\xa6")) {
     ImGui::OpenPopup("switches");
@@ -609,15 +609,15 @@ void TimelinePanel::Show(editor::Workspace& workspace, EditorState& state) {
   if (workspace.playing() && drag_.kind == Drag::Kind::kNone) {
     ScrollTo(scale_, workspace.time());
   }
-  ShowRuler(workspace, Px(kRuler));
-  ShowRows(workspace, state);
+  DrawRuler(workspace, Px(kRuler));
+  DrawRows(workspace, state);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::SameLine(0.0f, Px(12));
   state.keyboard.Before(Region::kItem);
   ImGui::BeginChild("item", ImVec2(0, available.y));
   state.keyboard.Begin(Region::kItem);
-  ShowTimelineInspector(workspace, state, selection_, block_);
+  DrawTimelineInspector(workspace, state, selection_, block_);
   state.keyboard.End(Region::kItem);
   ImGui::EndChild();
   state.walk.item = selection_.size() == 1 ? std::optional(selection_.front()) : std::nullopt;

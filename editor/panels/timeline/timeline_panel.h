@@ -24,7 +24,7 @@ namespace lararium::panels {
 class TimelinePanel {
  public:
   // The buttons beside the tabs, and the panel itself.
-  void ShowTools(editor::Workspace& workspace, EditorState& state);
+  void DrawTools(editor::Workspace& workspace, EditorState& state);
   void Show(editor::Workspace& workspace, EditorState& state);
 
   // Handles the keys of the timeline and removes them from state.keys.
@@ -69,10 +69,10 @@ class TimelinePanel {
   editor::TimeSpan Shown(const editor::Workspace& workspace, const drama::TimelineItem& item);
 
   // Snap, ripple and fit, as buttons or as a menu where they do not fit.
-  void ShowSwitches(const editor::Workspace& workspace);
-  void ShowSwitchMenu(const editor::Workspace& workspace);
-  void ShowRuler(editor::Workspace& workspace, float height);
-  void ShowRows(editor::Workspace& workspace, EditorState& state);
+  void DrawSwitches(const editor::Workspace& workspace);
+  void DrawSwitchMenu(const editor::Workspace& workspace);
+  void DrawRuler(editor::Workspace& workspace, float height);
+  void DrawRows(editor::Workspace& workspace, EditorState& state);
   void DrawRow(const editor::Workspace& workspace,
                const TimelineRow& row,
                float top,
@@ -113,10 +113,10 @@ class TimelinePanel {
   void SnapDrag(const editor::Workspace& workspace, double by);
   void SelectBox(const editor::Workspace& workspace, double to, float y);
   void HandleWheel();
-  void ShowTooltip(editor::Workspace& workspace, const Hit& hit);
-  void ShowContextMenu(editor::Workspace& workspace, EditorState& state);
-  void ShowAddMenu(editor::Workspace& workspace);
-  void ShowKindMenu(editor::Workspace& workspace, const std::string& actor);
+  void DrawTooltip(editor::Workspace& workspace, const Hit& hit);
+  void DrawContextMenu(editor::Workspace& workspace, EditorState& state);
+  void DrawAddMenu(editor::Workspace& workspace);
+  void DrawKindMenu(editor::Workspace& workspace, const std::string& actor);
 
   // The commands of the panel.
   void Add(editor::Workspace& workspace, drama::LaneKind kind, const std::string& actor);

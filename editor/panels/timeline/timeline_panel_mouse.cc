@@ -349,11 +349,11 @@ void TimelinePanel::HandleMouse(editor::Workspace& workspace,
   if (hovered && (hit.item || hit.block) && !active) {
     const bool edge = hit.part == Hit::Part::kBegin || hit.part == Hit::Part::kEnd;
     ImGui::SetMouseCursor(edge ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_Arrow);
-    ShowTooltip(workspace, hit);
+    DrawTooltip(workspace, hit);
   }
 }
 
-void TimelinePanel::ShowTooltip(editor::Workspace& workspace, const Hit& hit) {
+void TimelinePanel::DrawTooltip(editor::Workspace& workspace, const Hit& hit) {
   std::string title;
   std::string times;
   std::string hint;

@@ -38,7 +38,7 @@ void Warn(const std::string& text) {
 }
 
 // Columns: point, images, centimetres, pixels. A click on a row selects the pair for picking.
-void ShowPairTable(EditorState& state,
+void DrawPairTable(EditorState& state,
                    const editor::OccluderDocument& occluder,
                    const editor::AlignmentReport& report) {
   if (occluder.model_pairs.empty() ||
@@ -76,7 +76,7 @@ void ShowPairTable(EditorState& state,
 }
 
 // The result of the pairs, or what is missing.
-void ShowPairs(const editor::OccluderDocument& occluder, const editor::AlignmentReport& report) {
+void DrawPairs(const editor::OccluderDocument& occluder, const editor::AlignmentReport& report) {
   for (size_t i = 0; i < report.pairs.size(); ++i) {
     if (!report.pairs[i].located && occluder.model_pairs[i].anchor.picks.empty()) {
       Hint(Text(Tr("Click point %d in two training images."), static_cast<int>(i) + 1));
@@ -90,7 +90,7 @@ void ShowPairs(const editor::OccluderDocument& occluder, const editor::Alignment
   }
 }
 
-void ShowPairButtons(editor::Workspace& workspace,
+void DrawPairButtons(editor::Workspace& workspace,
                      EditorState& state,
                      const editor::OccluderDocument& occluder) {
   const ImVec2 wide(-FLT_MIN, 0);
@@ -143,7 +143,7 @@ void AlignByPointsButton(editor::Workspace& workspace,
   }
 }
 
-void ShowRefining(editor::Workspace& workspace,
+void DrawRefining(editor::Workspace& workspace,
                   EditorState& state,
                   const editor::OccluderDocument& occluder) {
   if (BeginProperties("refine")) {
@@ -230,7 +230,7 @@ void PickOnModel(editor::Workspace& workspace,
 
 }  // namespace
 
-void ShowAlignment(editor::Workspace& workspace,
+void DrawAlignment(editor::Workspace& workspace,
                    EditorState& state,
                    const editor::OccluderDocument& occluder) {
   // Copied, because edits below replace the object behind the reference.
@@ -253,9 +253,9 @@ void ShowAlignment(editor::Workspace& workspace,
   const Similarity3 map_from_stage =
       workspace.loaded().picks.map_from_picked * workspace.place()->picked_from_stage;
   const editor::AlignmentReport report = Alignment(workspace, state, model);
-  ShowPairTable(state, model, report);
-  ShowPairs(model, report);
-  ShowPairButtons(workspace, state, model);
+  DrawPairTable(state, model, report);
+  DrawPairs(model, report);
+  DrawPairButtons(workspace, state, model);
   bool keep = model.keep_scale;
   if (CheckRow(Tr("Its scale is right"), keep)) {
     workspace.EditOccluder(Text(Tr("scale of %s"), model.name.c_str()), model.name,
@@ -264,9 +264,9 @@ void ShowAlignment(editor::Workspace& workspace,
   Tooltip(Tr("As where the model is in metres: aligning only moves and turns it"));
   AlignByPointsButton(workspace, model, report, map_from_stage);
   ImGui::Dummy(ImVec2(0, Px(4)));
-  ShowRefining(workspace, state, model);
+  DrawRefining(workspace, state, model);
   if (align.pair) {
-    ShowPicksList(workspace, state);
+    DrawPicksList(workspace, state);
   }
 }
 
@@ -302,7 +302,7 @@ const editor::AlignmentReport& Alignment(const editor::Workspace& workspace,
   return align.report;
 }
 
-bool ShowModelPoints(editor::Workspace& workspace,
+bool DrawModelPoints(editor::Workspace& workspace,
                      EditorState& state,
                      const ViewCamera& view,
                      bool hovered,

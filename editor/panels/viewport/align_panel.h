@@ -14,7 +14,7 @@
 namespace lararium::panels {
 
 // The part of the inspector for an occluder that is a model.
-void ShowAlignment(editor::Workspace& workspace,
+void DrawAlignment(editor::Workspace& workspace,
                    EditorState& state,
                    const editor::OccluderDocument& occluder);
 
@@ -33,7 +33,7 @@ const editor::AlignmentReport& Alignment(const editor::Workspace& workspace,
 // Draws the point pairs of the selected model over a scene view, each with a line to the located
 // pick. While the user picks a point on the model, also shows the point under the pointer and
 // returns true; the view must then not use the pointer.
-bool ShowModelPoints(editor::Workspace& workspace,
+bool DrawModelPoints(editor::Workspace& workspace,
                      EditorState& state,
                      const ViewCamera& view,
                      bool hovered,

@@ -38,7 +38,7 @@ void CameraField::Look(std::string& camera) {
   typed_ = Chosen(camera) == nullptr;
 }
 
-void CameraField::ShowList(std::string& camera, float width) {
+void CameraField::DrawList(std::string& camera, float width) {
   const char* const other = Tr("Another number, or a video");
   const capture::ConnectedCamera* chosen = typed_ ? nullptr : Chosen(camera);
   ImGui::SetNextItemWidth(width);
@@ -75,7 +75,7 @@ void CameraField::Show(std::string& camera, const std::filesystem::path& folder)
   if (cameras_.empty()) {
     PathField("camera", camera, folder, videos, right);
   } else {
-    ShowList(camera, ImGui::GetContentRegionAvail().x - right);
+    DrawList(camera, ImGui::GetContentRegionAvail().x - right);
   }
   ImGui::SameLine();
   if (ImGui::Button(again, ImVec2(button, 0))) {
@@ -88,7 +88,7 @@ void CameraField::Show(std::string& camera, const std::filesystem::path& folder)
   }
 }
 
-void CameraField::ShowHint() const {
+void CameraField::DrawHint() const {
   if (cameras_.empty()) {
     Hint(Tr("No camera is connected: plug one in and look again, or take a video."));
   } else if (typed_) {

@@ -17,11 +17,11 @@ class CameraField {
   // paths.
   void Show(std::string& camera, const std::filesystem::path& folder);
   // Shows a hint below the rows.
-  void ShowHint() const;
+  void DrawHint() const;
 
  private:
   void Look(std::string& camera);
-  void ShowList(std::string& camera, float width);
+  void DrawList(std::string& camera, float width);
   const capture::ConnectedCamera* Chosen(const std::string& camera) const;
 
   std::vector<capture::ConnectedCamera> cameras_;

@@ -192,7 +192,7 @@ struct RowSwitch {
 constexpr std::array<RowSwitch, 3> kRowSwitches = {{
     {TrLater("Before/after"),
      TrLater("Shows the camera's image alone to the left of a line that you drag"),
-     KeyAction::kWipe, &EditorState::show_wipe},
+     KeyAction::kWipe, &EditorState::show_compare},
     {TrLater("Onion skin"), TrLater("Shows people at moments before and after, too"),
      KeyAction::kOnion, &EditorState::show_onion},
     {TrLater("Occluders"), TrLater("Shows the occluders over the camera's picture"),
@@ -220,7 +220,7 @@ std::span<const RowSwitch> SwitchesThatFit(float width) {
   return std::span(kRowSwitches).subspan(first);
 }
 
-void ShowSwitch(EditorState& state, const RowSwitch& entry) {
+void DrawSwitch(EditorState& state, const RowSwitch& entry) {
   bool& on = state.*entry.on;
   ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, on ? Colours().chosen : Colours().hover);
@@ -238,7 +238,7 @@ void ShowSwitch(EditorState& state, const RowSwitch& entry) {
 }
 
 // The number of skins on one side, in their colour.
-void ShowSkinCount(const char* label, const ImVec4& colour, int& count) {
+void DrawSkinCount(const char* label, const ImVec4& colour, int& count) {
   PropertyLabel(label);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float side = ImGui::GetFrameHeight();
@@ -261,7 +261,7 @@ void OnionMoreButton(EditorState& state) {
 }
 
 // The settings of the onion skin, above the end of the row, after they were requested.
-void ShowOnionMore(EditorState& state) {
+void DrawOnionMore(EditorState& state) {
   if (std::exchange(state.open_onion, false)) {
     ImGui::OpenPopup("onion skin");
   }
@@ -273,8 +273,8 @@ void ShowOnionMore(EditorState& state) {
   }
   editor::OnionSkin& onion = state.onion;
   if (BeginProperties("onion")) {
-    ShowSkinCount(Tr("Moments before"), OverPicture().call, onion.before);
-    ShowSkinCount(Tr("Moments after"), OverPicture().warning, onion.after);
+    DrawSkinCount(Tr("Moments before"), OverPicture().call, onion.before);
+    DrawSkinCount(Tr("Moments after"), OverPicture().warning, onion.after);
     PropertyLabel(Tr("Apart"));
     auto spacing = static_cast<float>(onion.spacing);
     ImGui::SetNextItemWidth(Px(150) + 0.6f * ImGui::GetFrameHeight() +
@@ -299,7 +299,7 @@ void AskForOnionSkin(editor::Workspace& workspace, EditorState& state) {
 
 // A slider for the frame, with its time if there is space. switches: pixels at its right for the
 // switches.
-void ShowSlider(editor::Workspace& workspace,
+void DrawSlider(editor::Workspace& workspace,
                 const std::optional<editor::PreviewSource>& recording,
                 float switches) {
   const int64_t last = recording ? std::max<int64_t>(recording->frames - 1, 0) : 0;
@@ -331,7 +331,7 @@ void ShowSlider(editor::Workspace& workspace,
 }
 
 // Replaces the slider for a live source: its name and the drama's time.
-void ShowLive(editor::Workspace& workspace, float switches) {
+void DrawLive(editor::Workspace& workspace, float switches) {
   const float width = ImGui::GetContentRegionAvail().x - switches;
   const float end = WidestButton(std::array{Tr("End")}, 0.0f);
   const std::string camera =
@@ -350,7 +350,7 @@ void ShowLive(editor::Workspace& workspace, float switches) {
   Tooltip(Tr("Back to the place's recording"));
 }
 
-void ShowTransport(editor::Workspace& workspace, EditorState& state) {
+void DrawTransport(editor::Workspace& workspace, EditorState& state) {
   const std::optional<editor::PreviewSource> recording = workspace.recording();
   ImGui::BeginDisabled(!recording.has_value());
   PlayButton(workspace);
@@ -361,24 +361,24 @@ void ShowTransport(editor::Workspace& workspace, EditorState& state) {
     width += WidthOf(entry);
   }
   if (recording && recording->live) {
-    ShowLive(workspace, width);
+    DrawLive(workspace, width);
   } else {
-    ShowSlider(workspace, recording, width);
+    DrawSlider(workspace, recording, width);
   }
   ImGui::EndDisabled();
   float x = ImGui::GetContentRegionMax().x - width + ImGui::GetStyle().ItemSpacing.x;
   for (const RowSwitch& entry : switches) {
     ImGui::SameLine(x);
-    ShowSwitch(state, entry);
+    DrawSwitch(state, entry);
     if (entry.key == KeyAction::kOnion) {
       OnionMoreButton(state);
     }
     x += WidthOf(entry);
   }
-  ShowOnionMore(state);
+  DrawOnionMore(state);
 }
 
-void ShowEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
+void DrawEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
   const bool live = workspace.view_source() == editor::Workspace::ViewSource::kLive;
   const char* text =
       live ? Tr("Opening the camera\xe2\x80\xa6") : Tr("Opening the recording\xe2\x80\xa6");
@@ -399,7 +399,7 @@ void ShowEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2&
 
 }  // namespace
 
-void CameraView::ShowCorners(editor::Workspace& workspace,
+void CameraView::DrawCorners(editor::Workspace& workspace,
                              const EditorState& state,
                              const editor::PreviewPicture& picture,
                              const ImVec2& origin,
@@ -415,7 +415,7 @@ void CameraView::ShowCorners(editor::Workspace& workspace,
     if (frame.keyframe) {
       const ImageView map{ToEigen(origin), size.x / static_cast<double>(picture.display.width),
                           ImageView::Redrawn{picture.camera, picture.display}};
-      DrawCorners(workspace, *occluder, *frame.keyframe, map, draw);
+      DrawOccluderCorners(workspace, *occluder, *frame.keyframe, map, draw);
       const ImVec2 mouse = ImGui::GetMousePos();
       const Eigen::Vector2d pixel = map.ToPixel(ToEigen(mouse));
       const bool inside = mouse.x >= origin.x && mouse.y >= origin.y &&
@@ -440,11 +440,11 @@ void CameraView::Show(editor::Workspace& workspace, EditorState& state) {
   ImGui::InvisibleButton("view", size);
   bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  workspace.SetCompare(state.show_wipe || LightOverlay::ComparesPictures(workspace, state));
+  workspace.SetCompare(state.show_compare || LightOverlay::ComparesPictures(workspace, state));
   AskForOnionSkin(workspace, state);
   const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.picture();
   if (picture == nullptr || workspace.place() == nullptr) {
-    ShowEmpty(workspace, origin, size);
+    DrawEmpty(workspace, origin, size);
   } else {
     if (picture.get() != uploaded_) {
       texture_.Upload(picture->bgr);
@@ -454,7 +454,7 @@ void CameraView::Show(editor::Workspace& workspace, EditorState& state) {
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
     draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
-    hovered &= !wipe_.Show(state, *picture, rect.origin, rect.size, hovered, draw);
+    hovered &= !compare_slider_.Show(state, *picture, rect.origin, rect.size, hovered, draw);
     const bool shows_stage = state.show_stage || state.align.picking;
     if (picture->camera_from_stage && (shows_stage || state.show_occluders)) {
       overlays_.Show(workspace, state, PictureView(*picture, *workspace.place(), rect), draw);
@@ -463,21 +463,21 @@ void CameraView::Show(editor::Workspace& workspace, EditorState& state) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
       DrawStage(workspace, view, draw);
       DrawCheckPoints(workspace, state, view, draw);
-      const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
+      const bool picking = DrawModelPoints(workspace, state, view, hovered, draw);
       const bool walking = walks_.Show(workspace, state, view, hovered && !picking, draw);
-      ShowGizmo(workspace, state, view, hovered && !picking && !walking, draw);
+      DrawGizmo(workspace, state, view, hovered && !picking && !walking, draw);
     }
     if (state.show_matches) {
       DrawTrails(*picture, rect, draw);
     }
     light_.Show(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
     DrawBadge(workspace, *picture, rect, draw);
-    ShowCorners(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
+    DrawCorners(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
     draw.PopClipRect();
   }
   NudgeWithKeys(workspace, state);
   ImGui::SetCursorScreenPos(ImVec2(origin.x, origin.y + size.y + Px(8)));
-  ShowTransport(workspace, state);
+  DrawTransport(workspace, state);
 }
 
 }  // namespace lararium::panels

@@ -24,7 +24,7 @@ class CameraView {
  private:
   // Shows the corners of the drawn occluder that is selected, if there is one. origin, size: the
   // picture on the screen.
-  void ShowCorners(editor::Workspace& workspace,
+  void DrawCorners(editor::Workspace& workspace,
                    const EditorState& state,
                    const editor::PreviewPicture& picture,
                    const ImVec2& origin,
@@ -35,7 +35,7 @@ class CameraView {
   render::Texture texture_;
   OverlayMeshView overlays_;
   WalkView walks_;
-  CompareSlider wipe_;
+  CompareSlider compare_slider_;
   CornerDrag corners_;
   LightOverlay light_;
   const editor::PreviewPicture* uploaded_ = nullptr;

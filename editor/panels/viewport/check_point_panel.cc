@@ -62,7 +62,7 @@ void EditPoint(editor::Workspace& workspace,
 }
 
 // The result for the point at this place.
-void ShowHere(const CheckPointReport& here) {
+void DrawHere(const CheckPointReport& here) {
   PropertyText(Tr("Here"), VerdictText(here.verdict));
   if (!here.located()) {
     return;
@@ -75,7 +75,7 @@ void ShowHere(const CheckPointReport& here) {
                Text("\xc2\xb1 %.1f cm", kCentimetresPerMetre * here.deviation_m));
 }
 
-void ShowPointButtons(editor::Workspace& workspace,
+void DrawPointButtons(editor::Workspace& workspace,
                       EditorState& state,
                       const std::string& name,
                       const CheckPointReport& here) {
@@ -104,7 +104,7 @@ void ShowPointButtons(editor::Workspace& workspace,
 }
 
 // Columns: point, centimetres, pixels.
-void ShowTable(EditorState& state, const CheckReport& report) {
+void DrawTable(EditorState& state, const CheckReport& report) {
   if (!ImGui::BeginTable("points", 3, ImGuiTableFlags_SizingStretchProp)) {
     return;
   }
@@ -132,7 +132,7 @@ void ShowTable(EditorState& state, const CheckReport& report) {
   ImGui::EndTable();
 }
 
-void ShowOutcome(editor::Workspace& workspace, const CheckReport& report) {
+void DrawOutcome(editor::Workspace& workspace, const CheckReport& report) {
   const bool good = report.verdict == CheckReport::Verdict::kGood;
   const bool poor = report.verdict == CheckReport::Verdict::kPoor;
   Sign(good ? Verdict::kGood : poor ? Verdict::kOff : Verdict::kNotPicked);
@@ -149,7 +149,7 @@ void ShowOutcome(editor::Workspace& workspace, const CheckReport& report) {
   ImGui::EndDisabled();
 }
 
-void ShowName(editor::Workspace& workspace, EditorState& state, const std::string& name) {
+void DrawName(editor::Workspace& workspace, EditorState& state, const std::string& name) {
   std::string typed = name;
   PropertyLabel(Tr("Name"));
   if (!ImGui::InputText("##name", &typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
@@ -227,7 +227,7 @@ Icon VerdictIcon(Verdict verdict) {
   }
 }
 
-void ShowCheckPoint(editor::Workspace& workspace,
+void DrawCheckPoint(editor::Workspace& workspace,
                     EditorState& state,
                     const editor::CheckPointDocument& point) {
   // Copied, because edits below change it.
@@ -241,21 +241,21 @@ void ShowCheckPoint(editor::Workspace& workspace,
       Tr("A point of the stage that is looked for at every place: by three of them it shows "
          "whether the stage lies at each place as it should."));
   if (BeginProperties("check point")) {
-    ShowName(workspace, state, name);
+    DrawName(workspace, state, name);
     Eigen::Vector3d position = point.position;
     if (VectorProperty(workspace, Tr("Position"), position, 0.005, "%.3f")) {
       EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), position, "check point");
     }
-    ShowHere(here);
+    DrawHere(here);
     EndProperties();
   }
   ImGui::Dummy(ImVec2(0, Px(4)));
   Heading(Text(Tr("All of them at %s"), workspace.place()->name.c_str()).c_str());
-  ShowTable(state, report);
-  ShowOutcome(workspace, report);
+  DrawTable(state, report);
+  DrawOutcome(workspace, report);
   ImGui::Dummy(ImVec2(0, Px(4)));
-  ShowPicksList(workspace, state);
-  ShowPointButtons(workspace, state, name, here);
+  DrawPicksList(workspace, state);
+  DrawPointButtons(workspace, state, name, here);
 }
 
 void DrawCheckPoints(const editor::Workspace& workspace,

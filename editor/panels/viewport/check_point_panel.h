@@ -23,7 +23,7 @@ ImVec4 VerdictColour(editor::CheckPointReport::Verdict verdict);
 Icon VerdictIcon(editor::CheckPointReport::Verdict verdict);
 
 // The inspector of a check point.
-void ShowCheckPoint(editor::Workspace& workspace,
+void DrawCheckPoint(editor::Workspace& workspace,
                     EditorState& state,
                     const editor::CheckPointDocument& point);
 

@@ -36,14 +36,14 @@ bool CompareSlider::Show(EditorState& state,
                          bool hovered,
                          ImDrawList& draw) {
   dragged_ = dragged_ && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  if (!state.show_wipe || picture.plain.empty()) {
+  if (!state.show_compare || picture.plain.empty()) {
     return false;
   }
   if (uploaded_ != &picture) {
     plain_.Upload(picture.plain);
     uploaded_ = &picture;
   }
-  float& at = state.wipe_at;
+  float& at = state.compare_at;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool near = hovered && std::abs(mouse.x - (origin.x + at * size.x)) < Px(8);
   dragged_ = dragged_ || (near && ImGui::IsMouseClicked(ImGuiMouseButton_Left));

@@ -12,11 +12,11 @@ namespace lararium::panels {
 
 using Eigen::Vector2d;
 
-void DrawCorners(const editor::Workspace& workspace,
-                 const editor::OccluderDocument& occluder,
-                 const vision::Keyframe& keyframe,
-                 const ImageView& map,
-                 ImDrawList& draw) {
+void DrawOccluderCorners(const editor::Workspace& workspace,
+                         const editor::OccluderDocument& occluder,
+                         const vision::Keyframe& keyframe,
+                         const ImageView& map,
+                         ImDrawList& draw) {
   std::vector<ImVec2> outline;
   for (size_t i = 0; i < occluder.corners.size(); ++i) {
     if (const stage::Pick* pick = editor::PickIn(occluder.corners[i], keyframe)) {

@@ -16,11 +16,11 @@ namespace lararium::panels {
 
 // Draws the corners that were picked in this image, the edges between them, and rings at the
 // projections of located corners.
-void DrawCorners(const editor::Workspace& workspace,
-                 const editor::OccluderDocument& occluder,
-                 const vision::Keyframe& keyframe,
-                 const ImageView& map,
-                 ImDrawList& draw);
+void DrawOccluderCorners(const editor::Workspace& workspace,
+                         const editor::OccluderDocument& occluder,
+                         const vision::Keyframe& keyframe,
+                         const ImageView& map,
+                         ImDrawList& draw);
 
 // Draws a magnifier beside the pointer, for picking a single pixel. pixel: of the texture.
 void DrawLoupe(const ImVec2& pointer,

@@ -211,7 +211,7 @@ void Drag(editor::Workspace& workspace,
 
 }  // namespace
 
-bool ShowGizmo(editor::Workspace& workspace,
+bool DrawGizmo(editor::Workspace& workspace,
                EditorState& state,
                const ViewCamera& view,
                bool hovered,

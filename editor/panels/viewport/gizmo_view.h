@@ -29,7 +29,7 @@ void MoveSelected(editor::Workspace& workspace,
 
 // Draws the handles and handles drags. hovered: the pointer is over the view. Returns true while
 // the handles use the pointer.
-bool ShowGizmo(editor::Workspace& workspace,
+bool DrawGizmo(editor::Workspace& workspace,
                EditorState& state,
                const ViewCamera& view,
                bool hovered,

@@ -162,7 +162,7 @@ void DrawCurve(const BrightnessHistogram& histogram,
   }
 }
 
-void ShowHistogram(const editor::PreviewPicture& picture,
+void DrawHistogram(const editor::PreviewPicture& picture,
                    const ImVec2& origin,
                    const ImVec2& size,
                    ImDrawList& draw) {
@@ -213,7 +213,7 @@ void LightOverlay::Show(editor::Workspace& workspace,
     return;
   }
   if (light.histogram && !picture.plain.empty()) {
-    ShowHistogram(picture, origin, size, draw);
+    DrawHistogram(picture, origin, size, draw);
   }
   if (!picture.camera_from_stage) {
     return;

@@ -86,11 +86,11 @@ int ClipNear(const std::array<Vector3d, 3>& triangle, std::array<Vector3d, 4>& k
   for (size_t i = 0; i < 3; ++i) {
     const Vector3d& a = triangle[i];
     const Vector3d& b = triangle[(i + 1) % 3];
-    if (a.z() >= kGhostNear) {
+    if (a.z() >= kOverlayNear) {
       kept[static_cast<size_t>(count++)] = a;
     }
-    if ((a.z() < kGhostNear) != (b.z() < kGhostNear)) {
-      kept[static_cast<size_t>(count++)] = a + (b - a) * (kGhostNear - a.z()) / (b.z() - a.z());
+    if ((a.z() < kOverlayNear) != (b.z() < kOverlayNear)) {
+      kept[static_cast<size_t>(count++)] = a + (b - a) * (kOverlayNear - a.z()) / (b.z() - a.z());
     }
   }
   return count;
@@ -130,7 +130,7 @@ void AddFaces(const OverlayMesh& overlay,
               const geometry::Similarity3& world_from_mesh,
               const ViewCamera& view,
               int number,
-              std::vector<GhostFace>& faces) {
+              std::vector<OverlayFace>& faces) {
   std::vector<Vector3d> in_camera;
   in_camera.reserve(overlay.corners.size());
   for (const Vector3d& corner : overlay.corners) {
@@ -140,7 +140,7 @@ void AddFaces(const OverlayMesh& overlay,
     const std::array<Vector3d, 3> triangle = {in_camera[face[0]], in_camera[face[1]],
                                               in_camera[face[2]]};
     std::array<Vector3d, 4> kept;
-    GhostFace seen;
+    OverlayFace seen;
     seen.corners = ClipNear(triangle, kept);
     for (size_t i = 0; i < static_cast<size_t>(seen.corners); ++i) {
       seen.outline[i] = view.PixelOf(kept[i]);
@@ -154,9 +154,10 @@ void AddFaces(const OverlayMesh& overlay,
   }
 }
 
-void SortFarthestFirst(std::vector<GhostFace>& faces) {
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const GhostFace& a, const GhostFace& b) { return a.distance > b.distance; });
+void SortFarthestFirst(std::vector<OverlayFace>& faces) {
+  std::stable_sort(faces.begin(), faces.end(), [](const OverlayFace& a, const OverlayFace& b) {
+    return a.distance > b.distance;
+  });
 }
 
 }  // namespace lararium::panels

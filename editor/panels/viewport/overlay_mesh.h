@@ -26,7 +26,7 @@ struct OverlayMesh {
 // Triangles without area are left out.
 OverlayMesh MakeOverlayMesh(const geometry::TriangleMesh& mesh);
 
-struct GhostFace {
+struct OverlayFace {
   // The part of the face in front of the camera, window pixels: convex, three or four corners.
   std::array<Eigen::Vector2d, 4> outline;
   int corners = 0;
@@ -36,7 +36,7 @@ struct GhostFace {
 };
 
 // Parts nearer to the camera's plane are not drawn; world units.
-inline constexpr double kGhostNear = 0.02;
+inline constexpr double kOverlayNear = 0.02;
 
 // Appends the faces that the camera sees, from both sides, because occluders hide people on both
 // sides.
@@ -44,9 +44,9 @@ void AddFaces(const OverlayMesh& overlay,
               const geometry::Similarity3& world_from_mesh,
               const ViewCamera& view,
               int number,
-              std::vector<GhostFace>& faces);
+              std::vector<OverlayFace>& faces);
 
 // Sorts for drawing: nearer faces over farther ones.
-void SortFarthestFirst(std::vector<GhostFace>& faces);
+void SortFarthestFirst(std::vector<OverlayFace>& faces);
 
 }  // namespace lararium::panels

@@ -36,7 +36,7 @@ ImVec4 Shaded(ImVec4 colour, double shade) {
   return {colour.x * by, colour.y * by, colour.z * by, colour.w};
 }
 
-void DrawFace(const GhostFace& face, const ImVec4& colour, ImDrawList& draw) {
+void DrawFace(const OverlayFace& face, const ImVec4& colour, ImDrawList& draw) {
   ImVec2 outline[4];
   std::transform(face.outline.begin(), face.outline.begin() + face.corners, outline, ToImGui);
   draw.AddConvexPolyFilled(outline, face.corners, Packed(Shaded(colour, face.shade), kFaceOpacity));
@@ -80,7 +80,7 @@ void OverlayMeshView::Show(const editor::Workspace& workspace,
   // Anti-aliased borders would be visible between two faces of the same colour.
   const ImDrawListFlags flags = draw.Flags;
   draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
-  for (const GhostFace& face : faces_) {
+  for (const OverlayFace& face : faces_) {
     DrawFace(face, colours[static_cast<size_t>(face.overlay)], draw);
   }
   draw.Flags = flags;

@@ -28,7 +28,7 @@ class OverlayMeshView {
 
   std::shared_ptr<const stage::Place> staged_;  // The place whose occluders are in overlays_.
   std::vector<OverlayMesh> overlays_;
-  std::vector<GhostFace> faces_;  // Kept to reuse its memory.
+  std::vector<OverlayFace> faces_;  // Kept to reuse its memory.
 };
 
 }  // namespace lararium::panels

@@ -175,7 +175,7 @@ void DimTextBeside(const std::string& text) {
   }
 }
 
-void ShowAnchorButtons(const editor::Workspace& workspace, EditorState& state) {
+void DrawAnchorButtons(const editor::Workspace& workspace, EditorState& state) {
   std::array<std::string, kAnchors.size()> labels;
   std::array<const char*, kAnchors.size()> texts = {};
   for (size_t i = 0; i < kAnchors.size(); ++i) {
@@ -187,13 +187,13 @@ void ShowAnchorButtons(const editor::Workspace& workspace, EditorState& state) {
   DimTextBeside(Tr(kAnchors[static_cast<size_t>(state.anchor)].hint));
 }
 
-void ShowCornerHint(const editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
+void DrawCornerHint(const editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(occluder.name.c_str());
   DimTextBeside(CornerHint(workspace, occluder));
 }
 
-void ShowCheckHint(const editor::Workspace& workspace,
+void DrawCheckHint(const editor::Workspace& workspace,
                    EditorState& state,
                    const std::string& name) {
   ImGui::AlignTextToFramePadding();
@@ -209,7 +209,7 @@ void ShowCheckHint(const editor::Workspace& workspace,
   }
 }
 
-void ShowModelHint(const editor::Workspace& workspace,
+void DrawModelHint(const editor::Workspace& workspace,
                    EditorState& state,
                    const ModelPairInWork& work) {
   ImGui::AlignTextToFramePadding();
@@ -251,7 +251,7 @@ void DrawNewOccluder(editor::Workspace& workspace, EditorState& state) {
   state.view = ViewKind::kPicks;
 }
 
-void PickView::ShowImage(editor::Workspace& workspace,
+void PickView::DrawImage(editor::Workspace& workspace,
                          EditorState& state,
                          const vision::Keyframe& keyframe) {
   const geometry::CameraModel& camera = workspace.loaded().database->camera;
@@ -284,7 +284,7 @@ void PickView::ShowImage(editor::Workspace& workspace,
   const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, state);
   const ModelPairInWork modelled = PairInWork(workspace, state);
   if (drawn != nullptr) {
-    DrawCorners(workspace, *drawn, keyframe, map, draw);
+    DrawOccluderCorners(workspace, *drawn, keyframe, map, draw);
   } else if (checked != nullptr) {
     DrawCheckPicks(workspace, state, keyframe, map, draw);
   } else if (modelled.occluder != nullptr) {
@@ -322,19 +322,19 @@ void PickView::Show(editor::Workspace& workspace, EditorState& state) {
     return;
   }
   if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
-    ShowCornerHint(workspace, *drawn);
+    DrawCornerHint(workspace, *drawn);
   } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, state)) {
-    ShowCheckHint(workspace, state, checked->name);
+    DrawCheckHint(workspace, state, checked->name);
   } else if (const ModelPairInWork work = PairInWork(workspace, state); work.occluder != nullptr) {
-    ShowModelHint(workspace, state, work);
+    DrawModelHint(workspace, state, work);
   } else {
-    ShowAnchorButtons(workspace, state);
+    DrawAnchorButtons(workspace, state);
   }
   const int last = static_cast<int>(database->keyframes.size()) - 1;
   state.keyframe = std::clamp(state.keyframe, 0, last);
   HandlePickKeys(workspace, state);
   const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(state.keyframe)];
-  ShowImage(workspace, state, keyframe);
+  DrawImage(workspace, state, keyframe);
   std::string name = keyframe.name;
   if (keyframe.session != 0) {
     name += ", " + SessionName(*workspace.place(), keyframe.session);
@@ -348,7 +348,7 @@ void PickView::Show(editor::Workspace& workspace, EditorState& state) {
   ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, named ? Tr("training image %d") : "%d",
                    ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
-  ShowPickSteps(workspace, state);
+  DrawPickSteps(workspace, state);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   DimText(name);

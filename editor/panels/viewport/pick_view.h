@@ -31,7 +31,7 @@ class PickView {
   void Show(editor::Workspace& workspace, EditorState& state);
 
  private:
-  void ShowImage(editor::Workspace& workspace,
+  void DrawImage(editor::Workspace& workspace,
                  EditorState& state,
                  const vision::Keyframe& keyframe);
 

@@ -118,7 +118,7 @@ std::string NameOf(const editor::Workspace& workspace, const Line& line, bool co
 
 // Draws a line; returns true where its pick is to be removed, by its button or by Delete while it
 // has the keyboard focus.
-bool ShowLine(const editor::Workspace& workspace,
+bool DrawLine(const editor::Workspace& workspace,
               EditorState& state,
               const Line& line,
               bool corners) {
@@ -161,7 +161,7 @@ bool ShowLine(const editor::Workspace& workspace,
 
 }  // namespace
 
-void ShowPicksList(editor::Workspace& workspace, EditorState& state) {
+void DrawPicksList(editor::Workspace& workspace, EditorState& state) {
   const std::vector<Line> lines = LinesInWork(workspace, state);
   if (lines.empty() || !ImGui::BeginTable("picks", 3, ImGuiTableFlags_SizingStretchProp)) {
     return;
@@ -176,7 +176,7 @@ void ShowPicksList(editor::Workspace& workspace, EditorState& state) {
   const Line* removed = nullptr;
   for (const Line& line : lines) {
     ImGui::PushID(static_cast<int>(&line - lines.data()));
-    if (ShowLine(workspace, state, line, corners)) {
+    if (DrawLine(workspace, state, line, corners)) {
       removed = &line;
     }
     ImGui::PopID();
@@ -231,7 +231,7 @@ void HandlePickKeys(editor::Workspace& workspace, EditorState& state) {
   }
 }
 
-void ShowPickSteps(const editor::Workspace& workspace, EditorState& state) {
+void DrawPickSteps(const editor::Workspace& workspace, EditorState& state) {
   const std::vector<PickedImage> images = ImagesInWork(workspace, state);
   const auto keyframe = static_cast<uint32_t>(state.keyframe);
   const auto button = [&](const char* id, ImGuiDir towards, int direction, KeyAction action) {

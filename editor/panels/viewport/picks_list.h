@@ -10,13 +10,13 @@
 namespace lararium::panels {
 
 // A line for each pick in the inspector; nothing where there is none.
-void ShowPicksList(editor::Workspace& workspace, EditorState& state);
+void DrawPicksList(editor::Workspace& workspace, EditorState& state);
 
 // Handles the keys of KeyScope::kPicks while the picks are shown. The map must have at least one
 // image.
 void HandlePickKeys(editor::Workspace& workspace, EditorState& state);
 
 // Buttons to the previous and the next image with a pick.
-void ShowPickSteps(const editor::Workspace& workspace, EditorState& state);
+void DrawPickSteps(const editor::Workspace& workspace, EditorState& state);
 
 }  // namespace lararium::panels

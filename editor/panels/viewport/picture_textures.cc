@@ -19,7 +19,7 @@ ImTextureID PictureTextures::Show(const std::string& key,
   return ShownTexture(entry.texture);
 }
 
-void ShowThumbnail(PictureTextures& textures,
+void DrawThumbnail(PictureTextures& textures,
                    const std::string& key,
                    const std::shared_ptr<const cv::Mat>& picture,
                    float side,

@@ -34,7 +34,7 @@ enum class ThumbnailOf { kPerson, kThing };
 
 // Draws the picture in a square with round corners, side pixels wide. Without a picture: an empty
 // frame with the outline of a person. Advances the cursor like an item.
-void ShowThumbnail(PictureTextures& textures,
+void DrawThumbnail(PictureTextures& textures,
                    const std::string& key,
                    const std::shared_ptr<const cv::Mat>& picture,
                    float side,

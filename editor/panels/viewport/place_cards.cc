@@ -36,7 +36,7 @@ float& CardHeight(const char* id) {
 
 // A panel over a view, as high as its content in the last frame. corner: 0 or 1 along each axis of
 // the view.
-void ShowCard(EditorState& state,
+void DrawCard(EditorState& state,
               const char* id,
               const ImVec2& origin,
               const ImVec2& size,
@@ -68,7 +68,7 @@ void ShowCard(EditorState& state,
 
 // ------------------------------------------------------------ Legends
 
-void ShowRamp(const std::array<std::string, 3>& labels) {
+void DrawRamp(const std::array<std::string, 3>& labels) {
   constexpr int kParts = 24;
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -92,7 +92,7 @@ void ShowRamp(const std::array<std::string, 3>& labels) {
   }
 }
 
-void ShowSwatch(const ImVec4& colour, const std::string& text) {
+void DrawSwatch(const ImVec4& colour, const std::string& text) {
   const float side = Px(11);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float down = 0.5f * (ImGui::GetTextLineHeight() - side);
@@ -103,33 +103,33 @@ void ShowSwatch(const ImVec4& colour, const std::string& text) {
   DimText(Elided(text, ImGui::GetContentRegionAvail().x));
 }
 
-void ShowSessionLegend(const editor::PlaceDocument& place, const vision::SceneDatabase& database) {
+void DrawSessionLegend(const editor::PlaceDocument& place, const vision::SceneDatabase& database) {
   constexpr size_t kMostRows = 10;
   const std::vector<uint32_t> sessions = SessionsOf(database);
   for (size_t i = 0; i < sessions.size() && i < kMostRows; ++i) {
-    ShowSwatch(SessionColour(sessions[i]), SessionName(place, sessions[i]));
+    DrawSwatch(SessionColour(sessions[i]), SessionName(place, sessions[i]));
   }
   if (sessions.size() > kMostRows) {
     DimText(Text(Tr("and %zu more"), sessions.size() - kMostRows));
   }
   if (sessions.size() > 1) {
-    ShowSwatch(kSeveralColour, Tr("several sessions"));
+    DrawSwatch(kSeveralColour, Tr("several sessions"));
   }
 }
 
-void ShowLegend(const editor::Workspace& workspace, const PlaceView& place) {
+void DrawLegend(const editor::Workspace& workspace, const PlaceView& place) {
   const ColourRange& range = place.range;
   switch (place.colours) {
     case PointColour::kPicture:
       break;
     case PointColour::kSessions:
-      ShowSessionLegend(*workspace.place(), *workspace.loaded().database);
+      DrawSessionLegend(*workspace.place(), *workspace.loaded().database);
       break;
     case PointColour::kError:
-      ShowRamp({"0", Text("%.3g", 0.5 * range.high), Text(Tr("%.3g px or more"), range.high)});
+      DrawRamp({"0", Text("%.3g", 0.5 * range.high), Text(Tr("%.3g px or more"), range.high)});
       break;
     case PointColour::kViews:
-      ShowRamp({Text("%.3g", range.low), Text("%.3g", 0.5 * (range.low + range.high)),
+      DrawRamp({Text("%.3g", range.low), Text("%.3g", 0.5 * (range.low + range.high)),
                 Text(Tr("%.3g views or more"), range.high)});
       break;
   }
@@ -155,7 +155,7 @@ Vector3d PointInMap(const editor::Workspace& workspace, uint32_t point) {
   return workspace.loaded().database->points[point].cast<double>();
 }
 
-void ShowPoint(const editor::Workspace& workspace, uint32_t point) {
+void DrawPoint(const editor::Workspace& workspace, uint32_t point) {
   const editor::LoadedPlace& loaded = workspace.loaded();
   Heading(Text(Tr("Point %d"), static_cast<int>(point)).c_str());
   if (!BeginProperties("point", 76.0f)) {
@@ -202,7 +202,7 @@ const char* WhatSetsMetres(const editor::LoadedPlace& loaded) {
       "known length, or tags, keep it.");
 }
 
-void ShowDistance(editor::Workspace& workspace, PlaceView& place) {
+void DrawDistance(editor::Workspace& workspace, PlaceView& place) {
   const double said = ChosenDistance(workspace, place);
   if (!(place.metres > 0.0)) {
     place.metres = said;
@@ -274,7 +274,7 @@ std::string SessionName(const editor::PlaceDocument& place, uint32_t session) {
 }
 
 // Buttons that bring the view to the stage, to the whole map or to the selection.
-void ShowLookButtons(PlaceView& place) {
+void DrawLookButtons(PlaceView& place) {
   using LookAt = PlaceView::LookAt;
   struct Target {
     const char* label;
@@ -300,7 +300,7 @@ void ShowLookButtons(PlaceView& place) {
   }
 }
 
-void ShowPlaceTools(editor::Workspace& workspace,
+void DrawPlaceTools(editor::Workspace& workspace,
                     EditorState& state,
                     const ImVec2& origin,
                     const ImVec2& size) {
@@ -311,7 +311,7 @@ void ShowPlaceTools(editor::Workspace& workspace,
   if (!fits && AnyChosen(workspace, state.place)) {
     return;  // The card of the selected points replaces the buttons in a small view.
   }
-  ShowCard(state, kTools, origin, size, ImVec2(0, 0), kToolsWidth, [&] {
+  DrawCard(state, kTools, origin, size, ImVec2(0, 0), kToolsWidth, [&] {
     std::array<const char*, kPointColours> labels = {};
     for (int i = 0; i < kPointColours; ++i) {
       labels[static_cast<size_t>(i)] = PointColourName(static_cast<PointColour>(i));
@@ -325,7 +325,7 @@ void ShowPlaceTools(editor::Workspace& workspace,
     Tooltip(WithKey(Tr("What the points are coloured by: the picture, their mean error, how many "
                        "images show them, the sessions that saw them"),
                     KeyAction::kPointColours));
-    ShowLegend(workspace, state.place);
+    DrawLegend(workspace, state.place);
     ImGui::Checkbox(Tr("Measure"), &state.place.measure);
     Tooltip(WithKey(Tr("A click chooses a point, the next one the other end of a distance"),
                     KeyAction::kMeasure));
@@ -335,23 +335,23 @@ void ShowPlaceTools(editor::Workspace& workspace,
         Tr("Handles move by 5 cm (1 cm with Shift), turn by 5\xc2\xb0, scale by a twentieth "
            "and stop at the floor. Ctrl does so for one drag."),
         KeyAction::kSnapHandles));
-    ShowLookButtons(state.place);
+    DrawLookButtons(state.place);
   });
 }
 
-void ShowPointCard(editor::Workspace& workspace,
+void DrawPointCard(editor::Workspace& workspace,
                    EditorState& state,
                    const ImVec2& origin,
                    const ImVec2& size) {
   if (!AnyChosen(workspace, state.place)) {
     return;
   }
-  ShowCard(state, kPointCard, origin, size, ImVec2(1, 1), kPointWidth, [&] {
+  DrawCard(state, kPointCard, origin, size, ImVec2(1, 1), kPointWidth, [&] {
     if (state.place.points.size() == 1) {
-      ShowPoint(workspace, state.place.points.front());
+      DrawPoint(workspace, state.place.points.front());
       Hint(Tr("Shift and a click on another point measures."));
     } else {
-      ShowDistance(workspace, state.place);
+      DrawDistance(workspace, state.place);
     }
   });
 }

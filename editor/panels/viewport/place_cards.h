@@ -23,13 +23,13 @@ void ChooseNoPoints(EditorState& state);
 std::string SessionName(const editor::PlaceDocument& place, uint32_t session);
 
 // In the top left corner of the view. origin, size: the view on the screen, pixels.
-void ShowPlaceTools(editor::Workspace& workspace,
+void DrawPlaceTools(editor::Workspace& workspace,
                     EditorState& state,
                     const ImVec2& origin,
                     const ImVec2& size);
 
 // In the bottom right corner; nothing where no point is selected.
-void ShowPointCard(editor::Workspace& workspace,
+void DrawPointCard(editor::Workspace& workspace,
                    EditorState& state,
                    const ImVec2& origin,
                    const ImVec2& size);

@@ -166,7 +166,7 @@ void Caption(const Place& frame, const char* text) {
 
 }  // namespace
 
-void ShowPortrait(editor::Workspace& workspace,
+void DrawPortrait(editor::Workspace& workspace,
                   EditorState& state,
                   const editor::CastDocument& member,
                   bool bones) {

@@ -454,10 +454,10 @@ void SceneView::Show(editor::Workspace& workspace, EditorState& state) {
   DrawCheckPoints(workspace, state, view, draw);
   const auto dragging = [&] { return state.drag.has_value() || state.walk.drag.has_value(); };
   const bool was_dragging = dragging();
-  const bool picking = ShowModelPoints(workspace, state, view, hovered, draw);
+  const bool picking = DrawModelPoints(workspace, state, view, hovered, draw);
   const bool walking = walks_.Show(workspace, state, view, hovered && !picking, draw);
   const bool wanted =
-      ShowGizmo(workspace, state, view, hovered && !picking && !walking, draw) || walking;
+      DrawGizmo(workspace, state, view, hovered && !picking && !walking, draw) || walking;
   const bool busy = wanted && (dragging() || was_dragging || !active);
   if (busy) {
     pressed_.reset();
@@ -475,8 +475,8 @@ void SceneView::Show(editor::Workspace& workspace, EditorState& state) {
   LookByKeys(state, ToEigen(size));
   LookWhereAsked(workspace, points_, ToEigen(size), state);
   const ImVec2 area(static_cast<float>(width), static_cast<float>(height));
-  ShowPlaceTools(workspace, state, origin, area);
-  ShowPointCard(workspace, state, origin, area);
+  DrawPlaceTools(workspace, state, origin, area);
+  DrawPointCard(workspace, state, origin, area);
 }
 
 }  // namespace lararium::panels

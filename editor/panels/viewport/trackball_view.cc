@@ -23,7 +23,7 @@ Eigen::Quaterniond WorldFromCamera(const editor::Workspace& workspace, const Edi
 
 }  // namespace
 
-bool ShowTrackball(editor::Workspace& workspace,
+bool DrawTrackball(editor::Workspace& workspace,
                    const EditorState& state,
                    Eigen::Quaterniond& world_from_thing) {
   using Eigen::Vector2d;

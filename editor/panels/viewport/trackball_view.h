@@ -7,7 +7,7 @@ namespace lararium::panels {
 
 // A ball that changes a rotation in the axes of the open view (camera view or scene view). Returns
 // true while it is dragged.
-bool ShowTrackball(editor::Workspace& workspace,
+bool DrawTrackball(editor::Workspace& workspace,
                    const EditorState& state,
                    Eigen::Quaterniond& world_from_thing);
 

@@ -203,11 +203,11 @@ struct EditorState {
   bool show_matches = false;
   // Shows all occluders over the camera's picture, not only the selected one.
   bool show_occluders = false;
-  bool show_wipe = false;   // Shows the camera's image alone left of wipe_at.
-  float wipe_at = 0.5f;     // Share of the picture's width.
-  bool show_onion = false;  // Shows people at other moments over the camera's picture.
-  bool open_onion = false;  // Opens the settings of the onion skin.
-  editor::OnionSkin onion;  // Number and spacing of the skins.
+  bool show_compare = false;  // Shows the camera's image alone left of compare_at.
+  float compare_at = 0.5f;    // Share of the picture's width.
+  bool show_onion = false;    // Shows people at other moments over the camera's picture.
+  bool open_onion = false;    // Opens the settings of the onion skin.
+  editor::OnionSkin onion;    // Number and spacing of the skins.
 
   // Picking: the anchor that the next click sets, and the keyframe.
   int anchor = 0;

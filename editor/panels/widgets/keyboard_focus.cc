@@ -34,7 +34,7 @@ bool KeyIsUsed() {
 }
 
 // Shows the keyboard focus from now on; the mouse hovers nothing until it moves.
-void ShowNavigation() {
+void DrawNavigation() {
   ImGuiContext& g = *ImGui::GetCurrentContext();
   g.NavDisableHighlight = false;
   g.NavDisableMouseHover = true;
@@ -80,7 +80,7 @@ void KeyboardFocus::Begin(Region region, bool has_own_keys) {
     now_ = region;
     if (ring_ && !has_own_keys) {
       ImGui::NavInitWindow(window, false);
-      ShowNavigation();
+      DrawNavigation();
     }
   }
   if (region == Region::kToolbar && menus_asked_) {
@@ -89,7 +89,7 @@ void KeyboardFocus::Begin(Region region, bool has_own_keys) {
     ImGui::FocusWindow(window);
     ImGui::GetCurrentContext()->NavLayer = ImGuiNavLayer_Menu;
     ImGui::NavInitWindow(window, true);
-    ShowNavigation();
+    DrawNavigation();
   }
   if (now_ == region) {
     own_keys_ = has_own_keys;
@@ -127,7 +127,7 @@ void Navigation::Prepare(bool walk) {
   keys_last_ = !MouseIsUsed() && (keys_last_ || KeyIsUsed());
   const bool menus = KeysBelongToMenus();
   if (menus && !menus_ && keys_last_) {
-    ShowNavigation();
+    DrawNavigation();
   }
   menus_ = menus;
   if (walk || menus) {

@@ -112,7 +112,7 @@ void Hint(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void ShowModal(const char* title, float width, bool& open, const std::function<void()>& content) {
+void DrawModal(const char* title, float width, bool& open, const std::function<void()>& content) {
   const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
   ImGui::OpenPopup(title);
   ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));

@@ -26,7 +26,7 @@ void Tooltip(const std::string& text);
 
 // A dialog in the middle of the window, until open is false. Escape and the close button close it;
 // Escape first closes a list that is open in it. width: logical pixels.
-void ShowModal(const char* title, float width, bool& open, const std::function<void()>& content);
+void DrawModal(const char* title, float width, bool& open, const std::function<void()>& content);
 
 enum class DialogAnswer { kNone, kCancel, kAct };
 // Ends a dialog with a row of two buttons: Cancel (or another text) and the action. Enter triggers

@@ -46,14 +46,14 @@ int LongerSide(const cv::Size& size) { return std::max(size.width, size.height);
 
 }  // namespace
 
-Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& place) {
+Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& where) {
   const std::optional<image::ImageHeader> header = image::ReadImageHeader(encoded);
   if (!header || header->format == image::ImageHeader::Format::kBmp || header->width == 0 ||
       header->height == 0) {
-    return Status::Error(place, "is not a PNG or JPEG image", "use another image, or none");
+    return Status::Error(where, "is not a PNG or JPEG image", "use another image, or none");
   }
   if (std::max(header->width, header->height) > uint32_t{kMaxTextureSide}) {
-    return Status::Error(place,
+    return Status::Error(where,
                          "is an image of " + std::to_string(header->width) + "x" +
                              std::to_string(header->height) + " pixels",
                          "reduce it to at most " + std::to_string(kMaxTextureSide));
@@ -62,13 +62,13 @@ Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::st
 }
 
 Result<cv::Mat> DecodeTexture(std::span<const std::byte> encoded,
-                              const std::string& place,
+                              const std::string& where,
                               int jpeg_halvings) {
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Size size, ReadImageSize(encoded, place));
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Size size, ReadImageSize(encoded, where));
   LARARIUM_ASSIGN_OR_RETURN(
-      cv::Mat bgra, image::DecodeImage(encoded, image::Channels::kBgra, place, jpeg_halvings));
+      cv::Mat bgra, image::DecodeImage(encoded, image::Channels::kBgra, where, jpeg_halvings));
   if (bgra.size() != size && bgra.size() != Halved(size, jpeg_halvings)) {
-    return Status::Error(place, "is damaged: its header states a different size than its content",
+    return Status::Error(where, "is damaged: its header states a different size than its content",
                          "use another image, or none");
   }
   return bgra;
@@ -92,13 +92,13 @@ void PremultiplySrgb(cv::Mat& bgra) {
 Result<cv::Mat> DecodeForUse(std::span<const std::byte> encoded,
                              TextureUse use,
                              int halvings,
-                             const std::string& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Size size, ReadImageSize(encoded, place));
+                             const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Size size, ReadImageSize(encoded, where));
   while (halvings > 0 && LongerSide(Halved(size, halvings)) < kLeastReducedSide) {
     --halvings;
   }
   LARARIUM_ASSIGN_OR_RETURN(
-      cv::Mat bgra, DecodeTexture(encoded, place, std::min(halvings, image::kMostJpegHalvings)));
+      cv::Mat bgra, DecodeTexture(encoded, where, std::min(halvings, image::kMostJpegHalvings)));
   if (use == TextureUse::kColour) {
     PremultiplySrgb(bgra);
   }

@@ -15,13 +15,13 @@ namespace lararium::render {
 // decoding.
 inline constexpr int kMaxTextureSide = 8192;
 
-// Width and height according to the header of a PNG or JPEG. place: name of the file in errors.
-Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& place);
+// Width and height according to the header of a PNG or JPEG. where: name of the file in errors.
+Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& where);
 
 // Decodes a PNG or JPEG to CV_8UC4 in the order BGRA; alpha is 255 if the file has none.
-// place: name of the file in errors. jpeg_halvings: see image::DecodeImage.
+// where: name of the file in errors. jpeg_halvings: see image::DecodeImage.
 Result<cv::Mat> DecodeTexture(std::span<const std::byte> encoded,
-                              const std::string& place,
+                              const std::string& where,
                               int jpeg_halvings = 0);
 
 // Multiplies sRGB-encoded colours by alpha in linear light, so that filtering does not mix in
@@ -39,6 +39,6 @@ inline constexpr int kLeastReducedSide = 128;
 Result<cv::Mat> DecodeForUse(std::span<const std::byte> encoded,
                              TextureUse use,
                              int halvings,
-                             const std::string& place);
+                             const std::string& where);
 
 }  // namespace lararium::render

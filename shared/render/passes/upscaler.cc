@@ -24,7 +24,7 @@ Result<Upscaler> Upscaler::Create() {
   return Create(DrawsOnProcessor(GraphicsDeviceName()) ? Way::kProcessor : Way::kShaders);
 }
 
-void Upscaler::Enlarge(const RenderTarget& picture, const RenderTarget& target) {
+void Upscaler::Upscale(const RenderTarget& picture, const RenderTarget& target) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
   glViewport(0, 0, target.width(), target.height());
   if (way_ == Way::kShaders) {

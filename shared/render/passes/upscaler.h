@@ -24,7 +24,7 @@ class Upscaler {
   static Result<Upscaler> Create();
 
   // Fills the target by bilinear interpolation. Both ways agree within one step of 8 bits.
-  void Enlarge(const RenderTarget& picture, const RenderTarget& target);
+  void Upscale(const RenderTarget& picture, const RenderTarget& target);
 
  private:
   void ByShaders(const RenderTarget& picture, const RenderTarget& target) const;

@@ -57,12 +57,12 @@ const CaptionGlyph* CaptionFont::Find(uint32_t character) const {
 
 Result<CaptionFont> ParseCaptionFont(std::string_view metrics,
                                      std::span<const std::byte> atlas,
-                                     const std::string& place) {
+                                     const std::string& where) {
   if (metrics.size() > kMaxMetrics) {
-    return Status::Error(place, "is longer than 8 MiB");
+    return Status::Error(where, "is longer than 8 MiB");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(metrics, place));
-  const JsonView root(json, place);
+  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(metrics, where));
+  const JsonView root(json, where);
   LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   CaptionFont font;
   LARARIUM_ASSIGN_OR_RETURN(const double em, root.Number("em_px", 4.0, 1000.0));
@@ -73,7 +73,7 @@ Result<CaptionFont> ParseCaptionFont(std::string_view metrics,
   font.rim_px = static_cast<float>(rim);
   font.ascent = static_cast<float>(ascent);
   font.descent = static_cast<float>(descent);
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat bgra, DecodeTexture(atlas, place + ": atlas"));
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat bgra, DecodeTexture(atlas, where + ": atlas"));
   cv::extractChannel(bgra, font.atlas, 0);
   LARARIUM_ASSIGN_OR_RETURN(const JsonView glyphs, root.Field("glyphs"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, glyphs.Array(kMaxGlyphs));

@@ -41,10 +41,10 @@ struct CaptionFont {
   const CaptionGlyph* Find(uint32_t character) const;
 };
 
-// metrics: JSON; atlas: PNG. place: name of both in errors.
+// metrics: JSON; atlas: PNG. where: name of both in errors.
 Result<CaptionFont> ParseCaptionFont(std::string_view metrics,
                                      std::span<const std::byte> atlas,
-                                     const std::string& place);
+                                     const std::string& where);
 std::string FormatCaptionMetrics(const CaptionFont& font);
 
 // Returns the character at byte `at` and moves `at` behind it. Invalid UTF-8 gives U+FFFD.
