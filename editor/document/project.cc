@@ -474,20 +474,6 @@ PlaceDocument* ProjectDocument::FindPlace(std::string_view name) {
   return const_cast<PlaceDocument*>(std::as_const(*this).FindPlace(name));
 }
 
-std::filesystem::path ProjectPaths::Resolve(const std::string& path) const {
-  return (folder / path).lexically_normal();
-}
-
-std::string ProjectPaths::Shorten(const std::filesystem::path& file) const {
-  std::error_code ignored;
-  const std::filesystem::path absolute =
-      std::filesystem::absolute(file, ignored).lexically_normal();
-  const std::filesystem::path base = std::filesystem::absolute(folder, ignored).lexically_normal();
-  const std::filesystem::path relative = absolute.lexically_relative(base);
-  const bool inside = !relative.empty() && *relative.begin() != "..";
-  return (inside ? relative : absolute).generic_string();
-}
-
 namespace {
 
 Status ParseLanguages(const JsonView& view, std::string_view key, std::vector<std::string>& list) {

@@ -16,6 +16,7 @@
 #include "editor/document/cast_document.h"
 #include "editor/document/object_document.h"
 #include "editor/document/occluder_shape.h"
+#include "editor/document/project_paths.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
@@ -194,48 +195,6 @@ struct ProjectDocument {
 // Removes an added recording of a place (session: 1 or higher) and the picks in it. Later sessions,
 // also those of the picks, move down by one number. Does nothing where there is no such session.
 void ForgetSession(PlaceDocument& place, uint32_t session);
-
-// The paths of the files in a project's folder.
-struct ProjectPaths {
-  std::filesystem::path folder;
-
-  std::filesystem::path Project() const { return folder / "project.json"; }
-  // Unsaved edits; the file exists only between an edit and the next saving (journal.h).
-  std::filesystem::path Journal() const { return folder / "journal"; }
-  std::filesystem::path Drama() const { return folder / "drama.lua"; }
-  std::filesystem::path Cast() const { return folder / "cast"; }
-  std::filesystem::path Human(const std::string& cast_name) const {
-    return Cast() / (cast_name + ".larhuman");
-  }
-  // The person with its light transfer, which takes longer to bake.
-  std::filesystem::path LitHuman(const std::string& cast_name) const {
-    return Cast() / (cast_name + ".lit.larhuman");
-  }
-  std::filesystem::path Prop(const std::string& object) const {
-    return folder / "props" / (object + ".larprop");
-  }
-  // A baked line in one language: the sound has the suffix ".flac", the mouth movement
-  // ".visemes.json".
-  std::filesystem::path Speech(const std::string& language, const std::string& file) const {
-    return folder / "speech" / language / file;
-  }
-  // Recordings that the author provides: audio/LANGUAGE/LINE.wav and others.
-  std::filesystem::path Recordings(const std::string& language) const {
-    return folder / "audio" / language;
-  }
-  // A built-in sound after baking.
-  std::filesystem::path Sound(const std::string& name) const {
-    return folder / "sounds" / (name + ".flac");
-  }
-  std::filesystem::path Place(const std::string& name) const { return folder / "places" / name; }
-  std::filesystem::path Scene(const std::string& where) const {
-    return Place(where) / "scene.larscene";
-  }
-
-  // Converts a path of the document to a path on disk, and back.
-  std::filesystem::path Resolve(const std::string& path) const;
-  std::string Shorten(const std::filesystem::path& file) const;
-};
 
 // Checks every field. Unknown fields are an error, so that saving never drops them. where: the name
 // of the text in errors.

@@ -1,18 +1,12 @@
 #include "editor/session/recent_projects.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
-#include <span>
 #include <utility>
 
-#include "editor/document/document_fields.h"
-#include "editor/document/project.h"
+#include "editor/document/project_paths.h"
 #include "editor/document/user_folders.h"
-#include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
-#include "shared/image/decode.h"
-#include "shared/image/encode.h"
 
 namespace lararium::editor {
 
@@ -54,22 +48,6 @@ Result<std::vector<RecentProject>> Load(const fs::path& file) {
   return entries;
 }
 
-// The canonical path of a folder, so that each folder has one name.
-fs::path Normal(const fs::path& folder) {
-  std::error_code error;
-  fs::path normal = fs::weakly_canonical(fs::absolute(folder, error), error);
-  if (error) {
-    normal = folder.lexically_normal();
-  }
-  return normal.has_filename() ? normal : normal.parent_path();
-}
-
-fs::path PictureFile(const fs::path& project) {
-  const std::string name = Normal(project).string();
-  return CacheFolder() / "projects" /
-         (bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(name)))) + ".png");
-}
-
 }  // namespace
 
 bool RecentProject::Exists() const {
@@ -106,7 +84,7 @@ Status RecentProjects::Save() const {
 Status RecentProjects::NoteOpened(const RecentProject& project) {
   const Status read = Reload();
   RecentProject noted = project;
-  noted.folder = Normal(project.folder);
+  noted.folder = NormalFolder(project.folder);
   noted.title.resize(std::min(noted.title.size(), kMaxTitleBytes));
   std::erase_if(entries_, [&](const RecentProject& known) { return known.folder == noted.folder; });
   entries_.insert(entries_.begin(), std::move(noted));
@@ -124,7 +102,7 @@ Status RecentProjects::Forget(const fs::path& folder) {
 
 Status RecentProjects::Move(const fs::path& from, const fs::path& to) {
   const Status read = Reload();
-  const fs::path found = Normal(to);
+  const fs::path found = NormalFolder(to);
   std::erase_if(entries_, [&](const RecentProject& known) {
     return known.folder == found && known.folder != from;
   });
@@ -135,25 +113,6 @@ Status RecentProjects::Move(const fs::path& from, const fs::path& to) {
   }
   LARARIUM_RETURN_IF_ERROR(Save());
   return read;
-}
-
-std::optional<cv::Mat> LoadProjectPicture(const fs::path& project) {
-  auto picture = image::ReadImage(PictureFile(project), image::Channels::kBgr);
-  const bool fits = picture.ok() && picture->cols <= kProjectPictureWidth;
-  return fits ? std::optional(std::move(*picture)) : std::nullopt;
-}
-
-Status SaveProjectPicture(const fs::path& project, const cv::Mat& bgr) {
-  cv::Mat small = bgr;
-  if (bgr.cols > kProjectPictureWidth) {
-    const double scale = static_cast<double>(kProjectPictureWidth) / bgr.cols;
-    cv::resize(bgr, small, cv::Size(kProjectPictureWidth, std::max(1, cvRound(bgr.rows * scale))),
-               0, 0, cv::INTER_AREA);
-  }
-  const fs::path file = PictureFile(project);
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  return image::WriteImage(file, small);
 }
 
 }  // namespace lararium::editor

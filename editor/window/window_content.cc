@@ -5,6 +5,7 @@
 
 #include "editor/document/user_folders.h"
 #include "editor/panels/dialogs/dialogs.h"
+#include "editor/session/project_picture.h"
 #include "editor/session/sample.h"
 #include "editor/text/text.h"
 

@@ -193,7 +193,7 @@ function Actor:keep_distance(metres)
     local home = self:where()
     local x, z = host.aside(self.id, 1.4 * metres)
     if not x then
-      return -- There is no room.
+      return  -- No room is left.
     end
     self:look_at("visitor")
     attempt(function()

@@ -26,11 +26,11 @@ Status ValidateMesh(const LightTransfer& transfer,
     for (size_t i = 0; i < 4; ++i) {
       sum += mesh.weights[v][i];
       if (mesh.receivers[v][i] >= transfer.receivers.size()) {
-        return Status::Error(at, "a vertex names a receiver that does not exist");
+        return Status::Error(at, "a vertex names a light receiver that does not exist");
       }
     }
     if (sum != 255 || !std::is_sorted(mesh.weights[v].rbegin(), mesh.weights[v].rend())) {
-      return Status::Error(at, "a vertex has invalid weights for its receivers");
+      return Status::Error(at, "a vertex has invalid weights for its light receivers");
     }
   }
   const bool possible = std::all_of(mesh.scale.begin(), mesh.scale.end(), [](float scale) {

@@ -94,8 +94,8 @@ void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses) 
 }
 
 Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
-                                              std::string_view where) {
-  LARARIUM_ASSIGN_OR_RETURN(const auto entries, ChoosePlaces(bundle, where));
+                                              std::string_view place) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto entries, ChoosePlaces(bundle, place));
   std::vector<ShowPlace> places;
   for (const bundle::PlaceEntry& entry : entries) {
     LARARIUM_ASSIGN_OR_RETURN(places.emplace_back(), LoadPlace(bundle, entry));
@@ -403,15 +403,15 @@ Result<std::string> ChooseLanguage(std::span<const std::string> languages,
 }
 
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
-                                    std::string_view where,
+                                    std::string_view place,
                                     const LanguageChoice& languages,
                                     float finest) {
   const bundle::ShowManifest& manifest = bundle.manifest();
   ShowContent content;
   content.title = manifest.title;
-  LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, where));
+  LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, place));
   for (const bundle::PlaceEntry& entry : manifest.places) {
-    if (!where.empty() && entry.name != where) {
+    if (!place.empty() && entry.name != place) {
       LARARIUM_ASSIGN_OR_RETURN(content.elsewhere.emplace_back(), LoadStage(bundle, entry));
     }
   }

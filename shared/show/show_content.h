@@ -141,14 +141,14 @@ void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses);
 
 // Loads all places of the bundle, or only the named one. Each member's reader validates it.
 Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
-                                              std::string_view where = {});
+                                              std::string_view place = {});
 
 // Loads a show from a bundle at all of its places, or only at the named one. Each member's reader
 // validates it. A line without the chosen language uses the show's first language that it has.
 // finest: detail of the cast in metres, as in human::ParseHuman; if positive, ShowContent::finer
 // reads more detail from the bundle's file.
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
-                                    std::string_view where = {},
+                                    std::string_view place = {},
                                     const LanguageChoice& languages = {},
                                     float finest = 0.0f);
 

@@ -104,7 +104,7 @@ TEST_F(SignatureTest, KeysComeBackFromTheirFiles) {
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   EXPECT_THAT(SaveSecretKey(secret, stranger_).message(), HasSubstr("never replaced"));
   EXPECT_THAT(LoadPublicKey(secret).message(), HasSubstr("is not a public key"));
-  EXPECT_THAT(LoadSecretKey(open).message(), HasSubstr("is no secret key"));
+  EXPECT_THAT(LoadSecretKey(open).message(), HasSubstr("is not a secret key"));
 }
 
 TEST_F(SignatureTest, WhatIsNoKeyIsRefused) {

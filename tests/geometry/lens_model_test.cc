@@ -95,7 +95,7 @@ TEST(LensModel, SaysWhatIsImpossible) {
   };
   EXPECT_NE(with([](LensModel& l) { l.width = 8; }).find("pixels a side"), std::string::npos);
   EXPECT_NE(with([](LensModel& l) { l.fy = 0.0; }).find("focal length"), std::string::npos);
-  EXPECT_NE(with([](LensModel& l) { l.cx = 1000.0; }).find("middle"), std::string::npos);
+  EXPECT_NE(with([](LensModel& l) { l.cx = 1000.0; }).find("centre"), std::string::npos);
   EXPECT_NE(with([](LensModel& l) {
               l.radial[2] = {-0.5, 0.0, 0.0};
             }).find("folds"),

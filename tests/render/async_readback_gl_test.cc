@@ -7,7 +7,7 @@
 namespace lararium::render {
 namespace {
 
-class PictureMirrorTest : public GlTest {
+class AsyncReadbackTest : public GlTest {
  protected:
   // Makes the lower left quarter red (the top row is stored first) and the rest black.
   static void Draw(const RenderTarget& target) {
@@ -31,7 +31,7 @@ class PictureMirrorTest : public GlTest {
   }
 };
 
-TEST_F(PictureMirrorTest, IsTheSamePictureSmaller) {
+TEST_F(AsyncReadbackTest, IsTheSamePictureSmaller) {
   const RenderTarget target = MakeTarget(1280, 720);
   Draw(target);
   AsyncReadback mirror(320);
@@ -46,7 +46,7 @@ TEST_F(PictureMirrorTest, IsTheSamePictureSmaller) {
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(PictureMirrorTest, TakesAnySizeAndAnotherOneNextTime) {
+TEST_F(AsyncReadbackTest, TakesAnySizeAndAnotherOneNextTime) {
   AsyncReadback mirror(320);
   for (const cv::Size size :
        {cv::Size(200, 100), cv::Size(641, 7), cv::Size(1, 1), cv::Size(1920, 1080)}) {
@@ -60,7 +60,7 @@ TEST_F(PictureMirrorTest, TakesAnySizeAndAnotherOneNextTime) {
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(PictureMirrorTest, NothingIsTakenThatWasNotAskedFor) {
+TEST_F(AsyncReadbackTest, NothingIsTakenThatWasNotAskedFor) {
   AsyncReadback mirror(320);
   cv::Mat rgba;
   EXPECT_FALSE(mirror.TryFinish(rgba));

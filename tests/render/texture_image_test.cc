@@ -61,7 +61,7 @@ TEST(DecodeTexture, SaysWhatIsWrongAndWhere) {
   std::vector<std::byte> png = Encode(Noise(CV_8UC3, 2), ".png");
   EXPECT_THAT(DecodeTexture({}, "keeper: texture 'skin'").message(),
               HasSubstr("keeper: texture 'skin': is not a PNG or JPEG"));
-  EXPECT_THAT(DecodeTexture(std::vector<std::byte>(500), "t").message(), HasSubstr("no PNG"));
+  EXPECT_THAT(DecodeTexture(std::vector<std::byte>(500), "t").message(), HasSubstr("not a PNG"));
   std::vector<std::byte> cut(png.begin(), png.begin() + 30);
   EXPECT_THAT(DecodeTexture(cut, "t").message(), HasSubstr("damaged or cut short"));
 }

@@ -9,6 +9,7 @@
 
 #include "editor/document/project.h"
 #include "editor/document/user_folders.h"
+#include "editor/session/project_picture.h"
 #include "shared/core/file.h"
 #include "tests/support/test_files.h"
 

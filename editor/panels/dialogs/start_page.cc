@@ -15,6 +15,7 @@
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
+#include "editor/session/project_picture.h"
 
 namespace lararium::panels {
 
