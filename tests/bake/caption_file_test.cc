@@ -43,12 +43,12 @@ TEST(CaptionFile, SaysWhichLineIsWrong) {
     const char* text;
     const char* problem;
   } mistakes[] = {
-      {"1\n00:00:01,000 -> 00:00:02,500\nx\n", "a.srt: line 1: there is no time"},
+      {"1\n00:00:01,000 -> 00:00:02,500\nx\n", "a.srt: line 1: a time such as"},
       {"1\n00:00:01,000 --> 00:00:02,500\nx\n\n2\n00:00:05,000 --> 00:00:04,000\ny\n",
        "line 5: the caption ends before"},
-      {"1\n00:00:01,00 --> 00:00:02,500\nx\n", "no time"},
-      {"1\n99999999:00:01,000 --> 00:00:02,500\nx\n", "no time"},
-      {"hello\n", "no time"},
+      {"1\n00:00:01,00 --> 00:00:02,500\nx\n", "a time such as"},
+      {"1\n99999999:00:01,000 --> 00:00:02,500\nx\n", "a time such as"},
+      {"hello\n", "a time such as"},
   };
   for (const auto& mistake : mistakes) {
     const auto cues = ParseCaptionFile(mistake.text, "a.srt");

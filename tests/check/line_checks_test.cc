@@ -86,7 +86,7 @@ TEST_F(LineChecksTest, UnknownLinesOfTheScriptAreToldWithTheirPlace) {
                                                    "}}\n"));
   EXPECT_THAT(problems, Contains("drama.lua:2: there is no line 'salve'; add it to lines.csv"));
   EXPECT_THAT(problems,
-              Contains(HasSubstr("drama.lua:5: the line 'salvete' lasts 1.00 s, its place 0.50")));
+              Contains(HasSubstr("drama.lua:5: the line 'salvete' lasts 1.00 s, its item 0.50")));
   EXPECT_THAT(problems, Contains(HasSubstr("drama.lua:6: there is no line 'ave'")));
 }
 
@@ -104,7 +104,7 @@ TEST_F(LineChecksTest, ProblemsAreSaidInTheLanguageOfTheInterfaceAndAsBeforeInEn
   EXPECT_THAT(
       italian,
       ::testing::ElementsAre(
-          "lines.csv:2: battuta 'salvete': nessuno del cast si chiama 'nobody'",
+          "lines.csv:2: battuta 'salvete': nessuna persona del cast si chiama 'nobody'",
           "lines.csv:2: battuta 'salvete': non ha testo in 'la', che è una lingua parlata"));
   EXPECT_THAT(english, ::testing::ElementsAre(
                            "lines.csv:2: line 'salvete': no person of the cast is called 'nobody'",

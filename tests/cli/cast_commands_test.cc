@@ -121,12 +121,12 @@ TEST_F(CastCommands, TheVoiceIsWrittenToListenTo) {
 
 TEST_F(CastCommands, WhatCannotBeIsRefusedAndNothingIsSaved) {
   const Json before = FormatProject(*LoadProject(paths_));
-  EXPECT_THAT(Problem({.remove = "bob"}), HasSubstr("nobody called \"bob\"; it has ada, ben"));
-  EXPECT_THAT(Problem({.name = "bob", .add_clip = "walk.bvh"}), HasSubstr("nobody called \"bob\""));
-  EXPECT_THAT(Problem({.name = "bob", .remove_clip = "walk"}), HasSubstr("nobody called \"bob\""));
+  EXPECT_THAT(Problem({.remove = "bob"}), HasSubstr("no person \"bob\"; it has ada, ben"));
+  EXPECT_THAT(Problem({.name = "bob", .add_clip = "walk.bvh"}), HasSubstr("no person \"bob\""));
+  EXPECT_THAT(Problem({.name = "bob", .remove_clip = "walk"}), HasSubstr("no person \"bob\""));
   EXPECT_THAT(Problem({.name = "ada", .remove_clip = "walk"}), HasSubstr("no recorded motion"));
   EXPECT_THAT(Problem({.name = "bob", .rename_clip = "walk", .to = "go"}),
-              HasSubstr("nobody called \"bob\""));
+              HasSubstr("no person \"bob\""));
   EXPECT_THAT(Problem({.name = "ada", .rename_clip = "walk", .to = "go"}),
               HasSubstr("no recorded motion"));
   EXPECT_THAT(Problem({.name = "ada", .add_clip = folder_ / "none.bvh"}), HasSubstr("none.bvh"));

@@ -63,12 +63,12 @@ TEST_F(LineCommands, WhatCannotBeIsRefusedAndNothingIsSaved) {
     return Run(std::move(options)).status().message();
   };
   EXPECT_THAT(problem({.add = "hail"}), HasSubstr("already"));
-  EXPECT_THAT(problem({.add = "a line"}), HasSubstr("no name"));
+  EXPECT_THAT(problem({.add = "a line"}), HasSubstr("not a valid name"));
   EXPECT_THAT(problem({.set = "hali", .speaker = "keeper"}), HasSubstr("there are hail"));
   EXPECT_THAT(problem({.remove = "hali"}), HasSubstr("no line \"hali\""));
   EXPECT_THAT(problem({.set = "hail", .texts = {"Salvete"}}), HasSubstr("la=Salvete!"));
   EXPECT_THAT(problem({.set = "hail", .texts = {"la=Ave", "latin!=Ave"}}), HasSubstr("--text"));
-  EXPECT_THAT(problem({.add_language = "latin!"}), HasSubstr("no language tag"));
+  EXPECT_THAT(problem({.add_language = "latin!"}), HasSubstr("not a valid language tag"));
   EXPECT_EQ(Saved(), before);
 }
 

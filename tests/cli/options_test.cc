@@ -310,7 +310,7 @@ TEST(EditorOptions, PlaceDoesOneWorkWithAllThatItNeeds) {
   EXPECT_THAT(Refusal({"place", "p", "--rename", "site"}), HasSubstr("--to"));
   EXPECT_THAT(Refusal({"place", "p", "--add", "bar", "--remove", "bar"}), HasSubstr("--"));
   EXPECT_THAT(Refusal({"place", "p", "--set", "bar"}), HasSubstr("needs a change"));
-  EXPECT_THAT(Refusal({"place", "p", "--occluders-of", "bar"}), HasSubstr("which one"));
+  EXPECT_THAT(Refusal({"place", "p", "--occluders-of", "bar"}), HasSubstr("needs a"));
 }
 
 TEST(EditorOptions, WhatTheCameraViewPlaysIsAFileOrFolderThatIsThere) {
@@ -383,7 +383,7 @@ TEST(EditorOptions, ThingsAreBuiltInOrModels) {
   EXPECT_THAT(Refusal({"object", "p", "--add", "jug"}), HasSubstr("--model, or --file"));
   EXPECT_THAT(Refusal({"object", "p", "--add", "jug", "--model", "spaceship"}),
               HasSubstr("spaceship"));
-  EXPECT_THAT(Refusal({"object", "p", "--at", "0,0,0"}), HasSubstr("which one"));
+  EXPECT_THAT(Refusal({"object", "p", "--at", "0,0,0"}), HasSubstr("needs a"));
   EXPECT_THAT(Refusal({"sound", "p", "--bring", "sea"}), HasSubstr("--file"));
   EXPECT_THAT(Refusal({"sound", "p", "--gain", "1"}), HasSubstr("--ambience"));
 }

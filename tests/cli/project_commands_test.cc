@@ -56,7 +56,7 @@ TEST_F(ProjectCommands, AProjectIsRenamedAndTheRestStays) {
 TEST_F(ProjectCommands, LanguagesAreTagsEachOnce) {
   const Json before = FormatProject(Saved());
   for (const char* wrong : {"latin!", "la,la", "la,", ","}) {
-    EXPECT_THAT(Project({.spoken = wrong}).status().message(), HasSubstr("no language tag"))
+    EXPECT_THAT(Project({.spoken = wrong}).status().message(), HasSubstr("not a valid language tag"))
         << wrong;
   }
   EXPECT_EQ(FormatProject(Saved()), before);
@@ -93,7 +93,7 @@ TEST_F(ProjectCommands, APlaceIsRenamedWithItsFolderAndAllThatLiesInIt) {
 
   ASSERT_TRUE(Place({.remove = "maquette"}).ok());
   EXPECT_THAT(Place({.rename = "tavern", .to = "maquette"}).status().message(),
-              HasSubstr("of a place that was removed"));
+              HasSubstr("to a place that was removed"));
   EXPECT_THAT(Places(), ElementsAre("tavern"));
 }
 
@@ -137,7 +137,7 @@ TEST_F(ProjectCommands, AsAnEditARenamedPlaceHasItsFolderUnderBothNames) {
 
 TEST_F(ProjectCommands, TheFolderOfAnotherMapGivesItsNameToNoPlace) {
   EXPECT_THAT(GiveFolderOtherName(paths_, "site", "maquette").message(),
-              HasSubstr("of a place that was removed"));
+              HasSubstr("to a place that was removed"));
   EXPECT_TRUE(GiveFolderOtherName(paths_, "moon", "sea").ok()) << "not trained: without a folder";
   EXPECT_FALSE(std::filesystem::exists(paths_.Place("sea")));
 }
@@ -185,7 +185,7 @@ TEST_F(ProjectCommands, WhatNoPlaceIsCalledIsTold) {
   EXPECT_THAT(Place({.remove = "moon"}).status().message(),
               HasSubstr("has no place \"moon\"; it has maquette, site"));
   EXPECT_THAT(Place({.add = "site"}).status().message(), HasSubstr("already"));
-  EXPECT_THAT(Place({.rename = "site", .to = "a site"}).status().message(), HasSubstr("no name"));
+  EXPECT_THAT(Place({.rename = "site", .to = "a site"}).status().message(), HasSubstr("not a valid name"));
   EXPECT_THAT(Place({.set = "site", .occluders_of = "moon"}).status().message(),
               HasSubstr("no place \"moon\""));
   EXPECT_EQ(FormatProject(Saved()), before);

@@ -96,9 +96,9 @@ TEST_F(StageCommands, WhatCannotBeIsRefusedAndNothingIsSaved) {
               HasSubstr("choose one of origin, forward, floor, length_from, length_to"));
   EXPECT_THAT(problem({.picks = {"origin"}}), HasSubstr("POINT=FRAME,x,y"));
   EXPECT_THAT(problem({.picks = {"origin=1.png,3"}}), HasSubstr("FRAME,x,y"));
-  EXPECT_THAT(problem({.picks = {"origin=99.png,3,4"}}), HasSubstr("no training image"));
+  EXPECT_THAT(problem({.picks = {"origin=99.png,3,4"}}), HasSubstr("not a training image"));
   EXPECT_THAT(problem({.picks = {"origin=1.png,3,99999"}}), HasSubstr("outside of the image"));
-  EXPECT_THAT(problem({.clear = {"middle"}}), HasSubstr("no point of the stage"));
+  EXPECT_THAT(problem({.clear = {"middle"}}), HasSubstr("not a point of the stage"));
   EXPECT_THAT(problem({.clear = {"origin=99.png"}}), HasSubstr("it was picked in"));
   EXPECT_THAT(problem({.clear = {"length_to=99.png"}}), HasSubstr("picked nowhere"));
   EXPECT_THAT(problem({.tag_size = 0.1, .tag_family = "tag9h9"}), HasSubstr("tag9h9"));

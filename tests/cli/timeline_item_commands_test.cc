@@ -99,11 +99,11 @@ TEST_F(TimelineItems, WhatCannotBeIsRefusedAndNothingIsWritten) {
     return Run(std::move(options)).status().message();
   };
   EXPECT_THAT(problem({.items = {"hall"}, .move = 1.0}), HasSubstr("no item \"hall\""));
-  EXPECT_THAT(problem({.add = "songs", .at = 1.0}), HasSubstr("no lane"));
+  EXPECT_THAT(problem({.add = "songs", .at = 1.0}), HasSubstr("not a lane"));
   EXPECT_THAT(problem({.add = "speech", .actor = "cook", .at = 1.0, .fields = {"line=vale"}}),
-              HasSubstr("nobody called \"cook\"; it has keeper"));
+              HasSubstr("no person \"cook\"; it has keeper"));
   EXPECT_THAT(problem({.add = "markers", .actor = "keeper", .at = 1.0, .fields = {"name=a"}}),
-              HasSubstr("the stage's"));
+              HasSubstr("belong to the stage"));
   EXPECT_THAT(problem({.add = "speech", .actor = "keeper", .at = 1.0}), HasSubstr("line=..."));
   EXPECT_THAT(problem({.add = "walks", .actor = "keeper", .at = 1.0}), HasSubstr("hide=yes"));
   EXPECT_THAT(problem({.items = {"hail"}, .fields = {"lin=vale"}}), HasSubstr("it has at, length"));

@@ -118,7 +118,7 @@ TEST_F(JournalTest, ReadsVersionOneWhichKnewNoLines) {
   EXPECT_EQ(MustLoad().project.lines, nullptr);
   text.replace(0, 19, "lararium journal 3\n");
   ASSERT_TRUE(WriteFileAtomically(file_, text).ok());
-  EXPECT_THAT(LoadJournal(file_, nullptr).message(), HasSubstr("no journal of this version"));
+  EXPECT_THAT(LoadJournal(file_, nullptr).message(), HasSubstr("not written by this version"));
 }
 
 TEST_F(JournalTest, TheFuzzersSeedsAreWholeJournals) {

@@ -190,7 +190,7 @@ TEST_F(MissingFilesTest, WhatIsNoRecordingIsNotBroughtIn) {
   EXPECT_THAT(BringInSound(paths_, "bell", folder_ / "noise.wav").message(),
               testing::HasSubstr("noise.wav"));
   EXPECT_THAT(BringInSound(paths_, "bell", folder_ / "noise.txt").message(),
-              testing::HasSubstr("is no recording"));
+              testing::HasSubstr("is not a sound file"));
   EXPECT_THAT(BringInSound(paths_, "../bell", folder_ / "noise.wav").message(),
               testing::HasSubstr("cannot be the name"));
   EXPECT_FALSE(fs::exists(paths_.folder / "audio/bell.wav"));

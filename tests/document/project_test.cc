@@ -139,7 +139,7 @@ TEST(Project, SurvivesWritingAndReading) {
 TEST(Project, CheckPointsHaveNamesOfTheirOwn) {
   Json json = FormatProject(FullDocument());
   json["check_points"][1]["name"] = "counter, left";
-  EXPECT_THAT(ParseError(json).message(), HasSubstr("there twice"));
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("used twice"));
   json["check_points"][1]["name"] = "";
   EXPECT_THAT(ParseError(json).message(), HasSubstr("check_points[1]"));
   json["check_points"][1]["name"] = "door";
@@ -174,7 +174,7 @@ TEST(Project, TheOneProbeOfOlderProjectsIsAListOfOne) {
   Json json = FormatProject(FullDocument());
   Json& place = json["places"][0];
   place["probe"] = {{"file", "old.exr"}, {"rotation", {1, 0, 0, 0}}, {"scale", 0.7}};
-  EXPECT_THAT(ParseError(json).message(), HasSubstr("beside \"probes\""));
+  EXPECT_THAT(ParseError(json).message(), HasSubstr("together with \"probes\""));
   place.erase("probes");
   const Result<ProjectDocument> read = ParseProject(json, "project.json");
   ASSERT_TRUE(read.ok()) << read.message();

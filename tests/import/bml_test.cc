@@ -136,7 +136,7 @@ TEST(Bml, WhatIsNotSupportedIsToldWithItsPlace) {
        {"a.xml:2: gesture 'x': 'keeper' has no clip 'beat'", "a.xml:3: dance 'd': is not supported",
         "a.xml:4: speech 's': no line has the text 'Nobody says this'",
         "gaze 'g': there is no actor or object called 'nobody'",
-        "locomotion 'l': 'the moon' is no object", "posture 'p': sitting needs a seat",
+        "locomotion 'l': 'the moon' is neither an object nor a position", "posture 'p': sitting needs a seat",
         "posture 'p': poses of parts", "faceFacs 'f': action unit 12 is shown as 'joy'",
         "faceFacs 'f99': there is no expression", "gesture 'loop1': waits for a point",
         "gesture 'early': would begin before", "gesture 'two': its stroke comes at 2.00 s",
@@ -150,7 +150,7 @@ TEST(Bml, NobodyItKnowsIsAskedFor) {
   const auto imported =
       ImportBml("<bml characterId=\"Bob\"><gaze target=\"x\"/></bml>", "a.xml", World());
   ASSERT_TRUE(imported.ok());
-  EXPECT_THAT(imported->warnings, Contains(HasSubstr("say who it is with --actor Bob=NAME")));
+  EXPECT_THAT(imported->warnings, Contains(HasSubstr("name one with --actor Bob=NAME")));
   EXPECT_THAT(imported->items, IsEmpty());
 }
 

@@ -73,12 +73,12 @@ TEST(Osc, BundlesAreTakenApartInTheirOrder) {
 }
 
 TEST(Osc, WhatIsNotAsOscSaysIsRefusedAsAWhole) {
-  EXPECT_THAT(Refusal({}), HasSubstr("no message"));
-  EXPECT_THAT(Refusal(std::vector<std::byte>(4)), HasSubstr("no message"));
-  EXPECT_THAT(Refusal(std::vector<std::byte>(64, std::byte{'/'})), HasSubstr("no message"));
-  EXPECT_THAT(Refusal(Packet("/a b", "")), HasSubstr("no message"));
-  EXPECT_THAT(Refusal(Packet("/a,1", "")), HasSubstr("no message"));
-  EXPECT_THAT(Refusal(Packet("/a\n0 1", "")), HasSubstr("no message")) << "a line of a log";
+  EXPECT_THAT(Refusal({}), HasSubstr("not a valid message"));
+  EXPECT_THAT(Refusal(std::vector<std::byte>(4)), HasSubstr("not a valid message"));
+  EXPECT_THAT(Refusal(std::vector<std::byte>(64, std::byte{'/'})), HasSubstr("not a valid message"));
+  EXPECT_THAT(Refusal(Packet("/a b", "")), HasSubstr("not a valid message"));
+  EXPECT_THAT(Refusal(Packet("/a,1", "")), HasSubstr("not a valid message"));
+  EXPECT_THAT(Refusal(Packet("/a\n0 1", "")), HasSubstr("not a valid message")) << "a line of a log";
   EXPECT_THAT(Refusal(Packet("/a", "iiiiiiiii", 1, 2, 3, 4, 5, 6, 7, 8, 9)),
               HasSubstr("more than 8"));
   EXPECT_THAT(Refusal(Packet("/a", "s", std::string(500, 'a').c_str())), HasSubstr("400 bytes"));
@@ -90,7 +90,7 @@ TEST(Osc, WhatIsNotAsOscSaysIsRefusedAsAWhole) {
   EXPECT_THAT(Refusal(cut), HasSubstr("do not match its types"));
   std::vector<std::byte> bundle = Bundle({Packet("/a", ""), Packet("/b", "")});
   bundle.pop_back();
-  EXPECT_THAT(Refusal(bundle), HasSubstr("ends early"));
+  EXPECT_THAT(Refusal(bundle), HasSubstr("is cut off"));
   std::vector<std::byte> deep = Packet("/a", "");
   for (int i = 0; i < 5; ++i) {
     deep = Bundle({deep});
@@ -121,7 +121,7 @@ TEST(ListenAddress, NamesAPortOfThisMachineOrOfANetwork) {
   EXPECT_THAT(ParseListenAddress("--osc", "0").message(), HasSubstr("1 to 65535"));
   EXPECT_THAT(ParseListenAddress("--osc", "70000").message(), HasSubstr("1 to 65535"));
   EXPECT_THAT(ParseListenAddress("--osc", "nowhere0:9000").message(),
-              HasSubstr("no network interface"));
+              HasSubstr("not an IPv4 address or a network interface"));
 }
 
 TEST(OscListener, HearsThisMachineAndRefusesNoise) {
