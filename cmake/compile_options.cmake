@@ -31,6 +31,8 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 if(LARARIUM_SANITIZE)
   target_compile_options(lararium_options INTERFACE
     -fsanitize=${LARARIUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  # Says the same for every compiler and sanitizer; clang 14 does not define __SANITIZE_ADDRESS__.
+  target_compile_definitions(lararium_options INTERFACE LARARIUM_SANITIZED)
   target_link_options(lararium_options INTERFACE -fsanitize=${LARARIUM_SANITIZE})
 endif()
 

@@ -121,7 +121,7 @@ constexpr const char* kOfPage[] = {
     "restart_syscall",
     "exit",
     "exit_group",
-#ifdef __SANITIZE_ADDRESS__
+#ifdef LARARIUM_SANITIZED
     // Sanitizers use pipes to check whether memory is mapped.
     "pipe",
     "pipe2",

@@ -14,7 +14,7 @@ namespace lararium {
                                 : ::lararium::CheckFailed(__FILE__, __LINE__, #condition))
 
 // For inner loops: checked in debug and sanitizer builds only.
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__OPTIMIZE__) && !defined(LARARIUM_SANITIZED)
 #define DCHECK(condition) static_cast<void>(0)
 #else
 #define DCHECK(condition) CHECK(condition)

@@ -59,8 +59,7 @@ Result<JsonView> JsonView::Field(std::string_view key) const {
   if (found == json_->end()) {
     return Problem("the field \"" + std::string(key) + "\" is missing");
   }
-  const bool at_root = place_.ends_with(".json") || place_.find(": ") == std::string::npos;
-  return JsonView(*found, place_ + (at_root ? ": " : ".") + std::string(key));
+  return JsonView(*found, file_, (path_.empty() ? "" : path_ + ".") + std::string(key));
 }
 
 Result<std::vector<JsonView>> JsonView::Array(size_t max_count) const {
@@ -73,7 +72,9 @@ Result<std::vector<JsonView>> JsonView::Array(size_t max_count) const {
   std::vector<JsonView> views;
   views.reserve(json_->size());
   for (size_t i = 0; i < json_->size(); ++i) {
-    views.emplace_back((*json_)[i], place_ + "[" + std::to_string(i) + "]");
+    const std::string index = "[" + std::to_string(i) + "]";
+    views.push_back(path_.empty() ? JsonView((*json_)[i], file_ + index)
+                                  : JsonView((*json_)[i], file_, path_ + index));
   }
   return views;
 }

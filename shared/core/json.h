@@ -27,12 +27,15 @@ Status SaveJson(const std::filesystem::path& path, const Json& json);
 // "project.json: stage.scale: must be a finite number".
 class JsonView {
  public:
-  JsonView(const Json& json, std::string where) : json_(&json), place_(std::move(where)) {}
+  // path: the field of the file that holds the value, such as "stage.scale"; empty: the file
+  // itself.
+  JsonView(const Json& json, std::string file, std::string path = {})
+      : json_(&json), file_(std::move(file)), path_(std::move(path)) {}
 
   const Json& json() const { return *json_; }
-  const std::string& place() const { return place_; }
+  std::string place() const { return path_.empty() ? file_ : file_ + ": " + path_; }
   Status Problem(std::string_view problem, std::string_view remedy = {}) const {
-    return Status::Error(place_, problem, remedy);
+    return Status::Error(place(), problem, remedy);
   }
 
   // Returns an error if this is no object or has a field that is not listed.
@@ -64,7 +67,8 @@ class JsonView {
 
  private:
   const Json* json_;
-  std::string place_;
+  std::string file_;
+  std::string path_;
 };
 
 }  // namespace lararium

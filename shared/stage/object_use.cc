@@ -416,6 +416,10 @@ class UseReader {
                                       : "the action needs a place where the actor stands",
                           action.held ? "" : "add one to \"places\"");
     }
+    if (action.places == 0) {
+      return view.Problem("the list \"places\" is empty",
+                          "name a place in it, or remove it to allow every place");
+    }
     LARARIUM_ASSIGN_OR_RETURN(action.hands, ReadHands(view));
     LARARIUM_ASSIGN_OR_RETURN(const double duration,
                               ReadNumber(view, "duration", 1.0, 0.0, kMaxActionSeconds));

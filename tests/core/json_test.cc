@@ -34,6 +34,22 @@ TEST(JsonView, ErrorsNameTheField) {
   EXPECT_EQ(stage.Numbers("axes", 3).message(), "p.json: stage.axes: must be a list of 3 numbers");
 }
 
+TEST(JsonView, TheFileMayHaveAnyName) {
+  const Json json = {{"stage", {{"scale", "big"}}}};
+  for (const std::string file : {"A place: one.json", "a: b", "Chapel", "x.json"}) {
+    const JsonView stage = JsonView(json, file).Field("stage").value();
+    EXPECT_EQ(stage.place(), file + ": stage");
+    EXPECT_EQ(stage.Number("scale").message(), file + ": stage.scale: must be a finite number");
+  }
+}
+
+TEST(JsonView, ElementsOfAListCarryTheirIndex) {
+  const Json json = {{{"name", 1}}, {{"sizes", {1, "x"}}}};
+  const std::vector<JsonView> list = JsonView(json, "p.json").Array().value();
+  EXPECT_EQ(list[0].Text("name").message(), "p.json[0]: name: must be a text");
+  EXPECT_EQ(list[1].Numbers("sizes", 2).message(), "p.json[1]: sizes[1]: must be a finite number");
+}
+
 TEST(JsonView, ChecksRanges) {
   const Json json = {{"n", 5}, {"big", 1e300}, {"huge", 18446744073709551615ULL}, {"t", "abc"}};
   const JsonView view(json, "p.json");

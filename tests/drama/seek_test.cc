@@ -147,7 +147,7 @@ TEST_F(SeekingTest, AForgottenPastIsPlayedAgainFromTheBeginning) {
 }
 
 TEST_F(SeekingTest, AForgottenPastTakesNoMemoryHoweverLongItWas) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef LARARIUM_SANITIZED
   GTEST_SKIP() << "the sanitizer keeps the memory";
 #endif
   // Growth of memory in ten minutes, after a first minute; bytes.

@@ -10,7 +10,7 @@ namespace {
 const CameraTraits kTraits = {640, 0.01f, 0.0005f, 0.75f, 0.625f, 0.5f};
 
 std::string Error(const Json& json) {
-  return ParseCameraTraits(JsonView(json, "device.json: look")).status().message();
+  return ParseCameraTraits(JsonView(json, "device.json", "look")).status().message();
 }
 
 TEST(CameraTraits, SurviveWritingAndReading) {

@@ -11,7 +11,7 @@ namespace {
 
 Result<Headset> Parse(std::string_view text) {
   const Json json = ParseJson(text, "device.json").value();
-  return ParseHeadset(JsonView(json, "device.json: headset"));
+  return ParseHeadset(JsonView(json, "device.json", "headset"));
 }
 
 std::string Problem(std::string_view text) { return Parse(text).status().message(); }

@@ -12,7 +12,7 @@ namespace {
 
 Result<Buttons> ParseActions(std::string_view text) {
   const Json json = ParseJson(text, "device.json").value();
-  return ParseButtons(JsonView(json, "device.json: buttons"));
+  return ParseButtons(JsonView(json, "device.json", "buttons"));
 }
 
 TEST(Buttons, OfKeyboardsAndControllersDoTheSame) {

@@ -89,6 +89,8 @@ TEST(ObjectUse, ErrorsNameTheFieldAndTheRemedy) {
       {R"("grips": {"g": {"at": [0, 0, 1e9], "palm": [0, 1, 0], "fingers": [1, 0, 0]}})",
        "out of range"},
       {R"("actions": {"open": {}})", "needs a place"},
+      {R"("places": {"p": {"at": [0, 1]}}, "actions": {"open": {"places": []}})",
+       "the list \"places\" is empty"},
       {R"("places": {"p": {"at": [0, 1]}}, "actions": {"open": {"to": "gone"}})",
        "there is no state 'gone'"},
       {R"("places": {"p": {"at": [0, 1]}}, "actions": {"open": {"hands": {"right": "x"}}})",

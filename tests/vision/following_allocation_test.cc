@@ -51,7 +51,7 @@ void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::fre
 void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
 
 // The sanitizers replace these functions themselves.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(LARARIUM_SANITIZED)
 extern "C" {
 void* __libc_malloc(size_t size);                      // NOLINT
 void* __libc_calloc(size_t count, size_t size);        // NOLINT

@@ -23,7 +23,7 @@ namespace {
 constexpr char kDone = 'D', kFailed = 'F';
 constexpr size_t kMaxMessageBytes = size_t{2} << 30;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef LARARIUM_SANITIZED
 constexpr bool kSanitized = true;  // A limit would count the shadow memory of sanitizers.
 #else
 constexpr bool kSanitized = false;

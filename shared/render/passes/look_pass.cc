@@ -122,7 +122,9 @@ void LookPass::BindFor(const ShaderProgram& composite,
   composite.Set("noise_is_on", noisy ? 1 : 0);
   composite.Set("noise", glm::vec2(look.noise_floor * look.noise_floor, look.noise_slope));
   Random random(look.frame, 1);
-  composite.Set("noise_offset", glm::vec2(random.Below(kTile), random.Below(kTile)));
+  const uint32_t offset_y = random.Below(kTile);
+  const uint32_t offset_x = random.Below(kTile);
+  composite.Set("noise_offset", glm::vec2(offset_x, offset_y));
   glActiveTexture(GL_TEXTURE0 + kUnit);
   if (noisy && noise_tile_.id() == 0) {
     MakeNoiseTile();
