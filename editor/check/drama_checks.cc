@@ -137,31 +137,6 @@ std::vector<WrittenMarker> MarkersOf(const drama::TimelineText& timeline) {
   return markers;
 }
 
-bool IsKind(LaneKind lane, const TaskRecord& task) {
-  switch (lane) {
-    case LaneKind::kWalks:
-      return task.action == "walk_to" || task.action == "hide" || task.action.empty();
-    case LaneKind::kUses:
-      return IsBodily(task) && task.action != "walk_to" && task.action != "turn_to";
-    case LaneKind::kSpeech:
-      return task.action.starts_with("say");
-    case LaneKind::kGestures:
-      return task.action.starts_with("gesture");
-    case LaneKind::kGaze:
-      return task.action == "look_at";
-    case LaneKind::kExpressions:
-      return task.action.starts_with("express");
-    case LaneKind::kDescriptions:
-      return task.action.starts_with("describe");
-    case LaneKind::kCaptions:
-      return task.action.starts_with("caption");
-    case LaneKind::kMarkers:
-      return task.action.starts_with("marker");
-    default:
-      return false;
-  }
-}
-
 bool IsVisitors(std::string_view kind) { return kind != "marker" && kind != "timeout"; }
 
 // The intersection of a segment with a triangle as a share of the segment (Moeller & Trumbore,
@@ -215,7 +190,8 @@ void PlaceItems(const std::string& script,
       const std::string where = file + ":" + std::to_string(timeline->LineOf({l, i}));
       for (TaskRecord& task : tasks) {
         const bool is_then = task.began >= lane.at[i] - 1e-6 && task.began < lane.at[i] + kTick;
-        if (task.from_timeline && is_then && task.actor == lane.actor && IsKind(lane.kind, task)) {
+        if (task.from_timeline && is_then && task.actor == lane.actor &&
+            drama::LaneOfTask(task.action) == lane.kind) {
           task.where = where;
         }
       }
@@ -457,7 +433,7 @@ std::vector<Sentence> StepListener::Problems(const std::string& script,
     }
     for (size_t l = 0; timeline.ok() && l < timeline->lanes().size(); ++l) {
       const drama::TimelineLane& lane = timeline->lanes()[l];
-      for (size_t i = 0; lane.kind == LaneKind::kClips && i < lane.size(); ++i) {
+      for (size_t i = 0; drama::SpecOf(lane.kind).leads_body && i < lane.size(); ++i) {
         if (lane.actor == step.actor && lane.at[i] <= step.time && lane.at[i] > latest) {
           place = file + ":" + std::to_string(timeline->LineOf({l, i}));
           latest = lane.at[i];

@@ -262,9 +262,9 @@ std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
   }
   for (size_t l = 0; l < timeline->lanes().size(); ++l) {
     const drama::TimelineLane& lane = timeline->lanes()[l];
-    const bool described = lane.kind == drama::LaneKind::kDescriptions;
-    for (size_t i = 0; (described || lane.kind == drama::LaneKind::kSpeech) && i < lane.size();
-         ++i) {
+    const drama::LineUse use = drama::SpecOf(lane.kind).line;
+    const bool described = use == drama::LineUse::kDescription;
+    for (size_t i = 0; (described || use == drama::LineUse::kSpoken) && i < lane.size(); ++i) {
       const std::optional<Json> id = timeline->Field({l, i}, "line");
       if (!id || !id->is_string()) {
         continue;

@@ -6,8 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "editor/document/timeline_fields.h"
-
 namespace lararium::editor {
 
 using drama::LaneKind;
@@ -94,7 +92,8 @@ double PlayedSeconds(std::span<const drama::TaskRecord> tasks,
       std::lower_bound(tasks.begin(), tasks.end(), at - 1e-6,
                        [](const drama::TaskRecord& t, double time) { return t.began < time; });
   for (; task != tasks.end() && task->began <= at + kLate; ++task) {
-    if (task->from_timeline && task->actor == lane.actor && LaneOfTask(task->action) == lane.kind) {
+    if (task->from_timeline && task->actor == lane.actor &&
+        drama::LaneOfTask(task->action) == lane.kind) {
       return task->ended - task->began;
     }
   }
@@ -205,7 +204,7 @@ double ClampMove(const TimelineText& text, const ItemSet& items, double seconds,
   double most = std::numeric_limits<double>::max();
   std::vector<uint8_t> moves;
   for (size_t lane = 0; lane < text.lanes().size(); ++lane) {
-    if (text.lanes()[lane].kind != LaneKind::kClips) {
+    if (!drama::SpecOf(text.lanes()[lane].kind).leads_body) {
       continue;
     }
     moves.assign(text.lanes()[lane].size(), 0);
@@ -263,20 +262,22 @@ Status TrimEnds(TimelineText& text,
 
 double NaturalSeconds(const TimelineText& text, const TimelineItem& item, const DramaRun& run) {
   const TimelineLane& lane = text.lanes()[item.lane];
-  const std::string line = TextField(text, item, "line");
-  if (!line.empty()) {
-    const StageWords::Line* known = run.words.FindLine(line);
-    return known != nullptr ? known->seconds : 0.0;
-  }
-  switch (lane.kind) {
-    case LaneKind::kGestures:
-      return run.words.ClipSeconds(lane.actor, TextField(text, item, "clip"));
-    case LaneKind::kWalks:
-    case LaneKind::kUses:
+  const drama::LaneSpec& spec = drama::SpecOf(lane.kind);
+  const std::string content = TextField(text, item, spec.content);
+  switch (spec.duration) {
+    case drama::ItemDuration::kLine: {
+      const StageWords::Line* known = run.words.FindLine(content);
+      return known != nullptr ? known->seconds : 0.0;
+    }
+    case drama::ItemDuration::kClip:
+      return run.words.ClipSeconds(lane.actor, content);
+    case drama::ItemDuration::kTask:
       return PlayedSeconds(run.tasks, lane, lane.at[item.item]);
-    default:
-      return 0.0;
+    case drama::ItemDuration::kNothing:
+    case drama::ItemDuration::kMoment:
+      break;
   }
+  return 0.0;
 }
 
 Status DeleteItems(TimelineText& text, const ItemSet& items, bool with_later) {

@@ -69,7 +69,7 @@ struct TimelineOptions {
   std::filesystem::path out = {};        // .otio for other programs; nothing is edited then.
   std::string spoken = {};               // Spoken language; empty: the project's first.
   double seconds = 60.0;                 // Seconds of the drama to run.
-  std::string add = {};                  // Lane for a new item (drama::kLaneNames).
+  std::string add = {};                  // Lane for a new item (drama::LaneSpecs).
   std::string actor = {};                // Actor of the new item; empty: the stage.
   std::optional<double> at = {};         // Time in the drama, seconds.
   std::vector<std::string> items = {};   // Items to change: ACTOR/LANE/NUMBER, or ids.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "editor/check/drama_run.h"
+#include "editor/check/timeline_edits.h"
 #include "editor/cli/timeline_item_commands.h"
 #include "editor/document/project.h"
 #include "editor/document/timeline_fields.h"
@@ -30,17 +31,12 @@ using exporter::TimelineBlock;
 // ---- Timeline ----
 
 // The name of an item in another program.
-std::string NameOfItem(LaneKind kind, const Json& fields) {
-  switch (kind) {
-    case LaneKind::kWalks:
-      return fields.contains("to") ? "walk" : fields.contains("hide") ? "hide" : "place";
-    case LaneKind::kUses:
-      return TextOf(fields, "action") + " " + TextOf(fields, "object");
-    case LaneKind::kGaze:
-      return "look at " + TextOf(fields, "target");
-    default:
-      return TextOf(fields, NamingField(kind));
+std::string NameOfItem(const drama::LaneSpec& lane, const Json& fields) {
+  const std::string name = LabelTexts(lane, fields);
+  if (name.empty() && lane.walks) {
+    return fields.contains("to") ? "walk" : fields.contains("hide") ? "hide" : "place";
   }
+  return lane.kind == LaneKind::kGaze ? "look at " + name : name;
 }
 
 class TimelineMaker {
@@ -79,7 +75,7 @@ class TimelineMaker {
       if (task.action.starts_with("say ")) {
         AddVoice(task.action.substr(4), block);
       }
-      Track(LaneOfTask(task.action), task.actor).push_back(std::move(block));
+      Track(drama::LaneOfTask(task.action), task.actor).push_back(std::move(block));
     }
   }
 
@@ -93,7 +89,7 @@ class TimelineMaker {
     }
     owners.emplace_back();
     for (const std::string& owner : owners) {
-      for (const drama::LaneName& lane : drama::kLaneNames) {
+      for (const drama::LaneSpec& lane : drama::LaneSpecs()) {
         const auto found = tracks_.find({owner, lane.kind});
         if (found == tracks_.end()) {
           continue;
@@ -102,9 +98,8 @@ class TimelineMaker {
           timeline.markers = std::move(found->second);
           continue;
         }
-        const bool audio = lane.kind == LaneKind::kSpeech || lane.kind == LaneKind::kSounds;
         timeline.tracks.push_back({(owner.empty() ? "" : owner + " ") + std::string(lane.name),
-                                   audio, std::move(found->second)});
+                                   lane.audible, std::move(found->second)});
       }
     }
     return timeline;
@@ -123,23 +118,18 @@ class TimelineMaker {
   }
 
   // The end of an item in the run, or after the duration of what it names.
-  double EndOf(const drama::TimelineLane& lane, size_t item, const Json& fields) const {
-    const double at = lane.at[item];
+  double EndOf(const drama::TimelineText& text, drama::TimelineItem item) const {
+    const drama::TimelineLane& lane = text.lanes()[item.lane];
+    const double at = lane.at[item.item];
     for (const drama::TaskRecord& task : run_.tasks) {
-      if (task.from_timeline && task.actor == lane.actor && LaneOfTask(task.action) == lane.kind &&
+      if (task.from_timeline && task.actor == lane.actor &&
+          drama::LaneOfTask(task.action) == lane.kind &&
           std::abs(task.began - at) < 1.0 / drama::Drama::kTicksPerSecond) {
-        return std::max(task.ended, at + lane.length[item]);
+        return std::max(task.ended, at + lane.length[item.item]);
       }
     }
-    double length = lane.length[item];
-    const bool said = lane.kind == LaneKind::kSpeech || lane.kind == LaneKind::kDescriptions;
-    if (length <= 0.0 && said) {
-      const StageWords::Line* line = run_.words.FindLine(TextOf(fields, "line"));
-      length = line == nullptr ? 0.0 : line->seconds;
-    } else if (length <= 0.0 && lane.kind == LaneKind::kGestures) {
-      length = run_.words.ClipSeconds(lane.actor, TextOf(fields, "clip"));
-    }
-    return at + length;
+    return at + (lane.length[item.item] > 0.0 ? lane.length[item.item]
+                                              : NaturalSeconds(text, item, run_));
   }
 
   void AddItem(const drama::TimelineText& text, drama::TimelineItem item) {
@@ -148,20 +138,22 @@ class TimelineMaker {
     for (const drama::TimelineField& field : text.Fields(item)) {
       fields[field.key] = field.value;
     }
+    const drama::LaneSpec& spec = drama::SpecOf(lane.kind);
     TimelineBlock block;
-    block.name = NameOfItem(lane.kind, fields);
+    block.name = NameOfItem(spec, fields);
     block.begin = lane.at[item.item];
-    block.end = EndOf(lane, item.item, fields);
+    block.end = EndOf(text, item);
     block.metadata = {
         {"from", "timeline"},
-        {"lane", drama::NameOf(lane.kind)},
+        {"lane", spec.name},
         {"actor", lane.actor},
         {"where", paths_.Drama().filename().string() + ":" + std::to_string(text.LineOf(item))},
         {"item", fields}};
-    if (lane.kind == LaneKind::kSpeech) {
-      AddVoice(TextOf(fields, "line"), block);
-    } else if (lane.kind == LaneKind::kSounds) {
-      const auto found = sounds_.find(TextOf(fields, "sound"));
+    const std::string content = TextOf(fields, spec.content);
+    if (spec.line == drama::LineUse::kSpoken) {
+      AddVoice(content, block);
+    } else if (spec.audible) {
+      const auto found = sounds_.find(content);
       block.media = found == sounds_.end() ? "" : found->second;
     }
     Track(lane.kind, lane.actor).push_back(std::move(block));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,7 +12,6 @@
 #include "editor/check/timeline_edits.h"
 #include "editor/cli/command_arguments.h"
 #include "editor/document/script_document.h"
-#include "editor/document/timeline_fields.h"
 #include "editor/text/text.h"
 #include "shared/core/file.h"
 
@@ -22,73 +23,9 @@ using drama::LaneKind;
 using drama::TimelineItem;
 using drama::TimelineText;
 
-enum class FieldType { kText, kNumber, kSwitch, kPoint };
-struct LaneField {
-  std::string_view key;
-  FieldType type = FieldType::kText;
-};
-
-// The fields of items in a lane, including those of all items (docs/drama.md, "Tracks").
-std::vector<LaneField> FieldsOf(LaneKind kind) {
-  using enum FieldType;
-  std::vector<LaneField> fields = {
-      {"at", kNumber}, {"length", kNumber}, {"id", kText}, {"ease", kText}};
-  const auto add = [&](std::initializer_list<LaneField> more) {
-    fields.insert(fields.end(), more);
-  };
-  switch (kind) {
-    case LaneKind::kClips:
-      add({{"clip", kText},
-           {"from", kPoint},
-           {"to", kPoint},
-           {"heading", kNumber},
-           {"fade", kNumber}});
-      break;
-    case LaneKind::kGestures:
-      add({{"clip", kText}, {"part", kText}});
-      break;
-    case LaneKind::kSpeech:
-    case LaneKind::kCaptions:
-      add({{"line", kText}});
-      break;
-    case LaneKind::kDescriptions:
-      add({{"line", kText}, {"patience", kNumber}});
-      break;
-    case LaneKind::kWalks:
-      add({{"from", kPoint}, {"to", kPoint}, {"speed", kNumber}, {"hide", kSwitch}});
-      break;
-    case LaneKind::kUses:
-      add({{"object", kText},
-           {"action", kText},
-           {"on", kText},
-           {"surface", kText},
-           {"partner", kText},
-           {"to", kPoint}});
-      break;
-    case LaneKind::kGaze:
-      add({{"target", kText}});
-      break;
-    case LaneKind::kExpressions:
-      add({{"expression", kText}, {"intensity", kNumber}, {"fade", kNumber}});
-      break;
-    case LaneKind::kLights:
-      add({{"light", kText}, {"level", kNumber}, {"seconds", kNumber}, {"temperature", kNumber}});
-      break;
-    case LaneKind::kSounds:
-      add({{"sound", kText},
-           {"gain", kNumber},
-           {"loop", kSwitch},
-           {"actor", kText},
-           {"object", kText},
-           {"from", kPoint},
-           {"fade", kNumber}});
-      break;
-    case LaneKind::kMarkers:
-      add({{"name", kText}});
-      break;
-  }
-  return fields;
-}
+using drama::FieldType;
+using drama::LaneField;
+using drama::LaneSpec;
 
 // Parses "x,z" or "x,z,heading".
 Result<Json> ParsePoint(const std::string& option, std::string_view text) {
@@ -117,7 +54,7 @@ Result<Json> ParseValue(const std::string& option, FieldType type, std::string_v
         return Json(*number);
       }
       return Status::Error(option, "is not a number");
-    case FieldType::kSwitch:
+    case FieldType::kYesNo:
       if (text == "yes" || text == "no") {
         return Json(text == "yes");
       }
@@ -129,36 +66,44 @@ Result<Json> ParseValue(const std::string& option, FieldType type, std::string_v
 }
 
 // Parses "KEY=VALUE" for an item of that lane.
-Result<std::pair<std::string, Json>> ParseField(LaneKind kind, const std::string& text) {
+Result<std::pair<std::string, Json>> ParseField(const LaneSpec& lane, const std::string& text) {
   const size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
-  std::string known;
-  for (const LaneField& field : FieldsOf(kind)) {
-    if (field.key == key && equals != std::string::npos) {
-      LARARIUM_ASSIGN_OR_RETURN(Json value, ParseValue("--field " + text, field.type,
-                                                       std::string_view(text).substr(equals + 1)));
-      return std::pair(key, std::move(value));
+  const std::string option = "--field " + text;
+  const LaneField* field = drama::FindField(lane, key);
+  if (field != nullptr && equals != std::string::npos) {
+    LARARIUM_ASSIGN_OR_RETURN(
+        Json value, ParseValue(option, field->type, std::string_view(text).substr(equals + 1)));
+    if (const std::string problem = drama::ProblemOf(*field, value); !problem.empty()) {
+      return Status::Error(option, problem);
     }
-    known += (known.empty() ? "" : ", ") + std::string(field.key);
+    return std::pair(key, std::move(value));
   }
-  return Status::Error("--field " + text,
-                       "is not a field of an item of " + std::string(drama::NameOf(kind)),
+  std::string known;
+  for (const auto fields : {drama::ItemFields(), std::span<const LaneField>(lane.fields)}) {
+    for (const LaneField& each : fields) {
+      known += (known.empty() ? "" : ", ") + std::string(each.key);
+    }
+  }
+  return Status::Error(option, "is not a field of an item of " + std::string(lane.name),
                        "write KEY=VALUE; it has " + known);
 }
 
-// Checks the fields that an item requires.
-Status CheckComplete(LaneKind kind, const Json& fields) {
-  const bool complete =
-      kind == LaneKind::kWalks
-          ? fields.contains("to") || fields.contains("from") || fields.contains("hide")
-          : fields.contains(NamingField(kind));
-  if (complete) {
-    return Status();
+// Checks that an item has one of the fields that its lane requires.
+Status CheckComplete(const LaneSpec& lane, const Json& fields) {
+  const std::vector<std::string_view> required = drama::RequiredFields(lane);
+  std::string listed;
+  for (const std::string_view key : required) {
+    if (fields.contains(key)) {
+      return Status();
+    }
+    const FieldType type = drama::FindField(lane, key)->type;
+    listed += listed.empty() ? "" : key == required.back() ? " or " : ", ";
+    listed += std::string(key) + (type == FieldType::kPoint   ? "=X,Z"
+                                  : type == FieldType::kYesNo ? "=yes"
+                                                              : "=...");
   }
-  const std::string needed = kind == LaneKind::kWalks ? "to=X,Z, from=X,Z or hide=yes"
-                                                      : std::string(NamingField(kind)) + "=...";
-  return Status::Error("--add " + std::string(drama::NameOf(kind)), "is incomplete",
-                       "add --field " + needed);
+  return Status::Error("--add " + std::string(lane.name), "is incomplete", "add --field " + listed);
 }
 
 // "keeper/speech/1" is the first line that keeper says, in the order of the file.
@@ -253,10 +198,10 @@ class TimelineWorker {
     }
     Json fields = {{"at", options_.at.value_or(0.0)}};
     for (const std::string& given : options_.fields) {
-      LARARIUM_ASSIGN_OR_RETURN(auto field, ParseField(*kind, given));
+      LARARIUM_ASSIGN_OR_RETURN(auto field, ParseField(drama::SpecOf(*kind), given));
       fields[field.first] = std::move(field.second);
     }
-    LARARIUM_RETURN_IF_ERROR(CheckComplete(*kind, fields));
+    LARARIUM_RETURN_IF_ERROR(CheckComplete(drama::SpecOf(*kind), fields));
     ItemSet added;
     return AddItem(text, *kind, options_.actor, std::move(fields), added);
   }
@@ -288,7 +233,8 @@ class TimelineWorker {
     std::vector<drama::TimelineChange> changes;
     for (const TimelineItem& item : items) {
       for (const std::string& given : options_.fields) {
-        LARARIUM_ASSIGN_OR_RETURN(auto field, ParseField(text.lanes()[item.lane].kind, given));
+        LARARIUM_ASSIGN_OR_RETURN(auto field,
+                                  ParseField(drama::SpecOf(text.lanes()[item.lane].kind), given));
         changes.push_back({item, field.first, std::move(field.second)});
       }
     }

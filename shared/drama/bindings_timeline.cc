@@ -312,10 +312,8 @@ int Run::AddLane(lua_State* lua) {
   lane.kind = *kind;
   lane.where = PlaceOf(lua);
   if (IsOfActor(*kind)) {
-    const bool moves =
-        *kind == LaneKind::kGestures || *kind == LaneKind::kWalks || *kind == LaneKind::kUses;
     lane.actor = CheckActorId(lua, 2);
-    if (moves) {
+    if (SpecOf(*kind).moves_body) {
       CheckFreeActor(lua, 2);
     }
   }

@@ -298,11 +298,14 @@ class LuaDrama : public Drama {
   // has already read and plays itself.
   const std::string& ScriptOfCoroutines() {
     if (!script_of_coroutines_) {
-      constexpr LaneKind kOfHost[] = {
-          LaneKind::kGestures, LaneKind::kSpeech,      LaneKind::kWalks,    LaneKind::kUses,
-          LaneKind::kGaze,     LaneKind::kExpressions, LaneKind::kCaptions, LaneKind::kMarkers};
+      std::vector<LaneKind> of_host;
+      for (const LaneSpec& lane : LaneSpecs()) {
+        if (lane.by_host) {
+          of_host.push_back(lane.kind);
+        }
+      }
       const Result<TimelineText> text = TimelineText::Read(script_, place_);
-      script_of_coroutines_ = text.ok() ? text->WithoutItems(kOfHost) : script_;
+      script_of_coroutines_ = text.ok() ? text->WithoutItems(of_host) : script_;
     }
     return *script_of_coroutines_;
   }

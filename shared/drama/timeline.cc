@@ -14,24 +14,13 @@ std::string_view NameOf(Cue::Act act) {
   return kNames[static_cast<size_t>(act)];
 }
 
-std::string ActionOf(LaneKind kind, const Cue& cue) {
-  switch (kind) {
-    case LaneKind::kGestures:
-      return "gesture " + cue.name;
-    case LaneKind::kSpeech:
-      return "say " + cue.name;
-    case LaneKind::kGaze:
-      return "look_at";
-    case LaneKind::kExpressions:
-      return "express " + cue.name;
-    case LaneKind::kMarkers:
-      return "marker " + cue.name;
-    case LaneKind::kCaptions:
-      return "caption " + cue.name;
-    default:
-      return cue.act == Cue::Act::kUse && !cue.name.empty() ? "use " + cue.name
-                                                            : std::string(NameOf(cue.act));
+std::string ActionOf(const LaneSpec& lane, const Cue& cue) {
+  if (lane.duration == ItemDuration::kTask) {
+    return cue.act == Cue::Act::kUse && !cue.name.empty() ? "use " + cue.name
+                                                          : std::string(NameOf(cue.act));
   }
+  const std::string action = lane.actions.empty() ? "" : std::string(lane.actions.front());
+  return cue.name.empty() ? action : action + " " + cue.name;
 }
 
 }  // namespace
@@ -67,7 +56,7 @@ TaskRecord TimelinePlayer::RecordOf(const CueLane& lane,
   record.where = lane.where;
   const stage::Actor* actor = stage_.Find(lane.actor);
   record.actor = actor == nullptr ? "" : actor->name;
-  record.action = ActionOf(lane.kind, cue);
+  record.action = ActionOf(SpecOf(lane.kind), cue);
   const stage::Object* object = stage_.Find(cue.object);
   record.object = object == nullptr ? "" : object->name;
   record.from_timeline = true;

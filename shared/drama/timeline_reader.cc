@@ -142,14 +142,15 @@ class TimelineReader {
       if (!literals.Value(1, value, entry.value_end)) {
         return false;
       }
-      if (entry.key == "at" || entry.key == "length") {
-        double& number = entry.key == "at" ? at : length;
-        number = value.is_number() ? value.get<double>() : -1.0;
-        return (number >= 0.0 && number <= 1e6) ||
-               literals.Fail(token, entry.key + " must be a number from 0 to 1000000");
+      const LaneField* field = FindItemField(entry.key);
+      if (field == nullptr || entry.key == "id") {
+        return true;  // Lua checks the fields of each lane when the script runs.
       }
-      if (entry.key == "ease" && !(value.is_string() && EaseNamed(value.get<std::string>()))) {
-        return literals.Fail(token, "ease is \"linear\", \"in\", \"out\" or \"smooth\"");
+      if (const std::string problem = ProblemOf(*field, value); !problem.empty()) {
+        return literals.Fail(token, entry.key + " " + problem);
+      }
+      if (entry.key == "at" || entry.key == "length") {
+        (entry.key == "at" ? at : length) = value.get<double>();
       }
       return true;
     });

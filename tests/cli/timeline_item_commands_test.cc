@@ -108,6 +108,10 @@ TEST_F(TimelineItems, WhatCannotBeIsRefusedAndNothingIsWritten) {
   EXPECT_THAT(problem({.add = "walks", .actor = "keeper", .at = 1.0}), HasSubstr("hide=yes"));
   EXPECT_THAT(problem({.items = {"hail"}, .fields = {"lin=vale"}}), HasSubstr("it has at, length"));
   EXPECT_THAT(problem({.items = {"hail"}, .fields = {"at=soon"}}), HasSubstr("is not a number"));
+  EXPECT_THAT(problem({.items = {"hail"}, .fields = {"at=-1"}}),
+              HasSubstr("must be a number from 0 to 1000000"));
+  EXPECT_THAT(problem({.add = "lights", .fields = {"light=lamp", "temperature=100"}}),
+              HasSubstr("must be a number from 1667 to 25000"));
   EXPECT_THAT(problem({.add = "walks", .actor = "keeper", .at = 1.0, .fields = {"to=1"}}),
               HasSubstr("is not a point"));
   EXPECT_THAT(problem({.add = "walks", .actor = "keeper", .at = 1.0, .fields = {"hide=maybe"}}),

@@ -76,7 +76,7 @@ TEST(TimelineText, WhatIsNotWrittenOutIsToldWithItsPlaceAndLeftAlone) {
       {"track{markers = {{at = -1}}}", "at must be a number from 0"},
       {"track{markers = {{at = 1, length = 'long'}}}", "length must be a number"},
       {"track{markers = {{name = 'x'}}}", "drama.lua:1:18: this item has no `at`"},
-      {"track{markers = {{at = 1, ease = 'jump'}}}", "ease is"},
+      {"track{markers = {{at = 1, ease = 'jump'}}}", "ease must be one of linear, in"},
       {"track{markers = {1, 2}}", "write an item {at = 0, ...} here"},
       {"track{markers = {{at = 1, 2}}}", "needs a name"},
       {"track{markers = {{at = 1, name = f()}}}", "only numbers, texts"},

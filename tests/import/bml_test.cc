@@ -60,6 +60,11 @@ TEST(Bml, TheCoreBehavioursBecomeItemsOfTheirLanes) {
     EXPECT_EQ(imported.items[i].lane, lane) << i;
     EXPECT_EQ(imported.items[i].actor, "keeper");
     EXPECT_EQ(imported.items[i].fields, fields);
+    for (const auto& [key, value] : fields.items()) {
+      const drama::LaneField* field = drama::FindField(drama::SpecOf(lane), key);
+      ASSERT_NE(field, nullptr) << key;
+      EXPECT_EQ(drama::ProblemOf(*field, value), "") << key;
+    }
   };
   expect(0, LaneKind::kGaze, {{"id", "g"}, {"at", 1.0}, {"length", 2.0}, {"target", "girl"}});
   expect(1, LaneKind::kGaze, {{"id", "gs"}, {"at", 4.0}, {"target", "counter"}});

@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Themes,
 
 TEST(LaneColour, TellsWhatPeopleDoApartWithoutSeeingRedOrGreen) {
   std::vector<Named> colours;
-  for (const drama::LaneName& lane : drama::kLaneNames) {
+  for (const drama::LaneSpec& lane : drama::LaneSpecs()) {
     if (lane.of_actor) {
       colours.emplace_back(lane.name, LaneColour(lane.kind));
     }

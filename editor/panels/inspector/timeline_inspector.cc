@@ -62,18 +62,37 @@ struct Item {
   }
 };
 
-void NumberField(Item& item,
-                 const char* label,
-                 const std::string& key,
-                 double otherwise,
-                 double speed,
-                 double min,
-                 double max,
-                 const char* format) {
-  double value = item.NumberOr(key, otherwise);
-  if (NumberProperty(item.workspace, label, value, speed, min, max, format)) {
-    item.Set(key, std::round(value * 1000.0) / 1000.0);
+// Draws a button beside a value that removes it.
+void ClearButton(Item& item, const std::string& key) {
+  ImGui::SameLine();
+  if (ImGui::Button("\xc3\x97", ImVec2(ImGui::GetFrameHeight(), 0))) {
+    item.Unset(key);
+    item.workspace.EndGesture();
   }
+  Tooltip(Tr("Without it"));
+}
+float WidthBesideClearButton() {
+  return ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - Px(8);
+}
+
+void NumberField(Item& item, const drama::LaneField& field) {
+  double value = item.NumberOr(field.key, field.fallback);
+  const bool is_optional = field.missing != nullptr;
+  const bool has_value = item.Find(field.key) != nullptr;
+  PropertyLabel(Tr(field.label));
+  ImGui::PushID(field.key);
+  if (is_optional && has_value) {
+    ImGui::SetNextItemWidth(WidthBesideClearButton());
+  }
+  if (DragNumber(value, field.step, &field.least, &field.most,
+                 is_optional && !has_value ? Tr(field.missing) : field.format)) {
+    item.Set(field.key, std::round(value * 1000.0) / 1000.0);
+  }
+  EndGestureWithItem(item.workspace);
+  if (is_optional && has_value) {
+    ClearButton(item, field.key);
+  }
+  ImGui::PopID();
 }
 
 void TextField(Item& item, const char* label, const std::string& key) {
@@ -145,7 +164,7 @@ void PointField(Item& item, const char* label, const std::string& key) {
     return;
   }
   std::array<double, 2> place = {point.value("x", 0.0), point.value("z", 0.0)};
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - Px(8));
+  ImGui::SetNextItemWidth(WidthBesideClearButton());
   if (ImGui::DragScalarN("##place", ImGuiDataType_Double, place.data(), 2, 0.01f, nullptr, nullptr,
                          "%.2f m")) {
     point["x"] = std::round(place[0] * 1000.0) / 1000.0;
@@ -153,11 +172,7 @@ void PointField(Item& item, const char* label, const std::string& key) {
     item.Set(key, point);
   }
   EndGestureWithItem(item.workspace);
-  ImGui::SameLine();
-  if (ImGui::Button("\xc3\x97", ImVec2(ImGui::GetFrameHeight(), 0))) {
-    item.Unset(key);
-  }
-  Tooltip(Tr("Without it"));
+  ClearButton(item, key);
   double heading = point.value("heading", 0.0);
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::DragScalar("##heading", ImGuiDataType_Double, &heading, 1.0f, nullptr, nullptr,
@@ -224,35 +239,51 @@ std::vector<std::string> TargetNames(const editor::Workspace& workspace) {
   return names;
 }
 
-void UseFields(Item& item) {
+// The values that a text field can have; empty: any text.
+std::vector<std::string> ChoicesOf(const Item& item, const drama::LaneField& field) {
+  using enum drama::FieldRole;
   const editor::StageWords* words = WordsOf(item.workspace);
-  NameField(item, Tr("Object"), "object", ThingNames(item.workspace, false), nullptr);
-  std::vector<std::string> actions;
-  const editor::StageWords::Thing* thing =
-      words != nullptr ? words->FindThing(item.TextOr("object", "")) : nullptr;
-  if (thing != nullptr) {
-    actions = thing->actions;
-    actions.insert(actions.end(), {"take", "put", "give", "stand"});
-  }
-  NameField(item, Tr("Action"), "action", actions, nullptr);
-  const std::string action = item.TextOr("action", "");
-  if (action == "put") {
-    NameField(item, Tr("On"), "on", ThingNames(item.workspace, false), Tr("The floor"));
-    const editor::StageWords::Thing* on =
-        words != nullptr ? words->FindThing(item.TextOr("on", "")) : nullptr;
-    NameField(item, Tr("Surface"), "surface",
-              on != nullptr ? on->surfaces : std::vector<std::string>(), Tr("Any"));
-    if (on == nullptr) {
-      PointField(item, Tr("To"), "to");
+  const auto thing = [&](const char* key) {
+    return words != nullptr ? words->FindThing(item.TextOr(key, "")) : nullptr;
+  };
+  switch (field.role) {
+    case kClip:
+      return ClipNames(item);
+    case kObject:
+      return ThingNames(item.workspace, false);
+    case kLamp:
+      return ThingNames(item.workspace, true);
+    case kActor:
+      return PeopleNames(item.workspace);
+    case kTarget:
+      return TargetNames(item.workspace);
+    case kExpression:
+      return ExpressionNames();
+    case kSound:
+      return words != nullptr ? words->sounds : std::vector<std::string>();
+    case kSurface:
+      return thing("on") != nullptr ? thing("on")->surfaces : std::vector<std::string>();
+    case kAction: {
+      std::vector<std::string> actions;
+      if (thing("object") != nullptr) {
+        actions = thing("object")->actions;
+        actions.insert(actions.end(), {"take", "put", "give", "stand"});
+      }
+      return actions;
     }
-  } else if (action == "give") {
-    NameField(item, Tr("To whom"), "partner", PeopleNames(item.workspace), nullptr);
+    case kNone:
+    case kLine:
+    case kEntrance:
+      break;
   }
+  return {field.choices.begin(), field.choices.end()};
 }
 
 // The speaker of lines for this item.
 std::string SpeakerOf(const Item& item) {
-  return item.kind == LaneKind::kDescriptions ? bundle::LineEntry::kDescription : item.actor;
+  return drama::SpecOf(item.kind).line == drama::LineUse::kDescription
+             ? bundle::LineEntry::kDescription
+             : item.actor;
 }
 
 // The text of the line in one language.
@@ -323,60 +354,29 @@ void LineFields(Item& item) {
   }
 }
 
-void FieldsOfKind(Item& item) {
-  const editor::StageWords* words = WordsOf(item.workspace);
-  switch (item.kind) {
-    case LaneKind::kSpeech:
-    case LaneKind::kCaptions:
-      LineFields(item);
+void DrawField(Item& item, const drama::LaneField& field) {
+  const bool is_of_other_action =
+      field.only_if_action != nullptr && item.TextOr("action", "") != field.only_if_action;
+  if (is_of_other_action || (field.unless != nullptr && !item.TextOr(field.unless, "").empty())) {
+    return;
+  }
+  switch (field.type) {
+    case drama::FieldType::kNumber:
+      NumberField(item, field);
       break;
-    case LaneKind::kDescriptions:
-      LineFields(item);
-      NumberField(item, Tr("Patience"), "patience", 5.0, 0.1, 0.0, 600.0, "%.1f s");
+    case drama::FieldType::kYesNo:
+      BoolField(item, Tr(field.label), field.key);
       break;
-    case LaneKind::kGestures:
-      NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);
-      NameField(item, Tr("Part"), "part", {"upper", "arms", "head", "whole"}, Tr("Upper body"));
+    case drama::FieldType::kPoint:
+      PointField(item, Tr(field.label), field.key);
       break;
-    case LaneKind::kWalks:
-      PointField(item, Tr("To"), "to");
-      PointField(item, Tr("Appears at"), "from");
-      NumberField(item, Tr("Speed"), "speed", 1.2, 0.01, 0.1, 10.0, "%.2f m/s");
-      BoolField(item, Tr("Hides"), "hide");
-      break;
-    case LaneKind::kUses:
-      UseFields(item);
-      break;
-    case LaneKind::kGaze:
-      NameField(item, Tr("At"), "target", TargetNames(item.workspace), nullptr);
-      break;
-    case LaneKind::kExpressions:
-      NameField(item, Tr("Expression"), "expression", ExpressionNames(), nullptr);
-      NumberField(item, Tr("Intensity"), "intensity", 1.0, 0.01, 0.0, 1.0, "%.2f");
-      NumberField(item, Tr("Fade"), "fade", 0.4, 0.01, 0.0, 100.0, "%.2f s");
-      break;
-    case LaneKind::kClips:
-      NameField(item, Tr("Clip"), "clip", ClipNames(item), nullptr);
-      PointField(item, Tr("From"), "from");
-      PointField(item, Tr("To"), "to");
-      NumberField(item, Tr("Fade"), "fade", 0.3, 0.01, 0.0, 100.0, "%.2f s");
-      NameField(item, Tr("Easing"), "ease", {"linear", "in", "out", "smooth"}, Tr("Even"));
-      break;
-    case LaneKind::kLights:
-      NameField(item, Tr("Light"), "light", ThingNames(item.workspace, true), nullptr);
-      NumberField(item, Tr("Level"), "level", 1.0, 0.01, 0.0, 100.0, "%.2f");
-      NumberField(item, Tr("Fades in"), "seconds", 0.0, 0.01, 0.0, 3600.0, "%.2f s");
-      break;
-    case LaneKind::kSounds:
-      NameField(item, Tr("Sound"), "sound",
-                words != nullptr ? words->sounds : std::vector<std::string>(), nullptr);
-      NumberField(item, Tr("Gain"), "gain", 0.0, 0.1, -60.0, 20.0, "%.1f dB");
-      BoolField(item, Tr("Loops"), "loop");
-      NameField(item, Tr("With actor"), "actor", PeopleNames(item.workspace), Tr("Nobody"));
-      NameField(item, Tr("At object"), "object", ThingNames(item.workspace, false), Tr("Nothing"));
-      break;
-    case LaneKind::kMarkers:
-      TextField(item, Tr("Name"), "name");
+    case drama::FieldType::kText:
+      if (field.role == drama::FieldRole::kLine) {
+        LineFields(item);
+      } else {
+        NameField(item, Tr(field.label), field.key, ChoicesOf(item, field),
+                  field.missing != nullptr ? Tr(field.missing) : nullptr);
+      }
       break;
   }
 }
@@ -391,11 +391,17 @@ void DrawItem(editor::Workspace& workspace, EditorState& state, const TimelineIt
     DimText(lane.actor);
   }
   if (BeginProperties("item", 84.0f)) {
-    NumberField(item, Tr("Begins"), "at", 0.0, 0.02, 0.0, 1e6, "%.3f s");
-    NumberField(item, Tr("Lasts"), "length", 0.0, 0.02, 0.0, 1e6,
-                item.Find("length") != nullptr ? "%.3f s" : Tr("as long as it takes"));
-    FieldsOfKind(item);
-    TextField(item, Tr("Id"), "id");
+    const drama::LaneSpec& spec = drama::SpecOf(lane.kind);
+    for (const char* key : {"at", "length"}) {
+      DrawField(item, *drama::FindItemField(key));
+    }
+    for (const drama::LaneField& field : spec.fields) {
+      DrawField(item, field);
+    }
+    if (spec.eases) {
+      DrawField(item, *drama::FindItemField("ease"));
+    }
+    DrawField(item, *drama::FindItemField("id"));
     EndProperties();
   }
   const size_t line =

@@ -37,65 +37,8 @@ void DrawHatch(ImDrawList& draw, const ImVec2& from, const ImVec2& to, ImU32 col
 
 }  // namespace
 
-const char* LaneTitle(LaneKind kind) {
-  switch (kind) {
-    case LaneKind::kSpeech:
-      return Tr("Speech");
-    case LaneKind::kWalks:
-      return Tr("Walks");
-    case LaneKind::kUses:
-      return Tr("Uses");
-    case LaneKind::kGestures:
-      return Tr("Gestures");
-    case LaneKind::kGaze:
-      return Tr("Gaze");
-    case LaneKind::kExpressions:
-      return Tr("Expressions");
-    case LaneKind::kClips:
-      return Tr("Clips");
-    case LaneKind::kLights:
-      return Tr("Lights");
-    case LaneKind::kSounds:
-      return Tr("Sounds");
-    case LaneKind::kCaptions:
-      return Tr("Captions");
-    case LaneKind::kDescriptions:
-      return Tr("Descriptions");
-    case LaneKind::kMarkers:
-      return Tr("Markers");
-  }
-  return "";
-}
-
-const char* ItemTitle(LaneKind kind) {
-  switch (kind) {
-    case LaneKind::kSpeech:
-      return Tr("Line");
-    case LaneKind::kWalks:
-      return Tr("Walk");
-    case LaneKind::kUses:
-      return Tr("Use");
-    case LaneKind::kGestures:
-      return Tr("Gesture");
-    case LaneKind::kGaze:
-      return Tr("Look");
-    case LaneKind::kExpressions:
-      return Tr("Expression");
-    case LaneKind::kClips:
-      return Tr("Clip");
-    case LaneKind::kLights:
-      return Tr("Light");
-    case LaneKind::kSounds:
-      return Tr("Sound");
-    case LaneKind::kCaptions:
-      return Tr("Caption");
-    case LaneKind::kDescriptions:
-      return Tr("Description");
-    case LaneKind::kMarkers:
-      return Tr("Marker");
-  }
-  return "";
-}
+const char* LaneTitle(LaneKind kind) { return Tr(drama::SpecOf(kind).title); }
+const char* ItemTitle(LaneKind kind) { return Tr(drama::SpecOf(kind).item_title); }
 
 void DrawItem(ImDrawList& draw,
               const ImVec2& from,

@@ -28,34 +28,22 @@ std::string PointText(const Json& point) {
 }  // namespace
 
 std::string LabelOf(LaneKind kind, const Json& fields) {
-  const auto point = [&](const char* key) {
+  const auto point = [&](std::string_view key) {
     const auto found = fields.find(key);
     return found != fields.end() && found->is_object() ? PointText(*found) : "";
   };
-  switch (kind) {
-    case LaneKind::kGaze: {
-      const std::string target = TextOf(fields, "target");
-      return !target.empty() ? target : point("target");
-    }
-    case LaneKind::kUses: {
-      const std::string action = TextOf(fields, "action");
-      const std::string object = TextOf(fields, "object");
-      return action.empty() || object.empty() ? action + object : action + " " + object;
-    }
-    case LaneKind::kClips:
-    case LaneKind::kWalks: {
-      const std::string clip = TextOf(fields, "clip");
-      const std::string to = point("to");
-      const std::string from = point("from");
-      const std::string where = !to.empty()                     ? "\xe2\x86\x92 " + to
-                                : !from.empty() && clip.empty() ? Text(Tr("at %s"), from.c_str())
-                                : fields.contains("hide")       ? Tr("leaves")
-                                                                : "";
-      return clip.empty() || where.empty() ? clip + where : clip + " " + where;
-    }
-    default:
-      return TextOf(fields, editor::NamingField(kind));
+  const drama::LaneSpec& lane = drama::SpecOf(kind);
+  const std::string label = editor::LabelTexts(lane, fields);
+  if (!lane.walks) {
+    return label.empty() ? point(lane.content) : label;
   }
+  const std::string to = point("to");
+  const std::string from = point("from");
+  const std::string where = !to.empty()                      ? "\xe2\x86\x92 " + to
+                            : !from.empty() && label.empty() ? Text(Tr("at %s"), from.c_str())
+                            : fields.contains("hide")        ? Tr("leaves")
+                                                             : "";
+  return label.empty() || where.empty() ? label + where : label + " " + where;
 }
 
 std::string BlockLabel(const TaskRecord& task, bool of_object) {

@@ -57,72 +57,56 @@ bool IsYetToAppear(const editor::Workspace& workspace, const std::string& actor,
   return trail == run->trails.end() || !trail->At(at);
 }
 
+// The value of a field in a new item; null: the field is left out.
+Json InitialValue(const editor::Workspace& workspace,
+                  const editor::StageWords& words,
+                  const drama::LaneSpec& lane,
+                  const drama::LaneField& field,
+                  const std::string& actor) {
+  if (field.role == drama::FieldRole::kLine) {
+    return LineFor(workspace, lane.line == drama::LineUse::kDescription
+                                  ? bundle::LineEntry::kDescription
+                                  : actor);
+  }
+  if (field.initial.is_null()) {
+    return field.initial;
+  }
+  if (field.role == drama::FieldRole::kSound && !words.sounds.empty()) {
+    return words.sounds.front();
+  }
+  const editor::StageWords::Person* person = words.FindPerson(actor);
+  if (field.role == drama::FieldRole::kClip && person != nullptr && !person->clips.empty()) {
+    return person->clips.front().name;
+  }
+  for (const editor::StageWords::Thing& thing : words.things) {
+    if (field.role == drama::FieldRole::kObject ||
+        (field.role == drama::FieldRole::kLamp && thing.burns)) {
+      return thing.name;
+    }
+  }
+  return field.initial;
+}
+
 }  // namespace
 
 Json NewFields(const editor::Workspace& workspace,
                LaneKind kind,
                const std::string& actor,
                double at) {
-  Json fields = {{"at", at}};
   const editor::StageWords none;
   const editor::StageWords& words =
       workspace.drama_run() != nullptr ? workspace.drama_run()->words : none;
-  const auto first = [](const auto& list, const char* otherwise) {
-    return list.empty() ? std::string(otherwise) : list.front().name;
-  };
-  switch (kind) {
-    case LaneKind::kSpeech:
-    case LaneKind::kCaptions:
-      fields["line"] = LineFor(workspace, actor);
-      break;
-    case LaneKind::kDescriptions:
-      fields["line"] = LineFor(workspace, bundle::LineEntry::kDescription);
-      break;
-    case LaneKind::kGestures:
-    case LaneKind::kClips: {
-      const editor::StageWords::Person* person = words.FindPerson(actor);
-      fields["clip"] = person != nullptr ? first(person->clips, "idle") : "idle";
-      if (kind == LaneKind::kClips) {
-        fields["length"] = 2.0;
-      }
-      break;
+  const drama::LaneSpec& lane = drama::SpecOf(kind);
+  Json fields = {{"at", at}};
+  if (lane.new_length > 0.0) {
+    fields["length"] = lane.new_length;
+  }
+  for (const drama::LaneField& field : lane.fields) {
+    Json value = InitialValue(workspace, words, lane, field, actor);
+    const bool entrance = field.role == drama::FieldRole::kEntrance;
+    if (!value.is_null() && (!entrance || IsYetToAppear(workspace, actor, at))) {
+      fields[field.key] = std::move(value);
     }
-    case LaneKind::kWalks:
-      fields["to"] = {{"x", 0.0}, {"z", -1.0}};
-      if (IsYetToAppear(workspace, actor, at)) {
-        fields["from"] = {{"x", -1.0}, {"z", -1.0}, {"heading", -90.0}};  // Facing the destination.
-      }
-      break;
-    case LaneKind::kUses:
-      fields["object"] = first(words.things, "object");
-      break;
-    case LaneKind::kGaze:
-      fields["target"] = "visitor";
-      fields["length"] = 3.0;
-      break;
-    case LaneKind::kExpressions:
-      fields["expression"] = "joy";
-      fields["intensity"] = 0.7;
-      fields["length"] = 3.0;
-      break;
-    case LaneKind::kLights: {
-      fields["light"] = "lamp";
-      for (const editor::StageWords::Thing& thing : words.things) {
-        if (thing.burns) {
-          fields["light"] = thing.name;
-          break;
-        }
-      }
-      fields["level"] = 0.5;
-      fields["length"] = 3.0;
-      break;
-    }
-    case LaneKind::kSounds:
-      fields["sound"] = words.sounds.empty() ? "bell" : words.sounds.front();
-      break;
-    case LaneKind::kMarkers:
-      fields["name"] = "marker";
-      break;
   }
   return fields;
 }

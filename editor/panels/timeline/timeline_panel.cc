@@ -119,7 +119,8 @@ editor::TimeSpan TimelinePanel::Shown(const editor::Workspace& workspace,
                                       const TimelineItem& item) {
   const TimelineLane& lane = workspace.script().timeline()->lanes()[item.lane];
   editor::TimeSpan span{lane.at[item.item], lane.at[item.item] + lane.length[item.item]};
-  if (lane.length[item.item] <= 0.0 && lane.kind != LaneKind::kMarkers) {
+  if (lane.length[item.item] <= 0.0 &&
+      drama::SpecOf(lane.kind).duration != drama::ItemDuration::kMoment) {
     span.end = span.begin + FaceOf(workspace, item).natural;
   }
   if (drag_.by != 0.0 && editor::Contains(selection_, item)) {
@@ -453,7 +454,7 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
 }
 
 void TimelinePanel::DrawKindMenu(editor::Workspace& workspace, const std::string& actor) {
-  for (const drama::LaneName& lane : drama::kLaneNames) {
+  for (const drama::LaneSpec& lane : drama::LaneSpecs()) {
     if (lane.of_actor == !actor.empty() &&
         ImGui::MenuItem(WithIcon(IconOf(lane.kind), ItemTitle(lane.kind)).c_str())) {
       Add(workspace, lane.kind, actor);

@@ -5,8 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "editor/document/timeline_fields.h"
-
 namespace lararium::panels {
 
 using drama::LaneKind;
@@ -14,11 +12,17 @@ using drama::TaskRecord;
 
 namespace {
 
-// The order of a person's lanes.
-constexpr LaneKind kOrder[] = {LaneKind::kSpeech,   LaneKind::kWalks,    LaneKind::kUses,
-                               LaneKind::kGestures, LaneKind::kGaze,     LaneKind::kExpressions,
-                               LaneKind::kClips,    LaneKind::kMarkers,  LaneKind::kLights,
-                               LaneKind::kSounds,   LaneKind::kCaptions, LaneKind::kDescriptions};
+// The kinds of lanes in the order of their rows.
+std::vector<LaneKind> KindsInRows() {
+  std::vector<LaneKind> kinds;
+  for (const drama::LaneSpec& lane : drama::LaneSpecs()) {
+    kinds.push_back(lane.kind);
+  }
+  std::stable_sort(kinds.begin(), kinds.end(), [](LaneKind a, LaneKind b) {
+    return drama::SpecOf(a).row < drama::SpecOf(b).row;
+  });
+  return kinds;
+}
 
 using Blocks = std::vector<uint32_t>;
 
@@ -61,7 +65,7 @@ std::vector<TimelineRow> MakeRows(const drama::TimelineText* text,
     const TaskRecord& task = tasks[i];
     if (!task.from_timeline) {
       add_group(task.actor);
-      blocks[{task.actor, editor::LaneOfTask(task.action)}].push_back(i);
+      blocks[{task.actor, drama::LaneOfTask(task.action)}].push_back(i);
     }
     if (!task.object.empty()) {
       of_objects[task.object].push_back(i);
@@ -69,10 +73,11 @@ std::vector<TimelineRow> MakeRows(const drama::TimelineText* text,
   }
   groups.push_back("");  // The stage.
 
+  const std::vector<LaneKind> kinds = KindsInRows();
   std::vector<TimelineRow> rows;
   for (const std::string& group : groups) {
     rows.push_back({TimelineRow::Kind::kHeading, group, false, LaneKind::kMarkers, {}, {}, {}});
-    for (const LaneKind kind : kOrder) {
+    for (const LaneKind kind : kinds) {
       if (const auto found = lanes.find({group, kind}); found != lanes.end()) {
         rows.push_back({TimelineRow::Kind::kItems, group, false, kind, found->second, {}, {}});
       }

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 
 namespace lararium::panels {
 
@@ -422,34 +423,17 @@ std::string WithIcon(Icon icon, std::string_view text) {
 }
 
 Icon IconOf(drama::LaneKind kind) {
-  using drama::LaneKind;
-  switch (kind) {
-    case LaneKind::kSpeech:
-      return Icon::kSpeech;
-    case LaneKind::kWalks:
-      return Icon::kWalk;
-    case LaneKind::kUses:
-      return Icon::kUse;
-    case LaneKind::kGestures:
-      return Icon::kGesture;
-    case LaneKind::kGaze:
-      return Icon::kGaze;
-    case LaneKind::kExpressions:
-      return Icon::kExpression;
-    case LaneKind::kClips:
-      return Icon::kClip;
-    case LaneKind::kLights:
-      return Icon::kLight;
-    case LaneKind::kSounds:
-      return Icon::kSound;
-    case LaneKind::kCaptions:
-      return Icon::kCaption;
-    case LaneKind::kDescriptions:
-      return Icon::kDescription;
-    case LaneKind::kMarkers:
-      return Icon::kMarker;
+  constexpr std::pair<std::string_view, Icon> kNamed[] = {
+      {"speech", Icon::kSpeech},   {"walk", Icon::kWalk},     {"use", Icon::kUse},
+      {"gesture", Icon::kGesture}, {"gaze", Icon::kGaze},     {"expression", Icon::kExpression},
+      {"clip", Icon::kClip},       {"light", Icon::kLight},   {"sound", Icon::kSound},
+      {"caption", Icon::kCaption}, {"marker", Icon::kMarker}, {"description", Icon::kDescription}};
+  for (const auto& [name, icon] : kNamed) {
+    if (name == drama::SpecOf(kind).icon) {
+      return icon;
+    }
   }
-  return Icon::kMarker;
+  return Icon::kStage;
 }
 
 }  // namespace lararium::panels

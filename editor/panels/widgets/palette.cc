@@ -58,33 +58,8 @@ ImVec4 SessionColour(uint32_t session) {
 }
 
 ImVec4 LaneColour(drama::LaneKind kind) {
-  using drama::LaneKind;
-  switch (kind) {
-    case LaneKind::kSpeech:
-      return {0.337f, 0.706f, 0.914f, 1.0f};  // sky blue
-    case LaneKind::kWalks:
-      return {0.160f, 0.660f, 0.520f, 1.0f};  // bluish green
-    case LaneKind::kUses:
-      return {0.902f, 0.624f, 0.100f, 1.0f};  // orange
-    case LaneKind::kGestures:
-      return {0.900f, 0.850f, 0.360f, 1.0f};  // yellow
-    case LaneKind::kGaze:
-      return {0.800f, 0.520f, 0.680f, 1.0f};  // reddish purple
-    case LaneKind::kExpressions:
-      return {0.835f, 0.400f, 0.180f, 1.0f};  // vermillion
-    case LaneKind::kClips:
-      return {0.220f, 0.490f, 0.760f, 1.0f};  // blue
-    case LaneKind::kLights:
-      return {0.900f, 0.850f, 0.360f, 1.0f};
-    case LaneKind::kSounds:
-      return {0.220f, 0.490f, 0.760f, 1.0f};
-    case LaneKind::kCaptions:
-    case LaneKind::kDescriptions:
-      return {0.337f, 0.706f, 0.914f, 1.0f};
-    case LaneKind::kMarkers:
-      return {0.780f, 0.800f, 0.840f, 1.0f};
-  }
-  return {0.780f, 0.800f, 0.840f, 1.0f};
+  const auto& [red, green, blue] = drama::SpecOf(kind).colour;
+  return {red, green, blue, 1.0f};
 }
 
 ImVec4 RampColour(double t) {

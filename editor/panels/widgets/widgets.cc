@@ -388,7 +388,6 @@ void PropertyText(const char* label, const std::string& value) {
   ImGui::TextWrapped("%s", value.c_str());
 }
 
-// A number field. A value that is displayed as zero has no sign: not "-0.000".
 bool DragNumber(
     double& value, double speed, const double* min, const double* max, const char* format) {
   const bool nothing = Text(format, value).find_first_of("123456789") == std::string::npos;

@@ -79,6 +79,10 @@ void EndProperties();
 void PropertyLabel(const char* label);
 void PropertyText(const char* label, const std::string& value);
 
+// A number field without a label. A value that is displayed as zero has no sign: not "-0.000".
+bool DragNumber(
+    double& value, double speed, const double* min, const double* max, const char* format);
+
 // Number fields in a row of the grid. They return true while the value changes. When the mouse or
 // the keyboard releases them, the workspace's gesture ends.
 bool NumberProperty(editor::Workspace& workspace,
