@@ -106,7 +106,7 @@ TEST(Navigation, SaysWhyThereIsNoFloor) {
   options.floor = {{0, 0}, {0.2f, 0}, {0, 0.2f}};
   const auto narrow = Navigation::Create(options, {}, {});
   ASSERT_FALSE(narrow.ok());
-  EXPECT_NE(narrow.message().find("nobody can walk"), std::string::npos) << narrow.message();
+  EXPECT_NE(narrow.message().find("no place to walk"), std::string::npos) << narrow.message();
   options.floor = {{0, 0}, {1e6f, 0}, {0, 1e6f}};
   EXPECT_FALSE(Navigation::Create(options, {}, {}).ok());
 }
