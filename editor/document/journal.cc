@@ -156,13 +156,31 @@ struct Replay {
 
 }  // namespace
 
+// An open file, which is closed when neither the journal nor its thread uses it.
+class Journal::Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() { ::close(descriptor_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+std::shared_ptr<const Journal::Descriptor> Journal::Open() const {
+  const int descriptor = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  return descriptor < 0 ? nullptr : std::make_shared<const Descriptor>(descriptor);
+}
+
 Journal::Journal(std::filesystem::path file,
                  const ProjectDocument& project,
                  std::shared_ptr<const std::string> script)
     : file_(std::move(file)), syncer_([this](std::stop_token stop) {
-        while (const std::optional<int> descriptor = written_.Take(stop)) {
-          // Another thread may have closed the descriptor since; that is harmless.
-          ::fdatasync(*descriptor);
+        while (const auto descriptor = written_.Take(stop)) {
+          ::fdatasync((*descriptor)->get());
         }
       }) {
   Begin(project, std::move(script));
@@ -171,10 +189,9 @@ Journal::Journal(std::filesystem::path file,
 Journal::~Journal() { Close(); }
 
 void Journal::Close() {
-  if (descriptor_ >= 0) {
-    ::fdatasync(descriptor_);
-    ::close(descriptor_);
-    descriptor_ = -1;
+  if (descriptor_ != nullptr) {
+    ::fdatasync(descriptor_->get());
+    descriptor_ = nullptr;
   }
 }
 
@@ -197,8 +214,8 @@ Status Journal::Restart(const ProjectDocument& project, std::shared_ptr<const st
   Begin(project, std::move(script));
   // A record without changes marks the initial state as unsaved.
   LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file_, Beginning() + Record("project-patch", "[]")));
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0) {
+  descriptor_ = Open();
+  if (descriptor_ == nullptr) {
     return Status::Error(file_.string(), std::string("cannot be written: ") + std::strerror(errno));
   }
   failed_ = false;
@@ -217,14 +234,15 @@ Status Journal::Append(std::string_view header, std::string_view payload) {
   if (failed_) {
     return Status();  // The error was already reported.
   }
-  if (descriptor_ < 0) {
+  if (descriptor_ == nullptr) {
     LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file_, Beginning()));
-    descriptor_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    descriptor_ = Open();
   }
   const std::string record = Record(header, payload);
   size_t written = 0;
-  while (descriptor_ >= 0 && written < record.size()) {
-    const ssize_t count = ::write(descriptor_, record.data() + written, record.size() - written);
+  while (descriptor_ != nullptr && written < record.size()) {
+    const ssize_t count =
+        ::write(descriptor_->get(), record.data() + written, record.size() - written);
     if (count < 0 && errno != EINTR) {
       break;
     }

@@ -50,6 +50,10 @@ class Journal {
   uint64_t grown_bytes() const { return grown_; }
 
  private:
+  class Descriptor;
+
+  // Opens the file to append to it; returns nullptr where that fails.
+  std::shared_ptr<const Descriptor> Open() const;
   // Sets the state with which the file begins.
   void Begin(const ProjectDocument& project, std::shared_ptr<const std::string> script);
   std::string Beginning() const;
@@ -62,11 +66,12 @@ class Journal {
   std::shared_ptr<const std::string> script_;  // The state at the beginning of the file.
   // The state at the end of the file; nullptr: the file has no lines.
   std::shared_ptr<const bake::LineTable> lines_;
-  std::string lines_text_;  // lines_ as text.
-  int descriptor_ = -1;
+  std::string lines_text_;                        // lines_ as text.
+  std::shared_ptr<const Descriptor> descriptor_;  // nullptr: not open.
   bool failed_ = false;
   uint64_t grown_ = 0;
-  Mailbox<int> written_;  // Descriptors to be synchronised to the disk.
+  // Files to be synchronised to the disk. They stay open until that is done.
+  Mailbox<std::shared_ptr<const Descriptor>> written_;
   std::jthread syncer_;
 };
 

@@ -26,7 +26,7 @@ function actor(name)
     if not id then
       error("actor: there is no '" .. name .. "' in the cast", 2)
     end
-    known[name] = setmetatable({ name = name, id = id }, Actor)
+    known[name] = setmetatable({ name = name, id = id, is_actor = true }, Actor)
   end
   return known[name]
 end
@@ -121,7 +121,7 @@ local function actor_id(value, what)
     end
     return id
   end
-  if type(value) ~= "table" or value.is_object or not value.id then
+  if type(value) ~= "table" or not value.is_actor then
     error(what .. ": give an actor", 3)
   end
   return value.id
@@ -256,7 +256,7 @@ function Actor:look_at(target)
     host.look(self.id, "visitor")
   elseif type(target) == "table" and target.is_object then
     host.look(self.id, "object", target.id)
-  elseif type(target) == "table" and target.id then
+  elseif type(target) == "table" and target.is_actor then
     host.look(self.id, "actor", target.id)
   elseif type(target) == "table" then
     host.look(self.id, "point", number(target, "x", nil, "look_at"),

@@ -54,7 +54,7 @@ function Sound:play(options)
   local started
   if type(on) == "table" and on.is_object then
     started = host.play_sound(self.id, loop, gain, fade, ease, "object", on.id)
-  elseif type(on) == "table" and on.id then
+  elseif type(on) == "table" and on.is_actor then
     started = host.play_sound(self.id, loop, gain, fade, ease, "actor", on.id)
   elseif on ~= nil then
     error("play: on must be an actor or an object", 2)

@@ -31,7 +31,7 @@ local function target_of(value, what)
     fail(what, "there is no actor or object called '" .. value .. "'")
   elseif type(value) == "table" and value.is_object then
     return { "object", value.id }
-  elseif type(value) == "table" and value.id then
+  elseif type(value) == "table" and value.is_actor then
     return { "actor", value.id }
   elseif type(value) == "table" and value.x and value.z then
     return { "point", number(value.x, nil, -1e6, 1e6, what, "x"),

@@ -57,6 +57,12 @@ CharacterInstance::CharacterInstance(std::shared_ptr<const human::AnimationRig> 
   for (const human::Cloth& cloth : human().cloths) {
     is_cloth_[cloth.mesh] = true;
   }
+  height_ = animator_.model().gaze.eyes.y;
+  for (const human::SkinnedMesh& mesh : human().meshes) {
+    for (const glm::vec3& position : mesh.positions) {
+      height_ = std::max(height_, position.y);
+    }
+  }
   moving_.reserve(human().meshes.size());
   const std::vector<std::string>& names = human().skeleton.names;
   const auto head = std::find(names.begin(), names.end(), "skullbase");

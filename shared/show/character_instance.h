@@ -57,6 +57,10 @@ class CharacterInstance {
   const human::Human& human() const { return animator_.human(); }
   const std::shared_ptr<const human::Human>& figure() const { return figure_.human; }
 
+  // Height of the highest vertex above the soles in the bind pose, but at least that of the eyes;
+  // metres.
+  float height() const { return height_; }
+
   // Replaces the mesh by the same person at another detail (human::ParseHuman). Initially the mesh
   // is that of the rig. The simulation continues.
   void SetMesh(CharacterMesh figure) { figure_ = std::move(figure); }
@@ -99,6 +103,7 @@ class CharacterInstance {
   std::vector<glm::mat4> actor_from_joint_;
   std::vector<glm::mat4> skin_;
   std::vector<MovingMesh> moving_;
+  float height_ = 0.0f;
   std::optional<double> time_;  // Time of the last step.
   bool settles_ = false;        // True: hair and cloth settle in the next step.
   int head_ = -1;               // Joint of the head; -1: none.

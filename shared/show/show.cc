@@ -16,10 +16,9 @@ namespace {
 constexpr double kTicksPerSecond = drama::Drama::kTicksPerSecond;
 // Beyond this distance, seeking is cheaper than playing.
 constexpr double kSeekAheadSeconds = 2.0;
-// Height of a person, and distance from the middle of the body up to which hands, clothes and held
-// objects may reach; metres. The same for every person, children included.
-constexpr float kPersonHeight = 1.7f;
-constexpr float kPersonReach = 1.6f;
+// Distance beyond a person's head, feet and sides up to which hands, clothes and held objects may
+// reach; metres.
+constexpr float kReachBeyondBody = 0.75f;
 // Assumed distance, in metres, from the camera to the real surfaces that receive people's shadows.
 constexpr float kViewedDistance = 3.0f;
 
@@ -361,12 +360,13 @@ void Show::ChooseDetails(const StagedFrame& staged) {
   }
   const float share = render::Quality().detail_px / options.tolerance_px;
   for (const Visible& visible : visible_) {
-    const glm::vec3 middle = visible.state->position + glm::vec3(0.0f, 0.5f * kPersonHeight, 0.0f);
+    const float height = bodies_[visible.cast].height();
+    const glm::vec3 middle = visible.state->position + glm::vec3(0.0f, 0.5f * height, 0.0f);
     const float scale = render::PixelsPerMetre(display, *staged.camera_from_stage, middle);
-    const bool seen =
-        seen_around_ || render::MaySee(display, *staged.camera_from_stage, middle, kPersonReach);
+    const bool seen = seen_around_ || render::MaySee(display, *staged.camera_from_stage, middle,
+                                                     0.5f * height + kReachBeyondBody);
     BodyDetail& detail = details_[visible.cast];
-    detail = ChooseBodyDetail(kPersonHeight * scale * share, !seen, detail);
+    detail = ChooseBodyDetail(height * scale * share, !seen, detail);
     requests_[visible.cast].pixels_per_metre = seen ? scale : 0.0f;
   }
   detail_chooser_.SetOptions(options);
@@ -477,7 +477,7 @@ void Show::BlendProbes(StagedFrame& staged) const {
                                staged.probe_weights);
   }
   for (StagedActor& actor : staged.actors) {
-    const glm::vec4 middle(0.0f, 0.5f * kPersonHeight, 0.0f, 1.0f);
+    const glm::vec4 middle(0.0f, 0.5f * bodies_[actor.cast].height(), 0.0f, 1.0f);
     actor.light = LightAt(staged, actor.stage_from_actor * middle);
   }
   for (StagedObject& object : staged.objects) {

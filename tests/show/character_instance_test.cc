@@ -147,6 +147,21 @@ TEST_F(BodyTest, ClothIsSettledAfterALeapAndAfterSeeking) {
   }
 }
 
+TEST(CharacterInstance, IsAsTallAsItsHighestVertex) {
+  for (const float top : {1.0f, 1.9f}) {
+    human::Human human = *Speaker();
+    human.skeleton.names = {"skullbase"};  // The eyes are placed near the floor then.
+    for (human::SkinnedMesh& mesh : human.meshes) {
+      for (glm::vec3& position : mesh.positions) {
+        position.y *= top / 1.5f;
+      }
+    }
+    const auto person = std::make_shared<const human::Human>(std::move(human));
+    const float height = CharacterInstance(human::MakeAnimationRig(person)).height();
+    EXPECT_NEAR(height, top, 1e-5f);
+  }
+}
+
 TEST(BodyDetail, LessIsSimulatedOfWhoIsSmaller) {
   ClothDetail last = ClothDetail::kFull;
   for (const float height : {1000.0f, 200.0f, 80.0f, 20.0f}) {

@@ -400,7 +400,7 @@ TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {
        {std::tuple(0.0f, 9.0, 1.0f), {0.0f, 15.0, 2.0f}, {1.0f, 9.0, 3.0f}, {1.0f, 15.0, 6.0f}}) {
     light::ProbeLight light;
     light.sky[0] = glm::vec3(radiance);
-    probes.push_back({{x, 0.85f, 0.0f}, hour, light});
+    probes.push_back({{x, 0.8f, 0.0f}, hour, light});  // Half as high as the person.
   }
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
   const auto radiance_at = [&](double time) { return At(*show, time).actors.at(0).light.sky[0].r; };
