@@ -313,7 +313,8 @@ TEST_F(MapSubcommands, MeasureScalesTheStageByAKnownDistance) {
   options.metres.reset();
   EXPECT_NEAR(RunMeasure(options)->json["distance_m"].get<double>(), 1.25 * said, 1e-6);
   options.to = 3;
-  EXPECT_THAT(RunMeasure(options).status().message(), HasSubstr("at the same position as the other one"));
+  EXPECT_THAT(RunMeasure(options).status().message(),
+              HasSubstr("at the same position as the other one"));
   options.to = 400;
   EXPECT_THAT(RunMeasure(options).status().message(), HasSubstr("not one of the map's 400 points"));
 }
@@ -332,7 +333,8 @@ TEST_F(MapSubcommands, TrainTakesASessionOutOfTheMapAndTheProject) {
   TrainCommandOptions options;
   options.project = paths.folder;
   options.remove_session = 3;
-  EXPECT_THAT(RunTrain(options, progress_, *log_).status().message(), HasSubstr("not one of the 2"));
+  EXPECT_THAT(RunTrain(options, progress_, *log_).status().message(),
+              HasSubstr("not one of the 2"));
   options.remove_session = 1;
   const Result<CommandResult> result = RunTrain(options, progress_, *log_);
   ASSERT_TRUE(result.ok()) << result.message();

@@ -88,7 +88,8 @@ TEST_F(ObjectCommands, WhatNoPlaceCanSoundLikeIsRefused) {
   const Json before = FormatProject(Saved());
   EXPECT_THAT(Sound({.reverb = "cave"}).status().message(), HasSubstr("choose one of none"));
   EXPECT_THAT(Sound({.reverb_gain = 100.0}).status().message(), HasSubstr("reverb_db"));
-  EXPECT_THAT(Sound({.remove_ambience = "sea"}).status().message(), HasSubstr("not an ambient sound"));
+  EXPECT_THAT(Sound({.remove_ambience = "sea"}).status().message(),
+              HasSubstr("not an ambient sound"));
   EXPECT_THAT(Sound({.place = "moon", .reverb = "hall"}).status().message(),
               HasSubstr("no place \"moon\""));
   EXPECT_EQ(FormatProject(Saved()), before);

@@ -100,7 +100,8 @@ TEST_F(Occluders, WhatWasDrawnHasADepthAndFlagsButNoPlace) {
   ASSERT_TRUE(Run({.set = "face1", .sizes = {"depth=0.6"}, .blocks_walking = "no"}).ok());
   EXPECT_EQ(Saved(0).depth, 0.6);
   EXPECT_FALSE(Saved(0).blocks_walking);
-  EXPECT_THAT(Problem({.set = "face1", .at = {0, 0, 0}}), HasSubstr("drawn on the training images"));
+  EXPECT_THAT(Problem({.set = "face1", .at = {0, 0, 0}}),
+              HasSubstr("drawn on the training images"));
   EXPECT_THAT(Problem({.set = "face1", .sizes = {"width=1"}}), HasSubstr("it has depth"));
   EXPECT_THAT(Problem({.set = "face1", .sizes = {"depth=-1"}}), HasSubstr("between 0 and 1000"));
 }
@@ -171,9 +172,11 @@ TEST_F(DrawnByPicks, WhatCannotBeLocatedIsRefusedAndNothingIsSaved) {
   EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png,3,4,5"}}), HasSubstr("FRAME,x,y"));
   EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png,3,-"}}), HasSubstr("FRAME,x,y"));
   EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png"}}), HasSubstr("FRAME,x,y"));
-  EXPECT_THAT(problem({.draw = "counter", .seen = {"99.png,3,4"}}), HasSubstr("not a training image"));
+  EXPECT_THAT(problem({.draw = "counter", .seen = {"99.png,3,4"}}),
+              HasSubstr("not a training image"));
   EXPECT_THAT(problem({.draw = "counter", .seen = {"2.png,3,99999"}}), HasSubstr("outside"));
-  EXPECT_THAT(problem({.draw = "a counter", .seen = {Seen(2), Seen(9)}}), HasSubstr("not a valid name"));
+  EXPECT_THAT(problem({.draw = "a counter", .seen = {Seen(2), Seen(9)}}),
+              HasSubstr("not a valid name"));
   EXPECT_EQ(FormatProject(*LoadProject(paths_)), before);
 }
 

@@ -56,7 +56,8 @@ TEST_F(ProjectCommands, AProjectIsRenamedAndTheRestStays) {
 TEST_F(ProjectCommands, LanguagesAreTagsEachOnce) {
   const Json before = FormatProject(Saved());
   for (const char* wrong : {"latin!", "la,la", "la,", ","}) {
-    EXPECT_THAT(Project({.spoken = wrong}).status().message(), HasSubstr("not a valid language tag"))
+    EXPECT_THAT(Project({.spoken = wrong}).status().message(),
+                HasSubstr("not a valid language tag"))
         << wrong;
   }
   EXPECT_EQ(FormatProject(Saved()), before);
@@ -185,7 +186,8 @@ TEST_F(ProjectCommands, WhatNoPlaceIsCalledIsTold) {
   EXPECT_THAT(Place({.remove = "moon"}).status().message(),
               HasSubstr("has no place \"moon\"; it has maquette, site"));
   EXPECT_THAT(Place({.add = "site"}).status().message(), HasSubstr("already"));
-  EXPECT_THAT(Place({.rename = "site", .to = "a site"}).status().message(), HasSubstr("not a valid name"));
+  EXPECT_THAT(Place({.rename = "site", .to = "a site"}).status().message(),
+              HasSubstr("not a valid name"));
   EXPECT_THAT(Place({.set = "site", .occluders_of = "moon"}).status().message(),
               HasSubstr("no place \"moon\""));
   EXPECT_EQ(FormatProject(Saved()), before);

@@ -141,11 +141,12 @@ TEST(Bml, WhatIsNotSupportedIsToldWithItsPlace) {
        {"a.xml:2: gesture 'x': 'keeper' has no clip 'beat'", "a.xml:3: dance 'd': is not supported",
         "a.xml:4: speech 's': no line has the text 'Nobody says this'",
         "gaze 'g': there is no actor or object called 'nobody'",
-        "locomotion 'l': 'the moon' is neither an object nor a position", "posture 'p': sitting needs a seat",
-        "posture 'p': poses of parts", "faceFacs 'f': action unit 12 is shown as 'joy'",
-        "faceFacs 'f99': there is no expression", "gesture 'loop1': waits for a point",
-        "gesture 'early': would begin before", "gesture 'two': its stroke comes at 2.00 s",
-        "gesture 'bad': start=\"soon\"", "before: is not supported"}) {
+        "locomotion 'l': 'the moon' is neither an object nor a position",
+        "posture 'p': sitting needs a seat", "posture 'p': poses of parts",
+        "faceFacs 'f': action unit 12 is shown as 'joy'", "faceFacs 'f99': there is no expression",
+        "gesture 'loop1': waits for a point", "gesture 'early': would begin before",
+        "gesture 'two': its stroke comes at 2.00 s", "gesture 'bad': start=\"soon\"",
+        "before: is not supported"}) {
     EXPECT_THAT(imported.warnings, Contains(HasSubstr(warning)));
   }
   EXPECT_DOUBLE_EQ(At(imported, "f"), 2.0);

@@ -277,7 +277,7 @@ TEST_F(TwoPlaces, TheSubcommandTellsWhatItLacks) {
   const std::string frame = test::MakeSceneDatabase(world_).keyframes[0].name;
   EXPECT_THAT(problem({.place = "site", .pick = "left", .frame = frame, .pixel = {9999, 1}}),
               HasSubstr("outside of the image"));
-  EXPECT_THAT(problem({.set = "left", .at = {0, NAN, 0}}), HasSubstr("no position"));
+  EXPECT_THAT(problem({.set = "left", .at = {0, NAN, 0}}), HasSubstr("not a position"));
   EXPECT_THAT(problem({.place = "site", .lay = true}), HasSubstr("at least three"));
   EXPECT_THAT(problem({.place = "site", .set = "new", .here = true}), HasSubstr("was not picked"));
 }

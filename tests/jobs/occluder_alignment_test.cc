@@ -207,7 +207,7 @@ TEST_F(AlignSubcommand, TellsWhatItLacks) {
   EXPECT_THAT(Problem({.occluder = "roof"}), HasSubstr("it has wall"));
   EXPECT_THAT(Problem({.place = "moon"}), HasSubstr("has no place \"moon\""));
   EXPECT_THAT(Problem({.by_points = true}), HasSubstr("0 of its points"));
-  EXPECT_THAT(Problem({.remove = 1}), HasSubstr("no such pair"));
+  EXPECT_THAT(Problem({.remove = 1}), HasSubstr("does not exist"));
   for (const char* pick : {"nine", "1,2", "a,b,c", "a,,1", ",", "a,1,2x", ""}) {
     EXPECT_THAT(Problem({.pair = {0, 0, 0}, .picks = {pick}}), HasSubstr("in")) << pick;
   }

@@ -81,8 +81,8 @@ TEST_F(ParadataTest, LanguagesOfCaptionsThatATextLacksAreTold) {
             "objects": {"cup": {}}}})");
   const ParadataReport report = CheckParadata(paths_, document_);
   EXPECT_THAT(EnglishOf(report.warnings),
-              Contains(HasSubstr("no text in 'la', and visitors read another "
-                                 "language, of: keeper")));
+              Contains(HasSubstr("no text in 'la' for these, so visitors read another "
+                                 "language: keeper")));
   EXPECT_THAT(EnglishOf(report.warnings), Not(Contains(HasSubstr("no text in 'en'"))));
 }
 

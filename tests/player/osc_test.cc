@@ -75,10 +75,12 @@ TEST(Osc, BundlesAreTakenApartInTheirOrder) {
 TEST(Osc, WhatIsNotAsOscSaysIsRefusedAsAWhole) {
   EXPECT_THAT(Refusal({}), HasSubstr("not a valid message"));
   EXPECT_THAT(Refusal(std::vector<std::byte>(4)), HasSubstr("not a valid message"));
-  EXPECT_THAT(Refusal(std::vector<std::byte>(64, std::byte{'/'})), HasSubstr("not a valid message"));
+  EXPECT_THAT(Refusal(std::vector<std::byte>(64, std::byte{'/'})),
+              HasSubstr("not a valid message"));
   EXPECT_THAT(Refusal(Packet("/a b", "")), HasSubstr("not a valid message"));
   EXPECT_THAT(Refusal(Packet("/a,1", "")), HasSubstr("not a valid message"));
-  EXPECT_THAT(Refusal(Packet("/a\n0 1", "")), HasSubstr("not a valid message")) << "a line of a log";
+  EXPECT_THAT(Refusal(Packet("/a\n0 1", "")), HasSubstr("not a valid message"))
+      << "a line of a log";
   EXPECT_THAT(Refusal(Packet("/a", "iiiiiiiii", 1, 2, 3, 4, 5, 6, 7, 8, 9)),
               HasSubstr("more than 8"));
   EXPECT_THAT(Refusal(Packet("/a", "s", std::string(500, 'a').c_str())), HasSubstr("400 bytes"));
