@@ -43,17 +43,31 @@ endfunction()
 
 # lararium_test(NAME LABEL label SOURCES ... LINK ... [TIMEOUT s])
 # A GoogleTest program. LABEL: unit (no GL, under a second a test), data (reads
-# scenes/ or LARARIUM_DATA_DIR), gl (draws, software Mesa suffices), ui, slow.
+# scenes/ or LARARIUM_DATA_DIR), gl (draws, software Mesa suffices), ui, slow. The short tests of
+# a unit or gl program run in one process, because starting a process takes longer than most of
+# them; the others are tests of CTest each, so that it can run them side by side.
 function(lararium_test name)
   cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
-  if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 120)
-  endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} lararium_test_support GTest::gmock GTest::gtest_main)
   string(REGEX REPLACE "_(data_|gl_|ui_|slow_)?test$" "" room ${name})
+  if(arg_LABEL MATCHES "^(unit|gl)$")
+    lararium_test_program(${name} ${arg_LABEL} ${room}/${arg_LABEL} "*" "${arg_TIMEOUT}")
+    return()
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
   gtest_discover_tests(${name} NO_PRETTY_VALUES TEST_PREFIX "${room}/" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+function(lararium_test_program name label test filter seconds)
+  if(NOT seconds)
+    set(seconds 900)
+  endif()
+  add_test(NAME ${test} COMMAND ${name} --gtest_brief=1 --gtest_filter=${filter})
+  set_tests_properties(${test} PROPERTIES LABELS ${label} TIMEOUT ${seconds})
 endfunction()
 
 # lararium_gles_test(NAME FILTER filter): those of a GL test's tests once more, in OpenGL ES 3.0
@@ -61,7 +75,6 @@ endfunction()
 function(lararium_gles_test name)
   cmake_parse_arguments(arg "" "FILTER" "" ${ARGN})
   string(REGEX REPLACE "_gl_test$" "" room ${name})
-  gtest_discover_tests(${name} NO_PRETTY_VALUES TEST_PREFIX "${room}_gles/" TEST_LIST ${name}_gles
-    TEST_FILTER "${arg_FILTER}" DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS gl TIMEOUT 120 ENVIRONMENT LARARIUM_GRAPHICS=gles)
+  lararium_test_program(${name} gl ${room}/gles "${arg_FILTER}" "")
+  set_tests_properties(${room}/gles PROPERTIES ENVIRONMENT LARARIUM_GRAPHICS=gles)
 endfunction()
