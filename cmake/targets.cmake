@@ -43,15 +43,15 @@ endfunction()
 
 # lararium_test(NAME LABEL label SOURCES ... LINK ... [TIMEOUT s])
 # A GoogleTest program. LABEL: unit (no GL, under a second a test), data (reads
-# scenes/ or LARARIUM_DATA_DIR), gl (draws, software Mesa suffices), ui, slow. The short tests of
-# a unit or gl program run in one process, because starting a process takes longer than most of
-# them; the others are tests of CTest each, so that it can run them side by side.
+# scenes/ or LARARIUM_DATA_DIR), gl (draws, software Mesa suffices), ui, slow. The tests of a
+# unit, data or gl program run in one process, because most are shorter than its start, or share
+# what they read; the others are tests of CTest each.
 function(lararium_test name)
   cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} lararium_test_support GTest::gmock GTest::gtest_main)
   string(REGEX REPLACE "_(data_|gl_|ui_|slow_)?test$" "" room ${name})
-  if(arg_LABEL MATCHES "^(unit|gl)$")
+  if(arg_LABEL MATCHES "^(unit|data|gl)$")
     lararium_test_program(${name} ${arg_LABEL} ${room}/${arg_LABEL} "*" "${arg_TIMEOUT}")
     return()
   endif()
@@ -64,7 +64,7 @@ endfunction()
 
 function(lararium_test_program name label test filter seconds)
   if(NOT seconds)
-    set(seconds 900)
+    set(seconds 1200)
   endif()
   add_test(NAME ${test} COMMAND ${name} --gtest_brief=1 --gtest_filter=${filter})
   set_tests_properties(${test} PROPERTIES LABELS ${label} TIMEOUT ${seconds})
