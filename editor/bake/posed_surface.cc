@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 #include <unordered_map>
-#include <utility>
 
 #include "shared/human/skinning.h"
 #include "shared/render/gl/texture_image.h"

@@ -1,7 +1,6 @@
 #include "editor/bake/transfer_solver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>

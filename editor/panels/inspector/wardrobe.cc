@@ -12,7 +12,6 @@
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "editor/panels/inspector/recipe_panel.h"
 #include "editor/panels/widgets/text.h"
-#include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
 #include "shared/core/lower_case.h"
 
