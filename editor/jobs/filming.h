@@ -69,8 +69,6 @@ std::filesystem::path NewFilmFile(const std::filesystem::path& folder);
 // English.
 std::string FaultText(train::CoverageFault fault, bool translated);
 std::string AdviceText(train::CoverageAdvice advice, bool translated);
-// {"covered", "ahead", "floor", "sideways", "depth", "advice"}
-Json CoverageJson(const train::CoverageState& coverage);
 
 // Films on a separate thread, for the window.
 class FilmTask {

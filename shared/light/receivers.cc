@@ -166,21 +166,6 @@ void AddLogVisibility(const Spheres& spheres,
   AddAll(spheres, receivers, &stage_from_own, range, log_visibility);
 }
 
-void ExpRows(const ShRows& log_visibility, ReceiverRange range, ShRows& visibility) {
-  CheckRegisters(range, log_visibility);
-  CheckRegisters(range, visibility);
-  CHECK(visibility.count() == log_visibility.count());
-  const ShProductTable& products = ShProductTable::ForCount(log_visibility.count());
-  for (size_t i = range.begin; i < range.end; i += kLanes) {
-    Lanes log[25], result[25];
-    LoadBlock(log_visibility, i, log);
-    ExpSh(products, log, result);
-    for (int k = 0; k < visibility.count(); ++k) {
-      Store(result[k], visibility.row(k) + i);
-    }
-  }
-}
-
 void ShadowLight(const LightMatrix& light,
                  const ShRows& log_visibility,
                  ReceiverRange range,
