@@ -17,6 +17,7 @@
 #include "editor/jobs/baking.h"
 #include "editor/jobs/staging.h"
 #include "shared/capture/frame_source.h"
+#include "shared/core/srgb.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
 #include "shared/image/encode.h"
@@ -229,9 +230,7 @@ cv::Mat Linear(const cv::Mat& bgr) {
 }
 
 uint8_t EncodeSrgb(float c) {
-  c = std::clamp(c, 0.0f, 1.0f);
-  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-  return static_cast<uint8_t>(std::lround(255.0f * encoded));
+  return static_cast<uint8_t>(std::lround(255.0f * SrgbFromLinear(std::clamp(c, 0.0f, 1.0f))));
 }
 
 cv::Mat Encoded(const cv::Mat& linear) {

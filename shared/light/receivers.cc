@@ -8,16 +8,6 @@
 namespace lararium::light {
 namespace {
 
-// The normalisation of the basis as floats.
-const std::array<float, kShCount>& Normalisation() {
-  static const std::array<float, kShCount> factors = [] {
-    std::array<float, kShCount> rounded;
-    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
-    return rounded;
-  }();
-  return factors;
-}
-
 struct Register3 {
   Lanes x, y, z;
 };
@@ -62,7 +52,7 @@ void AddSpheres(const Spheres& spheres,
                 ReceiverRange range,
                 ShRows& log_visibility) {
   const BlockerTable& table = BlockerTable::ForCount(Count);
-  const float* normalisation = Normalisation().data();
+  const float* normalisation = FloatShNormalisation().data();
   for (size_t i = range.begin; i < range.end; i += kLanes) {
     const size_t valid = std::min(kLanes, range.end - i);
     const Register3 at = {LoadFirst(&receivers.x[i], valid), LoadFirst(&receivers.y[i], valid),

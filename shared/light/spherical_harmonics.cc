@@ -24,15 +24,6 @@ std::array<double, kShCount> MakeNormalisation() {
   return factors;
 }
 
-const std::array<float, kShCount>& FloatNormalisation() {
-  static const std::array<float, kShCount> factors = [] {
-    std::array<float, kShCount> rounded;
-    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
-    return rounded;
-  }();
-  return factors;
-}
-
 // A band's matrix while it is computed: (2l+1)^2 numbers addressed by m and n.
 class BandMatrix {
  public:
@@ -153,9 +144,18 @@ const std::array<double, kShCount>& ShNormalisation() {
   return factors;
 }
 
+const std::array<float, kShCount>& FloatShNormalisation() {
+  static const std::array<float, kShCount> factors = [] {
+    std::array<float, kShCount> rounded;
+    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
+    return rounded;
+  }();
+  return factors;
+}
+
 std::array<float, kShCount> EvaluateShBasis(const glm::vec3& d) {
   std::array<float, kShCount> basis;
-  EvaluateShBasis<kShCount>(d.x, d.y, d.z, FloatNormalisation().data(), basis.data());
+  EvaluateShBasis<kShCount>(d.x, d.y, d.z, FloatShNormalisation().data(), basis.data());
   return basis;
 }
 

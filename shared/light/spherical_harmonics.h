@@ -40,6 +40,7 @@ constexpr int ShBandOf(int index) { return ShDegreeOf(index + 1); }
 // The factors that make the basis orthonormal, with the index above: sqrt((2l+1)/(4 pi)
 // (l-|m|)!/(l+|m|)!), times sqrt(2) unless m = 0.
 const std::array<double, kShCount>& ShNormalisation();
+const std::array<float, kShCount>& FloatShNormalisation();
 
 // Evaluates the first Count basis functions at a unit direction for any number type: float, double
 // or a register of floats. Uses the recurrence of the associated Legendre functions without their

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shared/core/check.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::vision {
 namespace {
@@ -21,8 +22,7 @@ constexpr float kWhite = 0.65f;
 std::array<float, 256> MakeLinearTable() {
   std::array<float, 256> table;
   for (size_t i = 0; i < table.size(); ++i) {
-    const double v = static_cast<double>(i) / 255.0;
-    table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    table[i] = static_cast<float>(lararium::LinearFromSrgb(static_cast<double>(i) / 255.0));
   }
   return table;
 }

@@ -1,9 +1,10 @@
 #include "editor/import/wardrobe/garment_pattern.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
+
+#include "shared/core/json.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::import {
 namespace {
@@ -55,9 +56,7 @@ std::vector<std::string> WordsOf(const std::pair<const char*, Value> (&words)[kC
 glm::vec3 ToLinear(uint32_t rgb) {
   glm::vec3 colour;
   for (int k = 0; k < 3; ++k) {
-    const float encoded = static_cast<float>(rgb >> (16 - 8 * k) & 0xffu) / 255.0f;
-    colour[k] =
-        encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    colour[k] = LinearFromSrgb(static_cast<float>(rgb >> (16 - 8 * k) & 0xffu) / 255.0f);
   }
   return colour;
 }
