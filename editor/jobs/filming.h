@@ -16,7 +16,6 @@
 
 #include "editor/train/coverage_guide.h"
 #include "shared/capture/frame_source.h"
-#include "shared/core/json.h"
 #include "shared/core/status.h"
 
 namespace lararium::editor {

@@ -12,6 +12,7 @@
 #include "editor/import/wardrobe/posed_body.h"
 #include "editor/import/wardrobe/sheet.h"
 #include "editor/import/wardrobe/weave.h"
+#include "shared/core/json.h"
 
 namespace lararium::import {
 namespace {
