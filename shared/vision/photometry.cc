@@ -45,6 +45,20 @@ float Weight(float linear, uint8_t brightest) {
 
 float LinearFromSrgb(uint8_t encoded) { return LinearTable()[encoded]; }
 
+cv::Mat LinearFromSrgb(const cv::Mat& bgr) {
+  DCHECK(bgr.type() == CV_8UC3);
+  cv::Mat linear(bgr.size(), CV_32FC3);
+  for (int row = 0; row < bgr.rows; ++row) {
+    for (int column = 0; column < bgr.cols; ++column) {
+      const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(row, column);
+      for (int c = 0; c < 3; ++c) {
+        linear.at<cv::Vec3f>(row, column)[c] = LinearFromSrgb(pixel[2 - c]);
+      }
+    }
+  }
+  return linear;
+}
+
 std::optional<LinearColour> SampleLinear(const cv::Mat& bgr, float x, float y) {
   DCHECK(bgr.type() == CV_8UC3);
   constexpr int kRadius = kSampleSize / 2;
