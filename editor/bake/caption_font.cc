@@ -9,9 +9,7 @@
 #include FT_TRUETYPE_IDS_H
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <utility>
 

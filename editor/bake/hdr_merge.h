@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

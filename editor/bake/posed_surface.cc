@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 #include <unordered_map>
-#include <utility>
 
+#include "shared/core/srgb.h"
 #include "shared/human/skinning.h"
 #include "shared/render/gl/texture_image.h"
 #include "shared/render/passes/closed_surface.h"
@@ -20,10 +20,6 @@ namespace {
 constexpr int kTextureSide = 512;
 // A seam is smooth if the cosine of the angle between its normals is at least this.
 constexpr float kSmooth = 0.5f;
-
-float LinearFromSrgb(float c) {
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
 
 cv::Mat Shrink(const cv::Mat& image) {
   const int side = std::max(image.cols, image.rows);

@@ -254,14 +254,4 @@ light::ShRgb ProjectProbe(const ProbeImage& image, const ProbePlacement& placeme
   return radiance;
 }
 
-Result<light::ShRgb> BakeProbe(const std::filesystem::path& file, const ProbePlacement& placement) {
-  if (!std::isfinite(placement.radiance_scale) || placement.radiance_scale <= 0.0f ||
-      !(std::abs(glm::length(placement.stage_from_probe) - 1.0f) < 1e-3f)) {
-    return Status::Error(file.string(), "the probe's orientation or scale is impossible",
-                         "give a unit quaternion and a scale above 0");
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const ProbeImage image, ReadProbeImage(file));
-  return ProjectProbe(image, placement);
-}
-
 }  // namespace lararium::bake

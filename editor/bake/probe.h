@@ -47,6 +47,5 @@ struct ProbePlacement {
 
 // The light of a probe image in stage axes, as spherical harmonics.
 light::ShRgb ProjectProbe(const ProbeImage& image, const ProbePlacement& placement);
-Result<light::ShRgb> BakeProbe(const std::filesystem::path& file, const ProbePlacement& placement);
 
 }  // namespace lararium::bake

@@ -6,8 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
-#include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 

@@ -23,7 +23,6 @@
 // 1994), so that the model adapts to the speaker.
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "editor/bake/speech_sound.h"

@@ -3,7 +3,6 @@
 // Recorded and rendered voices: reads the sound files of authors and writes FLAC.
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>

@@ -6,7 +6,6 @@
 #include <glm/mat3x3.hpp>
 #include <memory>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "editor/bake/transfer_solver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -158,7 +157,6 @@ TransferSites::TransferSites(std::vector<SurfaceMesh> surfaces) : meshes(std::mo
   for (const SurfaceMesh& mesh : meshes) {
     first.push_back(add(mesh, 1.0f));
   }
-  fronts = positions.size();
   for (const SurfaceMesh& mesh : meshes) {
     first_back.push_back(mesh.two_sided ? add(mesh, -1.0f) : kNone);
   }

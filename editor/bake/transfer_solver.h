@@ -29,7 +29,6 @@ struct TransferSites {
   std::vector<size_t> first;  // Site of the first vertex of each mesh.
   // For each mesh, the site of the back of its first vertex, or kNone.
   std::vector<size_t> first_back;
-  size_t fronts = 0;  // Number of sites that are not backs.
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;  // Normals of the side that the site is on.
   std::vector<glm::vec3> albedo;

@@ -2,7 +2,6 @@
 
 // Options of the subcommands that produce images, video and bundles from a project.
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

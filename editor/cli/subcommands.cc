@@ -1,7 +1,6 @@
 #include "editor/cli/subcommands.h"
 
 #include <utility>
-#include <vector>
 
 #include "editor/check/project_check.h"
 #include "editor/document/project.h"

@@ -2,8 +2,6 @@
 
 // The steps of authoring without the window. Each returns a report as text and as JSON.
 
-#include <string>
-
 #include "editor/cli/options.h"
 #include "editor/text/command_result.h"
 #include "shared/core/log.h"

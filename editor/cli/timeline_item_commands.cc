@@ -12,7 +12,6 @@
 #include "editor/check/timeline_edits.h"
 #include "editor/cli/command_arguments.h"
 #include "editor/document/script_document.h"
-#include "editor/text/text.h"
 #include "shared/core/file.h"
 
 namespace lararium::editor {

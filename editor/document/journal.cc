@@ -15,8 +15,6 @@ namespace lararium::editor {
 namespace {
 
 constexpr std::string_view kMagic = "lararium journal 2\n";
-// Version 1 had no records of lines. Both magics have the same length.
-constexpr std::string_view kFirstMagic = "lararium journal 1\n";
 constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo): enough to detect a truncated record.
@@ -300,7 +298,7 @@ Result<std::optional<JournalContent>> LoadJournal(const std::filesystem::path& f
   const auto damaged = [&](std::string_view problem) {
     return Status::Error(file.string(), problem);
   };
-  if (!text.starts_with(kMagic) && !text.starts_with(kFirstMagic)) {
+  if (!text.starts_with(kMagic)) {
     return damaged("was not written by this version of Lararium");
   }
   Records records(std::string_view(text).substr(kMagic.size()));

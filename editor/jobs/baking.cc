@@ -146,12 +146,12 @@ Result<glm::vec3> ParseTriple(const JsonView& view, std::string_view key) {
   return glm::vec3(v[0], v[1], v[2]);
 }
 
-// Reads a baked product. An older one may lack the sun or have fewer coefficients.
+// Reads a baked product. The sun may be missing.
 Result<light::ProbeLight> ParseLight(const JsonView& view) {
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("radiance"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(light::kShCount));
-  if (list.size() != light::kShCount && list.size() != light::kPlainShCount) {
-    return field.Problem("must have 36 coefficients, or 9 if it is old", "bake the project again");
+  if (list.size() != light::kShCount) {
+    return field.Problem("must have 36 coefficients", "bake the project again");
   }
   light::ProbeLight light;
   for (size_t i = 0; i < list.size(); ++i) {

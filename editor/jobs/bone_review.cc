@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/mat4x4.hpp>
 #include <set>
-#include <utility>
 
 #include "editor/import/model/model_import.h"
 #include "editor/text/text.h"

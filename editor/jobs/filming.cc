@@ -233,12 +233,6 @@ std::string AdviceText(CoverageAdvice advice, bool translated) {
   return "";
 }
 
-Json CoverageJson(const train::CoverageState& coverage) {
-  return {{"covered", coverage.shares.all()}, {"ahead", coverage.shares.ahead},
-          {"floor", coverage.shares.floor},   {"sideways", coverage.shares.sideways},
-          {"depth", coverage.shares.depth},   {"advice", AdviceText(coverage.advice, false)}};
-}
-
 FilmTask::FilmTask(std::unique_ptr<capture::FrameSource> camera, std::filesystem::path file)
     : file_(std::move(file)),
       thread_([this, camera = std::shared_ptr<capture::FrameSource>(std::move(camera))] {

@@ -16,7 +16,6 @@
 
 #include "editor/train/coverage_guide.h"
 #include "shared/capture/frame_source.h"
-#include "shared/core/json.h"
 #include "shared/core/status.h"
 
 namespace lararium::editor {
@@ -69,8 +68,6 @@ std::filesystem::path NewFilmFile(const std::filesystem::path& folder);
 // English.
 std::string FaultText(train::CoverageFault fault, bool translated);
 std::string AdviceText(train::CoverageAdvice advice, bool translated);
-// {"covered", "ahead", "floor", "sideways", "depth", "advice"}
-Json CoverageJson(const train::CoverageState& coverage);
 
 // Films on a separate thread, for the window.
 class FilmTask {

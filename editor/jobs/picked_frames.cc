@@ -4,8 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "editor/text/text.h"
-
 namespace lararium::editor {
 
 namespace {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "editor/jobs/studio.h"
-#include "shared/core/file.h"
 #include "shared/image/encode.h"
 
 namespace lararium::editor {

@@ -43,8 +43,7 @@ Status Exchange(const fs::path& file, const fs::path& other) {
   return error ? Problem(file, "cannot be exchanged with the former map", error) : Status();
 }
 
-// Writes a report for a map that has none because an older version trained it. It contains only
-// what the project knows.
+// Writes a report for a map whose report was deleted. It contains only what the project knows.
 Status MakeReport(const fs::path& file, const PlaceDocument& place) {
   std::error_code ignored;
   if (fs::exists(file, ignored)) {

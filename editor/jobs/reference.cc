@@ -183,16 +183,7 @@ Result<cv::Mat> CatchShadows(render::Renderer& renderer, render::RenderScene sce
   cv::Mat bgr;
   target.ReadPixels(bgr);
   renderer.RemoveMesh(occluder.mesh);
-  cv::Mat ratio(bgr.size(), CV_32FC3);
-  for (int row = 0; row < bgr.rows; ++row) {
-    for (int column = 0; column < bgr.cols; ++column) {
-      const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(row, column);
-      for (int c = 0; c < 3; ++c) {
-        ratio.at<cv::Vec3f>(row, column)[c] = vision::LinearFromSrgb(pixel[2 - c]);
-      }
-    }
-  }
-  return ratio;
+  return vision::LinearFromSrgb(bgr);
 }
 
 // Draws the floor behind the person. Without the person it is lit like an open plane.

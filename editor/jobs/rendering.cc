@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "editor/jobs/staging.h"
 #include "editor/jobs/training.h"
 #include "shared/capture/frame_source.h"
 #include "shared/capture/video_writer.h"

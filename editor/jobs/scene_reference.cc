@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>
@@ -18,6 +17,7 @@
 #include "editor/jobs/baking.h"
 #include "editor/jobs/staging.h"
 #include "shared/capture/frame_source.h"
+#include "shared/core/srgb.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
 #include "shared/image/encode.h"
@@ -215,24 +215,8 @@ cv::Mat ShadowMask(const stage::Place& place, const ReferenceView& view) {
   return mask;
 }
 
-// Linear RGB, CV_32FC3, of an 8-bit BGR picture in sRGB.
-cv::Mat Linear(const cv::Mat& bgr) {
-  cv::Mat linear(bgr.size(), CV_32FC3);
-  for (int row = 0; row < bgr.rows; ++row) {
-    for (int column = 0; column < bgr.cols; ++column) {
-      const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(row, column);
-      for (int c = 0; c < 3; ++c) {
-        linear.at<cv::Vec3f>(row, column)[c] = vision::LinearFromSrgb(pixel[2 - c]);
-      }
-    }
-  }
-  return linear;
-}
-
 uint8_t EncodeSrgb(float c) {
-  c = std::clamp(c, 0.0f, 1.0f);
-  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-  return static_cast<uint8_t>(std::lround(255.0f * encoded));
+  return static_cast<uint8_t>(std::lround(255.0f * SrgbFromLinear(std::clamp(c, 0.0f, 1.0f))));
 }
 
 cv::Mat Encoded(const cv::Mat& linear) {
@@ -454,7 +438,7 @@ Result<CommandResult> RunSceneReference(const ReferenceOptions& options,
   if (tracing.meshes.empty()) {
     return Status::Error(options.human.string(), "nothing is on stage at this time");
   }
-  const cv::Mat image = Linear(drawn.image);
+  const cv::Mat image = vision::LinearFromSrgb(drawn.image);
   if (tracing.has_real() && !options.video.empty()) {
     LARARIUM_RETURN_IF_ERROR(FitAlbedo(image, staged.gain, tracing, progress));
   }
@@ -463,7 +447,7 @@ Result<CommandResult> RunSceneReference(const ReferenceOptions& options,
       const cv::Mat traced,
       TracedPicture(image, ShadowMask(show->content().places.front().stage, view), staged.gain,
                     tracing, progress, coverage));
-  const cv::Mat ours = Linear(drawn.picture);
+  const cv::Mat ours = vision::LinearFromSrgb(drawn.picture);
   const cv::Mat error = cv::abs(ours - traced) * 2.0;
   cv::Mat side_by_side;
   cv::hconcat(std::vector<cv::Mat>{Encoded(traced), drawn.picture, Encoded(error)}, side_by_side);

@@ -1,7 +1,6 @@
 #include "editor/jobs/sounds.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <map>
 #include <set>

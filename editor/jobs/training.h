@@ -3,7 +3,6 @@
 // Trains a place of a project: from its recordings to places/NAME/scene.larscene.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "editor/document/place_recordings.h"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "editor/document/document_fields.h"
 #include "editor/jobs/background_task.h"
 #include "editor/text/text.h"
 #include "editor/train/capture_analysis.h"
@@ -17,7 +16,7 @@ namespace lararium::editor {
 
 namespace {
 
-constexpr int kSchema = 2;  // Schema 1 had advice only as sentences.
+constexpr int kSchema = 2;
 constexpr int kMostCounted = 1'000'000'000;
 constexpr size_t kMostAdvice = 1000;
 
@@ -84,15 +83,12 @@ Status ParseNumber(const JsonView& view, const char* key, double& value) {
 
 Result<CaptureAdvice> ParseAdvice(const JsonView& view) {
   CaptureAdvice advice{.kind = CaptureAdvice::Kind::kWritten};
-  if (view.json().is_string()) {
-    LARARIUM_ASSIGN_OR_RETURN(advice.text, view.Text());
-    return advice;
-  }
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, view.Text("text"));
-  if (!view.Has("kind") || !ParseName(view, "kind", kKinds, advice.kind).ok()) {
+  if (!view.Has("kind")) {
     advice.text = text;
     return advice;
   }
+  LARARIUM_RETURN_IF_ERROR(ParseName(view, "kind", kKinds, advice.kind));
   LARARIUM_RETURN_IF_ERROR(ParseName(view, "end", kPathEnds, advice.end));
   LARARIUM_RETURN_IF_ERROR(ParseName(view, "reason", kReasons, advice.reason));
   if (view.Has("frames")) {
@@ -124,7 +120,7 @@ Json FormatAdvice(const CaptureAdvice& advice) {
   Json json = {{"text", train::AdviceSentence(advice).English()}};
   const bool finite = std::isfinite(advice.value) && std::isfinite(advice.walk.value);
   const char* kind = NameIn(kKinds, advice.kind);
-  if (kind == nullptr || !finite) {  // An unknown kind of advice keeps its sentence.
+  if (kind == nullptr || !finite) {  // Such advice keeps only its sentence.
     return json;
   }
   json["kind"] = kind;
@@ -250,7 +246,7 @@ Result<TrainingReport> LoadTrainingReport(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
   const JsonView view(json, file.string());
   LARARIUM_RETURN_IF_ERROR(view.CheckFields({"schema", "recordings", "training"}));
-  LARARIUM_RETURN_IF_ERROR(view.Integer("schema", 1, kSchema).status());
+  LARARIUM_RETURN_IF_ERROR(view.Integer("schema", kSchema, kSchema).status());
   TrainingReport report;
   LARARIUM_ASSIGN_OR_RETURN(const JsonView recordings, view.Field("recordings"));
   LARARIUM_ASSIGN_OR_RETURN(report.recordings, ParseRecordings(recordings));

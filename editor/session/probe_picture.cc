@@ -8,6 +8,7 @@
 
 #include "editor/bake/probe.h"
 #include "editor/bake/sun_split.h"
+#include "shared/core/srgb.h"
 #include "shared/core/units.h"
 
 namespace lararium::editor {
@@ -53,9 +54,7 @@ glm::vec3 Seen(const glm::vec3& linear, const ProbeLook& look) {
 }
 
 uchar Encoded(float seen) {
-  const float v =
-      seen <= 0.0031308f ? 12.92f * seen : 1.055f * std::pow(seen, 1.0f / 2.4f) - 0.055f;
-  return static_cast<uchar>(std::lround(255.0f * std::clamp(v, 0.0f, 1.0f)));
+  return static_cast<uchar>(std::lround(255.0f * std::clamp(SrgbFromLinear(seen), 0.0f, 1.0f)));
 }
 
 cv::Vec3b Shown(const glm::vec3& radiance, const ProbeLook& look) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "editor/document/document_fields.h"
 #include "editor/document/user_folders.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
@@ -30,12 +29,9 @@ Result<Settings> Parse(const std::string& text, const std::string& place) {
   if (std::find(kScales.begin(), kScales.end(), settings.scale) == kScales.end()) {
     return view.Problem("\"scale\" must be 1, 1.25, 1.5 or 2");
   }
-  // Files of older versions do not have the field.
-  if (view.Has("language")) {
-    LARARIUM_ASSIGN_OR_RETURN(settings.language, view.Text("language"));
-    if (std::find(kLanguages.begin(), kLanguages.end(), settings.language) == kLanguages.end()) {
-      return view.Problem("\"language\" must be \"\", \"en\" or \"it\"");
-    }
+  LARARIUM_ASSIGN_OR_RETURN(settings.language, view.Text("language"));
+  if (std::find(kLanguages.begin(), kLanguages.end(), settings.language) == kLanguages.end()) {
+    return view.Problem("\"language\" must be \"\", \"en\" or \"it\"");
   }
   return settings;
 }

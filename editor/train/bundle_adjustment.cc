@@ -173,16 +173,6 @@ class Bundle {
   std::vector<Eigen::Vector3d> points_;
 };
 
-std::vector<uint32_t> TracksWithPoints(const Reconstruction& reconstruction) {
-  std::vector<uint32_t> tracks;
-  for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
-    if (reconstruction.HasPoint(track)) {
-      tracks.push_back(track);
-    }
-  }
-  return tracks;
-}
-
 // The most observed of the tracks, as many as each image needs to see points_per_image of them; in
 // order of index.
 std::vector<uint32_t> ThinOut(const Reconstruction& reconstruction,
@@ -252,7 +242,7 @@ struct ReconstructionBundle {
 
 // Triangulates all points again except those of tracks, which are ascending.
 void IntersectOthers(Reconstruction& reconstruction, std::span<const uint32_t> tracks) {
-  for (const uint32_t track : TracksWithPoints(reconstruction)) {
+  for (const uint32_t track : reconstruction.TracksWithPoints()) {
     if (!std::binary_search(tracks.begin(), tracks.end(), track)) {
       reconstruction.Reintersect(track);
     }
@@ -371,7 +361,7 @@ bool AdjustAll(Reconstruction& reconstruction,
   const double distance = (reconstruction.camera_from_map(anchors[0]).Center() -
                            reconstruction.camera_from_map(anchors[1]).Center())
                               .norm();
-  std::vector<uint32_t> tracks = TracksWithPoints(reconstruction);
+  std::vector<uint32_t> tracks = reconstruction.TracksWithPoints();
   if (options.points_per_image > 0) {
     tracks = ThinOut(reconstruction, std::move(tracks), options.points_per_image);
   }
@@ -454,7 +444,7 @@ IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
   BundleOptions options;
   options.refine_intrinsics = true;
   options.refine_centre = centre_refined;
-  ReconstructionBundle evaluated(reconstruction, TracksWithPoints(reconstruction), variable,
+  ReconstructionBundle evaluated(reconstruction, reconstruction.TracksWithPoints(), variable,
                                  options);
   ceres::Problem& problem = evaluated.bundle.problem();
   ceres::Problem::EvaluateOptions evaluate;

@@ -14,6 +14,7 @@
 #include "shared/capture/frame_source.h"
 #include "shared/core/file.h"
 #include "shared/core/parallel.h"
+#include "shared/core/srgb.h"
 #include "shared/geometry/resampling.h"
 #include "shared/image/decode.h"
 #include "shared/image/encode.h"
@@ -28,11 +29,10 @@ constexpr std::string_view kImport = "import from COLMAP";
 
 // ------------------------------------------------------------------- export
 
-// The sRGB byte of a linear value (IEC 61966-2-1). Negative values, which mean unknown, give 0.
-uint8_t SrgbFromLinear(float linear) {
+// The sRGB byte of a linear value. Negative values, which mean unknown, give 0.
+uint8_t SrgbByte(float linear) {
   const double v = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-  return static_cast<uint8_t>(std::lround(255.0 * encoded));
+  return static_cast<uint8_t>(std::lround(255.0 * SrgbFromLinear(v)));
 }
 
 // A relative path that stays inside its folder and has the suffix of an image. It contains no
@@ -499,7 +499,7 @@ ColmapModel ColmapFromDatabase(const vision::SceneDatabase& database) {
     point.id = i + 1;
     point.position = database.points[i].cast<double>();
     for (int c = 0; c < 3 && has_colours; ++c) {
-      point.colour[c] = SrgbFromLinear(database.colours[i][c]);
+      point.colour[c] = SrgbByte(database.colours[i][c]);
     }
   }
   for (const vision::Observation& o : database.observations) {

@@ -13,17 +13,6 @@ namespace {
 
 using vision::Descriptor;
 
-// Tracks that have a point, in order of index.
-std::vector<uint32_t> TracksToStore(const Reconstruction& reconstruction) {
-  std::vector<uint32_t> tracks;
-  for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
-    if (reconstruction.HasPoint(track)) {
-      tracks.push_back(track);
-    }
-  }
-  return tracks;
-}
-
 // The candidate with the smallest sum of distances to the others.
 size_t MostCentral(std::span<const Descriptor> candidates) {
   std::vector<uint64_t> sums(candidates.size(), 0);
@@ -49,7 +38,7 @@ class Builder {
     AddKeyframes();
     database_.descriptor_begin.push_back(0);
     double error_sum = 0.0;
-    for (const uint32_t track : TracksToStore(reconstruction_)) {
+    for (const uint32_t track : reconstruction_.TracksWithPoints()) {
       error_sum += AddPoint(track);
     }
     std::sort(database_.observations.begin(), database_.observations.end(),

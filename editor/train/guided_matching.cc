@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "shared/vision/descriptor_forest.h"
+
 namespace lararium::train {
 namespace {
 
@@ -40,15 +42,6 @@ struct Nearest {
 float Wrap(float angle) {
   constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
   return angle - kTurn * std::floor(angle / kTurn + 0.5f);
-}
-
-uint32_t SquaredDistance(const vision::Descriptor& a, const vision::Descriptor& b) {
-  int32_t sum = 0;
-  for (int i = 0; i < vision::kDescriptorSize; ++i) {
-    const auto difference = static_cast<int16_t>(a[i] - b[i]);
-    sum += difference * difference;
-  }
-  return static_cast<uint32_t>(sum);
 }
 
 }  // namespace
@@ -164,7 +157,7 @@ std::vector<FeatureMatch> MatchGuided(const FeatureGrid& a,
           std::abs(Wrap(b.angle(j) - angle)) > kMaxTurn) {
         return;
       }
-      const uint32_t squared_distance = SquaredDistance(a.descriptor(i), b.descriptor(j));
+      const uint32_t squared_distance = vision::SquaredDistance(a.descriptor(i), b.descriptor(j));
       of_a[i].Add(squared_distance, j);
       of_b[j].Add(squared_distance, i);
     });

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "editor/train/database_builder.h"
 #include "editor/train/mapper.h"

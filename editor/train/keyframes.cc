@@ -5,7 +5,6 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
-#include <utility>
 
 #include "shared/core/check.h"
 

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "editor/train/matching.h"
 #include "shared/core/parallel.h"

@@ -51,6 +51,16 @@ std::vector<uint32_t> Reconstruction::LocatedImages() const {
   return images;
 }
 
+std::vector<uint32_t> Reconstruction::TracksWithPoints() const {
+  std::vector<uint32_t> tracks;
+  for (uint32_t track = 0; track < points_.size(); ++track) {
+    if (HasPoint(track)) {
+      tracks.push_back(track);
+    }
+  }
+  return tracks;
+}
+
 size_t Reconstruction::ObservationCount(uint32_t track) const {
   const auto first = observed_.begin() + tracks_.begin[track];
   return static_cast<size_t>(std::count(first, observed_.begin() + tracks_.begin[track + 1], 1));

@@ -51,6 +51,7 @@ class Reconstruction {
   const Eigen::Vector2d& PlanePoint(uint32_t element) const { return plane_points_[element]; }
 
   bool HasPoint(uint32_t track) const { return points_[track].has_value(); }
+  std::vector<uint32_t> TracksWithPoints() const;  // Indices of tracks, ascending.
   const Eigen::Vector3d& Point(uint32_t track) const { return *points_[track]; }
   void MovePoint(uint32_t track, const Eigen::Vector3d& point) { points_[track] = point; }
   // Returns whether the element is an observation of its track's point and not an outlier.

@@ -2,7 +2,6 @@
 
 #include <ceres/ceres.h>
 
-#include <array>
 #include <memory>
 
 #include "editor/train/bundle_adjustment.h"

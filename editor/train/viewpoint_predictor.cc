@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "shared/core/median.h"
 #include "shared/vision/pose_refinement.h"

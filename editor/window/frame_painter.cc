@@ -4,7 +4,6 @@
 // epoxy first: ImGui's back end must not bring its own OpenGL headers.
 #include <imgui_impl_opengl3.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "editor/document/document_fields.h"
 #include "editor/document/user_folders.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"

@@ -19,6 +19,7 @@
 #include "shared/audio/audio_out.h"
 #include "shared/bundle/bundle.h"
 #include "shared/capture/frame_source.h"
+#include "shared/core/json.h"
 #include "shared/core/processor.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/window.h"

@@ -3,7 +3,6 @@
 // Checks whether a machine is ready for a show, and says how to solve each problem.
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

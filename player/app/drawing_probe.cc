@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <opencv2/imgproc.hpp>
 #include <span>
-#include <utility>
 
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/gl/graphics_context.h"

@@ -4,7 +4,6 @@
 // shaders, so that the first visitor after the installation of a driver does not wait for it.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "player/app/options.h"

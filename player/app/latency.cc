@@ -1,6 +1,5 @@
 #include "player/app/latency.h"
 
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <mutex>

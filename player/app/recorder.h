@@ -2,7 +2,6 @@
 
 // Records a run: the composite as a video with sound, and the poses.
 
-#include <filesystem>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>

@@ -19,15 +19,12 @@ std::filesystem::path StateFile(const std::filesystem::path& folder) {
   return folder / "state.json";
 }
 
-// Reads a choice by its name. Files of older players lack the key.
+// Reads a choice by its name.
 template <typename Choice, size_t n>
 Status ReadChoice(const JsonView& view,
                   const char* key,
                   const std::array<std::string_view, n>& names,
                   Choice& choice) {
-  if (!view.Has(key)) {
-    return Status();
-  }
   LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text(key, kMaxText));
   const std::optional<Choice> found = render::ChoiceOf<Choice>(names, name);
   if (!found) {
@@ -38,10 +35,8 @@ Status ReadChoice(const JsonView& view,
 }
 
 Status ReadSwitch(const JsonView& view, const char* key, bool& on) {
-  if (view.Has(key)) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
-    LARARIUM_ASSIGN_OR_RETURN(on, field.Boolean());
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
+  LARARIUM_ASSIGN_OR_RETURN(on, field.Boolean());
   return Status();
 }
 
@@ -91,10 +86,8 @@ Result<KioskState> ParseKioskState(std::string_view text, const std::string& whe
   LARARIUM_ASSIGN_OR_RETURN(state.title, view.Text("title", kMaxText));
   LARARIUM_ASSIGN_OR_RETURN(state.seconds, view.Number("seconds", 0.0, kMaxSeconds));
   LARARIUM_RETURN_IF_ERROR(ReadChoices(view, state.choices));
-  if (view.Has("house")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView house, view.Field("house"));
-    LARARIUM_RETURN_IF_ERROR(ReadChoices(house, state.house));
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const JsonView house, view.Field("house"));
+  LARARIUM_RETURN_IF_ERROR(ReadChoices(house, state.house));
   return state;
 }
 

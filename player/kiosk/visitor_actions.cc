@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "shared/core/json.h"
 #include "shared/render/gl/window.h"
 #include "shared/show/show_content.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "player/kiosk/kiosk_state.h"
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
 namespace lararium::player {

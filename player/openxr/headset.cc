@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "shared/core/json.h"
+
 namespace lararium::player {
 namespace {
 

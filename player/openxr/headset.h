@@ -8,7 +8,7 @@
 #include <array>
 #include <optional>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 #include "shared/geometry/lens_model.h"
 #include "shared/geometry/transform.h"

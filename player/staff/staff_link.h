@@ -3,7 +3,6 @@
 // The player's end of the link to its staff page.
 
 #include <atomic>
-#include <cstdint>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <stop_token>

@@ -8,7 +8,6 @@
 #include <AL/efx.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "shared/audio/decibels.h"

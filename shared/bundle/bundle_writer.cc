@@ -150,14 +150,4 @@ Status WriteBundle(const std::filesystem::path& path,
   return status;
 }
 
-Status SignBundle(const std::filesystem::path& path, const SecretKey& key) {
-  LARARIUM_ASSIGN_OR_RETURN(const Bundle bundle, Bundle::Open(path));
-  std::vector<MemberContent> members;
-  for (const Member& member : bundle.manifest().members) {
-    LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member.name));
-    members.push_back({member.name, bytes});
-  }
-  return WriteBundle(path, bundle.manifest(), members, &key);
-}
-
 }  // namespace lararium::bundle

@@ -30,7 +30,4 @@ Status WriteBundle(const std::filesystem::path& path,
                    const std::vector<MemberContent>& members,
                    const SecretKey* key = nullptr);
 
-// Signs an existing bundle and replaces any signature that it has.
-Status SignBundle(const std::filesystem::path& path, const SecretKey& key);
-
 }  // namespace lararium::bundle

@@ -23,8 +23,6 @@ constexpr size_t kMaxObjects = 1024;
 constexpr size_t kMaxLines = 4096;
 constexpr size_t kMaxLanguages = 64;
 constexpr size_t kMaxLanguageTag = 16;
-// Language of the lines in old bundles without languages.
-constexpr char kNoLanguage[] = "und";
 constexpr size_t kMaxSounds = 4096;
 constexpr size_t kMaxOccluders = 256;
 constexpr double kMaxIrradiance = 1e6;
@@ -120,14 +118,9 @@ Json FormatSun(const light::Sun& sun) {
 
 Result<light::ShRgb> ParseSky(const JsonView& json) {
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("light"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(3 * light::kShCount));
-  // Older bundles contain degree 2 only.
-  const bool plain = list.size() == 3 * light::kPlainShCount;
-  LARARIUM_ASSIGN_OR_RETURN(
-      const std::vector<double> numbers,
-      field.Numbers(3 * static_cast<size_t>(plain ? light::kPlainShCount : light::kShCount)));
-  light::ShRgb light = {};
-  for (size_t i = 0; i < numbers.size() / 3; ++i) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> numbers, field.Numbers(3 * light::kShCount));
+  light::ShRgb light;
+  for (size_t i = 0; i < light.size(); ++i) {
     for (int channel = 0; channel < 3; ++channel) {
       const auto value = static_cast<float>(numbers[3 * i + static_cast<size_t>(channel)]);
       if (!std::isfinite(value)) {
@@ -175,14 +168,7 @@ Status ParseProbe(const JsonView& json, PlaceEntry& place) {
   return Status();
 }
 
-// In schema 1 the light is in the place itself.
 Status ParseProbes(const JsonView& json, PlaceEntry& place) {
-  if (!json.Has("probes")) {
-    LARARIUM_ASSIGN_OR_RETURN(const light::ProbeLight light, ParseLight(json));
-    place.probes = {{{}, light::kNoon, light}};
-    place.glossy.resize(1);
-    return Status();
-  }
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("probes"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> items,
                             field.Array(light::kMaxPlacedProbes));
@@ -210,10 +196,8 @@ Result<OccluderEntry> ParseOccluder(const JsonView& json) {
   for (const auto& [key, does] : {std::pair{"blocks_sound", &occluder.blocks_sound},
                                   {"blocks_walking", &occluder.blocks_walking},
                                   {"receives_shadow", &occluder.receives_shadow}}) {
-    if (json.Has(key)) {
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field(key));
-      LARARIUM_ASSIGN_OR_RETURN(*does, field.Boolean());
-    }
+    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field(key));
+    LARARIUM_ASSIGN_OR_RETURN(*does, field.Boolean());
   }
   return occluder;
 }
@@ -290,14 +274,6 @@ Result<LineEntry> ParseLine(const JsonView& json) {
   return line;
 }
 
-// Parses a line of an old bundle without languages.
-Result<LineEntry> ParsePlainSpeech(const JsonView& json) {
-  LineEntry line;
-  LARARIUM_ASSIGN_OR_RETURN(line.name, json.Text("name", kMaxName));
-  LARARIUM_ASSIGN_OR_RETURN(line.spoken[kNoLanguage].visemes, ParseMemberName(json, "visemes"));
-  return line;
-}
-
 Result<SpokenLanguage> ParseSpokenLanguage(const JsonView& json) {
   SpokenLanguage language;
   LARARIUM_ASSIGN_OR_RETURN(language.name, json.Text("name", kMaxLanguageTag));
@@ -309,12 +285,6 @@ Result<SpokenLanguage> ParseSpokenLanguage(const JsonView& json) {
 
 // Parses the lines, their spoken and written languages, and the font.
 Status ParseLines(const JsonView& json, ShowManifest& manifest) {
-  if (json.Has("speech")) {
-    LARARIUM_ASSIGN_OR_RETURN(manifest.lines,
-                              ParseList(json, "speech", kMaxLines, ParsePlainSpeech));
-    manifest.spoken = {{kNoLanguage, ""}};
-    return Status();
-  }
   LARARIUM_ASSIGN_OR_RETURN(manifest.lines, ParseOptionalList(json, "lines", kMaxLines, ParseLine));
   LARARIUM_ASSIGN_OR_RETURN(manifest.spoken,
                             ParseOptionalList(json, "spoken", kMaxLanguages, ParseSpokenLanguage));
@@ -461,10 +431,11 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
   const JsonView json(root, where);
   LARARIUM_ASSIGN_OR_RETURN(const int64_t schema,
                             json.Integer("schema", 1, std::numeric_limits<int32_t>::max()));
-  if (schema > ShowManifest::kSchema) {
-    return json.Problem("the bundle has version " + std::to_string(schema) +
-                            ", this program reads up to " + std::to_string(ShowManifest::kSchema),
-                        "update the player");
+  if (schema != ShowManifest::kSchema) {
+    return json.Problem(
+        "the bundle has version " + std::to_string(schema) + ", this program reads version " +
+            std::to_string(ShowManifest::kSchema),
+        schema > ShowManifest::kSchema ? "update the player" : "export the bundle again");
   }
   ShowManifest manifest;
   LARARIUM_ASSIGN_OR_RETURN(manifest.title, json.Text("title", kMaxTitle));

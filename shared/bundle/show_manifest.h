@@ -96,7 +96,6 @@ struct SoundEntry {
 };
 
 struct ShowManifest {
-  // In schema 1 a place has a single light without position and time of day.
   static constexpr int kSchema = 2;
 
   std::string title;

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
 #include "shared/capture/camera_setup.h"
 #include "shared/capture/camera_source.h"

@@ -1,6 +1,5 @@
 #include "shared/capture/video_writer.h"
 
-#include <cmath>
 #include <string>
 #include <system_error>
 

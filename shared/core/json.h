@@ -12,11 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
 namespace lararium {
-
-using Json = nlohmann::json;  // keys are sorted, so that files diff well
 
 // where: the name of the text in error messages, normally its file.
 Result<Json> ParseJson(std::string_view text, std::string_view where);

@@ -12,7 +12,6 @@
 #include <mutex>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 namespace lararium {
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "shared/core/json.h"
+
 namespace lararium {
 namespace {
 

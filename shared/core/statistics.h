@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 
 namespace lararium {
 

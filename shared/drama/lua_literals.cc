@@ -1,6 +1,5 @@
 #include "shared/drama/lua_literals.h"
 
-#include <optional>
 #include <utility>
 
 namespace lararium::drama {

@@ -1,7 +1,6 @@
 // The base library, coroutines and mathematics for scripts.
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <vector>
 

@@ -5,7 +5,6 @@
 // the Lua 5.4 reference manual.
 
 #include <lua.hpp>
-#include <string_view>
 
 #include "shared/core/random.h"
 

@@ -1,8 +1,6 @@
 #include "shared/drama/sync_points.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace lararium::drama {
 namespace {

@@ -5,7 +5,6 @@
 // end.
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>

@@ -4,7 +4,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "shared/core/check.h"
-#include "shared/human/turns.h"
 
 namespace lararium::human {
 namespace {
@@ -70,20 +69,6 @@ void BlendPose(std::span<JointTransform> pose,
     pose[joint].rotation = glm::slerp(pose[joint].rotation, other[joint].rotation, w);
     pose[joint].translation = glm::mix(pose[joint].translation, other[joint].translation, w);
     pose[joint].scale = glm::mix(pose[joint].scale, other[joint].scale, w);
-  }
-}
-
-void AddPose(std::span<JointTransform> pose,
-             std::span<const JointTransform> reference,
-             std::span<const JointTransform> layer,
-             float weight) {
-  CHECK(pose.size() == reference.size() && pose.size() == layer.size());
-  for (size_t joint = 0; joint < pose.size(); ++joint) {
-    const glm::quat turn = glm::conjugate(reference[joint].rotation) * layer[joint].rotation;
-    pose[joint].rotation = glm::normalize(pose[joint].rotation * Share(turn, weight));
-    pose[joint].translation += weight * (layer[joint].translation - reference[joint].translation);
-    pose[joint].scale *=
-        glm::mix(glm::vec3(1.0f), layer[joint].scale / reference[joint].scale, weight);
   }
 }
 

@@ -28,11 +28,4 @@ void BlendPose(std::span<JointTransform> pose,
                float weight,
                std::span<const float> mask);
 
-// Adds a layer: each joint's pose is followed by `weight` times the motion from reference to layer,
-// in the joint's own frame.
-void AddPose(std::span<JointTransform> pose,
-             std::span<const JointTransform> reference,
-             std::span<const JointTransform> layer,
-             float weight);
-
 }  // namespace lararium::human

@@ -4,8 +4,6 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "shared/human/turns.h"
-
 namespace lararium::human {
 namespace {
 

@@ -9,7 +9,6 @@
 #include "shared/human/cloth_data.h"
 #include "shared/human/finite.h"
 #include "shared/human/skinning.h"
-#include "shared/human/turns.h"
 
 namespace lararium::human {
 namespace {
@@ -656,21 +655,6 @@ ClothReport StepCloth(const ClothModel& model, const ClothStep& step, ClothState
   state.started = true;
   Draw(data, state);
   return report;
-}
-
-void SettleCloth(const ClothModel& model,
-                 const ClothStep& step,
-                 float seconds,
-                 ClothState& cloth_state) {
-  State& state = cloth_state.data();
-  CHECK(step.actor_from_joint.size() == model.data().joint_from_actor.size());
-  if (model.data().rest.empty() || !IsPossible(step) || !TakePose(model.data(), step, state)) {
-    return;
-  }
-  Carry(state);
-  Settle(model.data(), step, seconds, state);
-  state.started = true;
-  Draw(model.data(), state);
 }
 
 }  // namespace lararium::human

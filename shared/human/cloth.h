@@ -115,15 +115,11 @@ struct ClothReport {
   bool reset = false;   // A particle became invalid: all particles went back to the skin.
 };
 
-// Moves the cloth to the pose. Three kinds of step carry the cloth along with the actor and settle
-// it (SettleCloth): the first step, a step of negative time or of more than a quarter of a second,
+// Moves the cloth to the pose. Three kinds of step carry the cloth along with the actor and let it
+// fall into place: the first step, a step of negative time or of more than a quarter of a second,
 // and a step in which the body moves further than people can. If the input is not finite, the cloth
 // stays where it was.
 ClothReport StepCloth(const ClothModel& model, const ClothStep& step, ClothState& state);
-
-// Lets the cloth fall into place at a constant pose, until no particle moves faster than 2 cm/s or
-// `seconds` of simulated time have passed.
-void SettleCloth(const ClothModel& model, const ClothStep& step, float seconds, ClothState& state);
 
 // Computes the drawn mesh of Human::cloths[cloth]; `mesh` is Human::meshes[Cloth::mesh] and `skin`
 // comes from ComputeSkinMatrices. Bound vertices follow the particles; the others are skinned.

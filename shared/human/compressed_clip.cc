@@ -177,11 +177,4 @@ size_t CompressedClip::bytes() const {
          rotations_.size() * sizeof(PackedRotation) + vectors(translations_) + vectors(scales_);
 }
 
-void SampleClips(std::span<const SampleJob> jobs) {
-  for (const SampleJob& job : jobs) {
-    CHECK(job.clip != nullptr);
-    job.clip->Sample(job.time, job.pose);
-  }
-}
-
 }  // namespace lararium::human

@@ -70,12 +70,4 @@ class CompressedClip {
   VectorTracks translations_, scales_;
 };
 
-// One sample of a batch, which writes its own pose.
-struct SampleJob {
-  const CompressedClip* clip = nullptr;
-  double time = 0.0;
-  std::span<JointTransform> pose;
-};
-void SampleClips(std::span<const SampleJob> jobs);
-
 }  // namespace lararium::human

@@ -3,8 +3,6 @@
 // How people walk on level ground: angles over a stride, and stride against speed. Lengths are
 // shares of the leg's length (hip joint to floor) unless stated otherwise.
 
-#include <array>
-
 #include "shared/human/locomotion.h"
 
 namespace lararium::human {

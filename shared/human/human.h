@@ -74,6 +74,5 @@ Result<Human> ParseHuman(std::span<const std::byte> bytes,
 Result<Human> LoadHuman(const std::filesystem::path& file);
 // Requires a human that was read completely.
 std::vector<std::byte> SerializeHuman(const Human& human);
-Status SaveHuman(const std::filesystem::path& file, const Human& human);
 
 }  // namespace lararium::human

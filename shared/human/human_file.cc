@@ -469,9 +469,4 @@ std::vector<std::byte> SerializeHuman(const Human& human) {
   return {bytes.begin(), bytes.end()};
 }
 
-Status SaveHuman(const std::filesystem::path& file, const Human& human) {
-  LARARIUM_RETURN_IF_ERROR(human.Validate(file.string()));
-  return WriteFileAtomically(file, SerializeHuman(human));
-}
-
 }  // namespace lararium::human

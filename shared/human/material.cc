@@ -1,7 +1,5 @@
 #include "shared/human/material.h"
 
-#include <cmath>
-
 namespace lararium::human {
 namespace {
 

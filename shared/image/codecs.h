@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "shared/core/status.h"
 #include "shared/image/decode.h"

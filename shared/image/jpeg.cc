@@ -10,9 +10,7 @@
 #include <jerror.h>
 // clang-format on
 
-#include <algorithm>
 #include <array>
-#include <memory>
 #include <opencv2/imgproc.hpp>
 
 #include "shared/core/check.h"

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <string_view>
 
 #include "shared/image/codecs.h"
 #include "shared/image/libav.h"

@@ -10,7 +10,6 @@
 // would grow without bound.
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "shared/core/check.h"

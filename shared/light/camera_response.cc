@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "shared/core/json.h"
+#include "shared/core/srgb.h"
+
 namespace lararium::light {
 namespace {
 
 constexpr const char* kChannels[3] = {"r", "g", "b"};
 constexpr double kLargest = 1e6;
-
-double LinearFromSrgb(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 CameraResponse Uniform(const CameraResponse::Curve& curve) { return {{curve, curve, curve}}; }
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
 namespace lararium::light {

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "shared/core/json.h"
+
 namespace lararium::light {
 
 Json FormatCameraTraits(const CameraTraits& traits) {

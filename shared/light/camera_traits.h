@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 #include "shared/light/camera_response.h"
 

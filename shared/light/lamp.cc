@@ -125,8 +125,7 @@ void AddLamp(const Lamp& lamp,
              ReceiverRange range,
              ShRowsRgb& radiance) {
   constexpr int kDegree = ShDegreeOf(Count);
-  std::array<float, kShCount> normalisation;
-  std::copy(ShNormalisation().begin(), ShNormalisation().end(), normalisation.begin());
+  const std::array<float, kShCount>& normalisation = FloatShNormalisation();
   for (size_t i = range.begin; i < range.end; i += kLanes) {
     const size_t valid = std::min(kLanes, range.end - i);
     const Point8 at = {LoadFirst(&receivers.x[i], valid), LoadFirst(&receivers.y[i], valid),

@@ -35,9 +35,6 @@ inline Lanes LoadFirst(const float* from, size_t count) {
   std::memcpy(&lanes, from, count * sizeof(float));
   return lanes;
 }
-inline void StoreFirst(const Lanes& lanes, float* to, size_t count) {
-  std::memcpy(to, &lanes, std::min(count, kLanes) * sizeof(float));
-}
 
 inline Lanes Broadcast(float a) { return Lanes{a, a, a, a, a, a, a, a}; }
 

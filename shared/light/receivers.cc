@@ -8,16 +8,6 @@
 namespace lararium::light {
 namespace {
 
-// The normalisation of the basis as floats.
-const std::array<float, kShCount>& Normalisation() {
-  static const std::array<float, kShCount> factors = [] {
-    std::array<float, kShCount> rounded;
-    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
-    return rounded;
-  }();
-  return factors;
-}
-
 struct Register3 {
   Lanes x, y, z;
 };
@@ -62,7 +52,7 @@ void AddSpheres(const Spheres& spheres,
                 ReceiverRange range,
                 ShRows& log_visibility) {
   const BlockerTable& table = BlockerTable::ForCount(Count);
-  const float* normalisation = Normalisation().data();
+  const float* normalisation = FloatShNormalisation().data();
   for (size_t i = range.begin; i < range.end; i += kLanes) {
     const size_t valid = std::min(kLanes, range.end - i);
     const Register3 at = {LoadFirst(&receivers.x[i], valid), LoadFirst(&receivers.y[i], valid),
@@ -164,21 +154,6 @@ void AddLogVisibility(const Spheres& spheres,
                       ReceiverRange range,
                       ShRows& log_visibility) {
   AddAll(spheres, receivers, &stage_from_own, range, log_visibility);
-}
-
-void ExpRows(const ShRows& log_visibility, ReceiverRange range, ShRows& visibility) {
-  CheckRegisters(range, log_visibility);
-  CheckRegisters(range, visibility);
-  CHECK(visibility.count() == log_visibility.count());
-  const ShProductTable& products = ShProductTable::ForCount(log_visibility.count());
-  for (size_t i = range.begin; i < range.end; i += kLanes) {
-    Lanes log[25], result[25];
-    LoadBlock(log_visibility, i, log);
-    ExpSh(products, log, result);
-    for (int k = 0; k < visibility.count(); ++k) {
-      Store(result[k], visibility.row(k) + i);
-    }
-  }
 }
 
 void ShadowLight(const LightMatrix& light,

@@ -53,7 +53,4 @@ void ShadowLight(const LightMatrix& light,
                  ReceiverRange range,
                  ShRowsRgb& shadowed);
 
-// visibility = exp(log visibility), not clamped. The rows and range are as in ShadowLight().
-void ExpRows(const ShRows& log_visibility, ReceiverRange range, ShRows& visibility);
-
 }  // namespace lararium::light

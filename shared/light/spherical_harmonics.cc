@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <glm/common.hpp>
-#include <vector>
 
 #include "shared/core/check.h"
 #include "shared/core/units.h"
@@ -22,15 +21,6 @@ std::array<double, kShCount> MakeNormalisation() {
       factors[static_cast<size_t>(l * (l + 1) + m)] = std::sqrt(square);
     }
   }
-  return factors;
-}
-
-const std::array<float, kShCount>& FloatNormalisation() {
-  static const std::array<float, kShCount> factors = [] {
-    std::array<float, kShCount> rounded;
-    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
-    return rounded;
-  }();
   return factors;
 }
 
@@ -147,35 +137,6 @@ BandMatrix NextBand(const BandMatrix& first, const BandMatrix& below) {
   return band;
 }
 
-// Evenly spread directions (a Fibonacci spiral).
-std::vector<std::array<float, kShCount>> BasisAtManyDirections() {
-  constexpr int kDirections = 4096;
-  std::vector<std::array<float, kShCount>> bases;
-  for (int i = 0; i < kDirections; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / kDirections;
-    const double angle = kPi * (3.0 - std::sqrt(5.0)) * i;
-    const double radius = std::sqrt(1.0 - z * z);
-    bases.push_back(
-        EvaluateShBasis(glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z)));
-  }
-  return bases;
-}
-
-bool Rings(const ShRgb& radiance,
-           int count,
-           float tolerance,
-           const std::vector<std::array<float, kShCount>>& bases) {
-  const float mean = 1.0f / std::sqrt(4.0f * static_cast<float>(kPi));  // basis function 0
-  const glm::vec3 least = -tolerance * mean * glm::abs(radiance[0]);
-  return std::any_of(bases.begin(), bases.end(), [&](const std::array<float, kShCount>& basis) {
-    glm::vec3 sum(0.0f);
-    for (int k = 0; k < count; ++k) {
-      sum += basis[static_cast<size_t>(k)] * radiance[static_cast<size_t>(k)];
-    }
-    return sum.r < least.r || sum.g < least.g || sum.b < least.b;
-  });
-}
-
 }  // namespace
 
 const std::array<double, kShCount>& ShNormalisation() {
@@ -183,9 +144,18 @@ const std::array<double, kShCount>& ShNormalisation() {
   return factors;
 }
 
+const std::array<float, kShCount>& FloatShNormalisation() {
+  static const std::array<float, kShCount> factors = [] {
+    std::array<float, kShCount> rounded;
+    std::copy(ShNormalisation().begin(), ShNormalisation().end(), rounded.begin());
+    return rounded;
+  }();
+  return factors;
+}
+
 std::array<float, kShCount> EvaluateShBasis(const glm::vec3& d) {
   std::array<float, kShCount> basis;
-  EvaluateShBasis<kShCount>(d.x, d.y, d.z, FloatNormalisation().data(), basis.data());
+  EvaluateShBasis<kShCount>(d.x, d.y, d.z, FloatShNormalisation().data(), basis.data());
   return basis;
 }
 
@@ -281,31 +251,6 @@ ShRgb RotateSh(const ShRgb& radiance, const glm::quat& rotation) {
     }
   }
   return rotated;
-}
-
-ShRgb Windowed(const ShRgb& radiance, float strength) {
-  ShRgb damped;
-  for (int k = 0; k < kShCount; ++k) {
-    const auto laplacian = static_cast<float>(ShBandOf(k) * (ShBandOf(k) + 1));
-    damped[static_cast<size_t>(k)] =
-        radiance[static_cast<size_t>(k)] / (1.0f + strength * laplacian * laplacian);
-  }
-  return damped;
-}
-
-float WindowAgainstRinging(const ShRgb& radiance, int count, float tolerance) {
-  CHECK(IsShCount(count) && tolerance >= 0.0f);
-  const std::vector<std::array<float, kShCount>> bases = BasisAtManyDirections();
-  if (!Rings(radiance, count, tolerance, bases)) {
-    return 0.0f;
-  }
-  // The upper limit leaves practically only the mean, which does not ring.
-  float low = 1e-5f, high = 1e3f;
-  while (high > 1.01f * low) {
-    const float middle = std::sqrt(low * high);
-    (Rings(Windowed(radiance, middle), count, tolerance, bases) ? low : high) = middle;
-  }
-  return high;
 }
 
 ShRgb ProjectEquirectangular(std::span<const glm::vec3> pixels, int width, int height) {

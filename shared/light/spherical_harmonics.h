@@ -40,6 +40,7 @@ constexpr int ShBandOf(int index) { return ShDegreeOf(index + 1); }
 // The factors that make the basis orthonormal, with the index above: sqrt((2l+1)/(4 pi)
 // (l-|m|)!/(l+|m|)!), times sqrt(2) unless m = 0.
 const std::array<double, kShCount>& ShNormalisation();
+const std::array<float, kShCount>& FloatShNormalisation();
 
 // Evaluates the first Count basis functions at a unit direction for any number type: float, double
 // or a register of floats. Uses the recurrence of the associated Legendre functions without their
@@ -114,15 +115,6 @@ class ShRotation {
 
 // Rotates the light: coefficients of f(rotation^-1 d).
 ShRgb RotateSh(const ShRgb& radiance, const glm::quat& rotation);
-
-// Damps the bands by 1 / (1 + strength l^2 (l+1)^2), the solution of least squares with a penalty
-// on the squared Laplacian (Sloan 2008, "Windowing"). strength >= 0.
-ShRgb Windowed(const ShRgb& radiance, float strength);
-
-// Returns the smallest strength, within one per cent, at which the first `count` coefficients never
-// fall below -tolerance times the channel's mean. Small bright sources cause ringing below zero.
-// Sampled at some thousand directions. Returns 0 if nothing rings.
-float WindowAgainstRinging(const ShRgb& radiance, int count, float tolerance);
 
 // Projects an equirectangular image of radiance, solid-angle weighted. Pixel
 // (column, row) is the direction of azimuth 2 pi ((column + 0.5) / width - 0.5)

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
-#include <memory>
 #include <utility>
 
 #include "shared/core/check.h"
@@ -236,19 +235,6 @@ TransferBytes QuantiseTransfer(std::span<const float> vectors, int count, size_t
     }
   }
   return transfer;
-}
-
-void DecodeTransfer(const TransferBytes& transfer,
-                    size_t pose,
-                    size_t vertex,
-                    std::span<float> vectors) {
-  CHECK(pose < transfer.poses && vertex < transfer.vertices &&
-        vectors.size() == 3 * static_cast<size_t>(transfer.count));
-  const size_t index = pose * transfer.vertices + vertex;
-  const int8_t* row = transfer.values.data() + index * vectors.size();
-  for (size_t i = 0; i < vectors.size(); ++i) {
-    vectors[i] = row[i] * transfer.scale[index];
-  }
 }
 
 Transfer::Transfer(const TransferBytes& bytes)

@@ -34,12 +34,6 @@ struct TransferBytes {
 // vectors: [pose][vertex][3][count]. The error of each value is at most half a scale.
 TransferBytes QuantiseTransfer(std::span<const float> vectors, int count, size_t poses);
 
-// Decodes [3][count] values of one vertex and pose.
-void DecodeTransfer(const TransferBytes& transfer,
-                    size_t pose,
-                    size_t vertex,
-                    std::span<float> vectors);
-
 // Transfer vectors in the form that is read in each frame, in three fifths of the memory. Most
 // light at a vertex comes straight from outside and is equal in all channels, and the tint by
 // nearby surfaces is smooth. Therefore the mean of the channels is kept in full; the differences of

@@ -1,7 +1,5 @@
 #include "shared/render/clip_space.h"
 
-#include <cmath>
-
 #include "shared/core/check.h"
 
 namespace lararium::render {

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "shared/geometry/glm_convert.h"
 #include "shared/render/detail.h"
 #include "shared/render/gl/linear_target.h"
 #include "shared/render/gl/shader_program.h"

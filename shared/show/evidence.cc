@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+
+#include "shared/core/srgb.h"
 
 namespace lararium::show {
 namespace {
@@ -46,10 +47,6 @@ constexpr double kStays = 0.04;
 constexpr double kRadiansPerMetre = 0.03;
 // Heights of test points on a person, metres.
 constexpr std::array<float, 4> kHeights = {0.4f, 0.8f, 1.2f, 1.6f};
-
-float LinearFromSrgb(float c) {
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
 
 const Look& LookOf(Certainty certainty) {
   return *std::find_if(kLooks.begin(), kLooks.end(),

@@ -3,8 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
-#include <optional>
 
 #include "shared/core/check.h"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/core/check.h"
+#include "shared/core/json.h"
 
 namespace lararium::show {
 namespace {

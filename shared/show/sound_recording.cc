@@ -1,7 +1,6 @@
 #include "shared/show/sound_recording.h"
 
 #include <span>
-#include <utility>
 
 namespace lararium::show {
 

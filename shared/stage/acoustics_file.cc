@@ -5,6 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "shared/core/json.h"
+
 namespace lararium::stage {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 #include "shared/stage/acoustics.h"
 

@@ -1,7 +1,6 @@
 #include "shared/stage/hands.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace lararium::stage {

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "shared/core/check.h"
 #include "shared/geometry/glm_convert.h"

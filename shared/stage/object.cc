@@ -1,6 +1,5 @@
 #include "shared/stage/object.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "shared/core/json.h"
 #include "shared/stage/caption_file.h"
 
 namespace lararium::stage {

@@ -1,7 +1,6 @@
 // Execution of tasks, phase by phase.
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -4,7 +4,6 @@
 // measure serves poses found in one image and poses tracked from frame to frame.
 
 #include <array>
-#include <cstdint>
 
 #include "shared/geometry/camera_model.h"
 #include "shared/vision/pose_refinement.h"

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <span>
 
-#include "shared/core/check.h"
 #include "shared/core/parallel.h"
 #include "shared/vision/extrema.h"
 #include "shared/vision/orientation.h"

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "shared/core/check.h"
 #include "shared/vision/patch_tracker.h"
 #include "shared/vision/patch_tracker_parts.h"
 

@@ -2,7 +2,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "shared/vision/patch_tracker.h"
 #include "shared/vision/patch_tracker_parts.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shared/core/check.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::vision {
 namespace {
@@ -21,8 +22,7 @@ constexpr float kWhite = 0.65f;
 std::array<float, 256> MakeLinearTable() {
   std::array<float, 256> table;
   for (size_t i = 0; i < table.size(); ++i) {
-    const double v = static_cast<double>(i) / 255.0;
-    table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    table[i] = static_cast<float>(lararium::LinearFromSrgb(static_cast<double>(i) / 255.0));
   }
   return table;
 }
@@ -44,6 +44,20 @@ float Weight(float linear, uint8_t brightest) {
 }  // namespace
 
 float LinearFromSrgb(uint8_t encoded) { return LinearTable()[encoded]; }
+
+cv::Mat LinearFromSrgb(const cv::Mat& bgr) {
+  DCHECK(bgr.type() == CV_8UC3);
+  cv::Mat linear(bgr.size(), CV_32FC3);
+  for (int row = 0; row < bgr.rows; ++row) {
+    for (int column = 0; column < bgr.cols; ++column) {
+      const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(row, column);
+      for (int c = 0; c < 3; ++c) {
+        linear.at<cv::Vec3f>(row, column)[c] = LinearFromSrgb(pixel[2 - c]);
+      }
+    }
+  }
+  return linear;
+}
 
 std::optional<LinearColour> SampleLinear(const cv::Mat& bgr, float x, float y) {
   DCHECK(bgr.type() == CV_8UC3);

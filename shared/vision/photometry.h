@@ -12,6 +12,8 @@ namespace lararium::vision {
 
 // The linear value, 0..1, of an sRGB-encoded byte (IEC 61966-2-1).
 float LinearFromSrgb(uint8_t encoded);
+// Linear RGB, CV_32FC3, of an image in 8-bit sRGB BGR (CV_8UC3).
+cv::Mat LinearFromSrgb(const cv::Mat& bgr);
 
 struct LinearColour {
   Eigen::Vector3f rgb;  // Linear R, G, B in 0..1.

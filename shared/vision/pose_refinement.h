@@ -3,11 +3,9 @@
 // Refines the pose that best explains the matches between an image and the map.
 
 #include <Eigen/Core>
-#include <array>
 #include <span>
 #include <vector>
 
-#include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 
 namespace lararium::vision {

@@ -1,7 +1,6 @@
 #include "shared/vision/poses_file.h"
 
 #include <Eigen/LU>
-#include <cmath>
 
 #include "shared/core/json.h"
 

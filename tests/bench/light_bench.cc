@@ -12,8 +12,8 @@
 #include "shared/light/lamp.h"
 #include "shared/light/probe_blend.h"
 #include "shared/light/receivers.h"
-#include "shared/light/shadow_ratio.h"
 #include "shared/light/transfer.h"
+#include "tests/light/sh_test_support.h"
 
 namespace lararium::light {
 namespace {
@@ -106,7 +106,7 @@ void BenchExponential(benchmark::State& bench) {
   ShRows log(count, kReceivers), visibility(count, kReceivers);
   AddLogVisibility(crowd.spheres(), crowd.points(), {0, kReceivers}, log);
   for (auto _ : bench) {
-    ExpRows(log, {0, kReceivers}, visibility);
+    ExpRows(log, visibility);
     benchmark::DoNotOptimize(visibility.row(0));
   }
 }
@@ -211,19 +211,6 @@ void BenchKeyPoses(benchmark::State& bench) {
   }
 }
 BENCHMARK(BenchKeyPoses)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
-
-void BenchShadowRatio(benchmark::State& bench) {
-  const Crowd crowd;
-  ShRows log(static_cast<int>(bench.range(0)), kReceivers);
-  AddLogVisibility(crowd.spheres(), crowd.points(), {0, kReceivers}, log);
-  const ShRgb falls = CosineLight(SomeLight(), {0.0f, 1.0f, 0.0f});
-  std::vector<float> r(kReceivers), g(kReceivers), b(kReceivers);
-  for (auto _ : bench) {
-    ShadowRatio(falls, log, {0, kReceivers}, {r, g, b});
-    benchmark::DoNotOptimize(r.data());
-  }
-}
-BENCHMARK(BenchShadowRatio)->Arg(9)->Arg(16)->Arg(25)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace lararium::light

@@ -4,6 +4,7 @@
 // other, with descriptors that are perturbed mixtures of real ones. One thread; CPU time.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>

@@ -86,13 +86,6 @@ TEST_F(SignatureTest, TheSignatureOfAnotherShowDoesNotServe) {
   EXPECT_NE(Open(other, museum_.public_key()), "");
 }
 
-TEST_F(SignatureTest, SigningAgainReplacesTheSignature) {
-  const std::string by_museum = Write(&museum_);
-  Write(&stranger_);
-  ASSERT_TRUE(SignBundle(path_, museum_).ok());
-  EXPECT_EQ(*ReadText(path_), by_museum);
-}
-
 TEST_F(SignatureTest, KeysComeBackFromTheirFiles) {
   const std::filesystem::path secret = folder_ / "museum.key";
   const std::filesystem::path open = folder_ / "museum.pub";

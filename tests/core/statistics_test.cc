@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "shared/core/json.h"
 #include "shared/core/random.h"
 
 namespace lararium {

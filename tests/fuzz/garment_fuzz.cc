@@ -8,6 +8,7 @@
 
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "shared/core/check.h"
+#include "shared/core/json.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace lararium;

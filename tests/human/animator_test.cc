@@ -480,16 +480,5 @@ TEST(BlendPose, FollowsItsMask) {
   EXPECT_NEAR(std::abs(glm::dot(pose[1].rotation, TurnY(0.5f))), 1.0f, 1e-6f);
 }
 
-TEST(AddPose, AddsTheWayFromReferenceToLayer) {
-  std::vector<JointTransform> pose(1), reference(1), layer(1);
-  pose[0].rotation = TurnY(1.0f);
-  reference[0].rotation = TurnY(0.3f);
-  layer[0].rotation = TurnY(0.7f);
-  layer[0].translation = glm::vec3(0.0f, 2.0f, 0.0f);
-  AddPose(pose, reference, layer, 0.5f);
-  EXPECT_NEAR(std::abs(glm::dot(pose[0].rotation, TurnY(1.2f))), 1.0f, 1e-6f);
-  EXPECT_NEAR(pose[0].translation.y, 1.0f, 1e-6f);
-}
-
 }  // namespace
 }  // namespace lararium::human

@@ -110,17 +110,5 @@ TEST(CompressedClip, TakesEveryRotationThereIs) {
   }
 }
 
-TEST(SampleClips, DoesManyAtOnce) {
-  const Clip clip = Swaying(7);
-  const CompressedClip compressed(clip, kJoints);
-  Pose a(kJoints), b(kJoints), alone(kJoints);
-  const SampleJob jobs[] = {{&compressed, 0.3, a}, {&compressed, 1.1, b}};
-  SampleClips(jobs);
-  compressed.Sample(1.1, alone);
-  for (size_t joint = 0; joint < kJoints; ++joint) {
-    EXPECT_EQ(b[joint].rotation, alone[joint].rotation);
-  }
-}
-
 }  // namespace
 }  // namespace lararium::human

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "editor/import/cast/plain_skeleton.h"
 #include "editor/import/model/bone_structure.h"

@@ -45,7 +45,7 @@ ShRows Visibility(const std::vector<Ball>& balls, int count) {
   const PointArrays points({glm::vec3(0.0f)});
   ShRows log(count, 1), visibility(count, 1);
   AddLogVisibility(arrays.spheres(), points.points(), {0, 1}, log);
-  ExpRows(log, {0, 1}, visibility);
+  ExpRows(log, visibility);
   return visibility;
 }
 

@@ -5,7 +5,6 @@
 #include "shared/light/key_poses.h"
 #include "shared/light/probe_blend.h"
 #include "shared/light/receivers.h"
-#include "shared/light/shadow_ratio.h"
 #include "shared/light/transfer.h"
 #include "tests/light/sh_test_support.h"
 #include "tests/support/allocation_counter.h"
@@ -31,8 +30,7 @@ struct Frame {
             std::vector<float>(3 * kVertices * 3 * static_cast<size_t>(count), 0.1f), count, 3)),
         receivers(kVertices),
         weights(kReceivers * kMaxKeyPoses),
-        irradiance(kVertices),
-        ratio(3, std::vector<float>(kReceivers)) {
+        irradiance(kVertices) {
     for (VertexReceivers& of : receivers) {
       of = {{0, 5, 7, 19}, {100, 80, 50, 25}};
     }
@@ -49,7 +47,6 @@ struct Frame {
     TurnRows(shadowed, turns.turns(), TurnDirection::kBack, kAll, turned);
     PackReceiverLight(turned, packed);
     LightVerticesJob{&transfer, receivers, &packed, weights, irradiance}.Run(0, kVertices);
-    ShadowRatio(light, log, kAll, {ratio[0], ratio[1], ratio[2]});
   }
 
   BallArrays balls;
@@ -64,7 +61,6 @@ struct Frame {
   std::vector<VertexReceivers> receivers;
   std::vector<float> weights;
   std::vector<glm::vec3> irradiance;
-  std::vector<std::vector<float>> ratio;
 };
 
 TEST(LightAllocation, AFrameAllocatesNothing) {

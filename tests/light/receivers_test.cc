@@ -141,7 +141,7 @@ TEST_P(ReceiverSet, ShadowedLightIsVisibilityTimesLight) {
   ShRowsRgb shadowed = {ShRows(count, kReceiverCount), ShRows(count, kReceiverCount),
                         ShRows(count, kReceiverCount)};
   AddLogVisibility(balls.spheres(), at.points(), {0, kReceiverCount}, log);
-  ExpRows(log, {0, kReceiverCount}, visibility);
+  ExpRows(log, visibility);
   ShadowLight(LightMatrix(light, count), log, {0, kReceiverCount}, shadowed);
   const auto size = static_cast<size_t>(count);
   for (size_t i = 0; i < kReceiverCount; ++i) {
@@ -181,7 +181,7 @@ TEST_P(ReceiverSet, WhatDistantBallsLoseIsBoundedAndComesGradually) {
     const Ball ball = {direction * (0.02f * static_cast<float>(i) + 1.0f), 0.1f};
     ShRows log(GetParam(), 1), visibility(GetParam(), 1);
     AddLogVisibility(BallArrays({ball}).spheres(), at.points(), {0, 1}, log);
-    ExpRows(log, {0, 1}, visibility);
+    ExpRows(log, visibility);
     const double sine = ball.radius / glm::length(ball.centre);
     const double hidden = 1.0 - visibility.at(0, 0) / std::sqrt(4.0 * std::numbers::pi);
     const double exact = 0.5 * (1.0 - std::sqrt(1.0 - sine * sine));
@@ -215,7 +215,7 @@ TEST_P(ReceiverSet, InsideABallNothingLeaps) {
     const PointArrays at({glm::vec3(0.0f, 0.01f * static_cast<float>(i), 0.0f)});
     ShRows log(GetParam(), 1), visibility(GetParam(), 1);
     AddLogVisibility(BallArrays({{glm::vec3(0.0f), 1.0f}}).spheres(), at.points(), {0, 1}, log);
-    ExpRows(log, {0, 1}, visibility);
+    ExpRows(log, visibility);
     const double seen = visibility.at(0, 0) / std::sqrt(4.0 * std::numbers::pi);
     EXPECT_TRUE(std::isfinite(seen));
     EXPECT_GT(seen, 0.0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/light/blocker_table.h"
 #include "shared/light/receivers.h"
 #include "shared/light/spherical_harmonics.h"
 
@@ -90,5 +91,20 @@ struct TurnArrays {
   }
   Turns turns() const { return {w, x, y, z}; }
 };
+
+// visibility = exp(log visibility) of all receivers.
+inline void ExpRows(const ShRows& log_visibility, ShRows& visibility) {
+  const ShProductTable& products = ShProductTable::ForCount(log_visibility.count());
+  for (size_t i = 0; i < log_visibility.receivers(); i += kLanes) {
+    Lanes log[25], result[25];
+    for (int k = 0; k < log_visibility.count(); ++k) {
+      log[k] = Load(log_visibility.row(k) + i);
+    }
+    ExpSh(products, log, result);
+    for (int k = 0; k < visibility.count(); ++k) {
+      Store(result[k], visibility.row(k) + i);
+    }
+  }
+}
 
 }  // namespace lararium::light

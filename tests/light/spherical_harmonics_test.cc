@@ -234,44 +234,6 @@ TEST(RotateSh, EqualsProjectingTheRotatedFunction) {
   ExpectNear(ProjectEquirectangular(pixels, 512, 256), RotateSh(radiance, rotation), 2e-3);
 }
 
-// Unit light from one direction.
-ShRgb Lamp(const glm::vec3& direction) {
-  ShRgb radiance;
-  const auto basis = EvaluateShBasis(direction);
-  for (size_t k = 0; k < kShCount; ++k) {
-    radiance[k] = glm::vec3(basis[k]);
-  }
-  return radiance;
-}
-
-double Least(const ShRgb& radiance, uint64_t seed) {
-  Random random(seed);
-  double least = 1e9;
-  for (int i = 0; i < 5000; ++i) {
-    least = std::min<double>(least, EvaluateRadiance(radiance, RandomDirection(random)).g);
-  }
-  return least;
-}
-
-TEST(Window, ALampRingsUntilItIsWindowedAndNoMoreThanNeeded) {
-  const ShRgb lamp = Lamp(glm::normalize(glm::vec3(0.3f, 0.8f, -0.5f)));
-  const double mean = lamp[0].g / std::sqrt(4.0 * kPi);
-  EXPECT_LT(Least(lamp, 1), -3.0 * mean);
-  const float strength = WindowAgainstRinging(lamp, kShCount, 0.0f);
-  EXPECT_GT(Least(Windowed(lamp, strength), 1), -0.01 * mean);
-  EXPECT_LT(Least(Windowed(lamp, 0.8f * strength), 1), -0.01 * mean);
-}
-
-TEST(Window, LeavesTheMeanAndWhatDoesNotRing) {
-  ShRgb soft = {};
-  soft[0] = glm::vec3(2.0f);
-  soft[2] = glm::vec3(0.5f);
-  EXPECT_EQ(WindowAgainstRinging(soft, kShCount, 0.0f), 0.0f);
-  EXPECT_EQ(Windowed(soft, 0.0f), soft);
-  EXPECT_EQ(Windowed(soft, 0.3f)[0], soft[0]);
-  EXPECT_NEAR(Windowed(soft, 0.25f)[2].g, 0.25f, 1e-6);
-}
-
 TEST(RotateSh, QuarterTurnLeftMovesLightFromForwardToLeft) {
   const auto basis = EvaluateShBasis({0.0f, 0.0f, -1.0f});
   ShRgb forward;

@@ -59,6 +59,18 @@ double RelativeError(const Decode& decode, const std::vector<float>& vectors, si
   return std::sqrt(sum);
 }
 
+// Decodes [3][count] values of one vertex and pose.
+void DecodeTransfer(const TransferBytes& transfer,
+                    size_t pose,
+                    size_t vertex,
+                    std::span<float> vectors) {
+  const size_t index = pose * transfer.vertices + vertex;
+  const int8_t* row = transfer.values.data() + index * vectors.size();
+  for (size_t i = 0; i < vectors.size(); ++i) {
+    vectors[i] = row[i] * transfer.scale[index];
+  }
+}
+
 class TransferOf : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Counts, TransferOf, testing::Values(9, 16, 25, 36));
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "shared/core/json.h"
+
 namespace lararium::player {
 namespace {
 

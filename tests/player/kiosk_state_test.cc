@@ -41,15 +41,6 @@ TEST(KioskState, WhatIsNoStateIsAnErrorThatSaysWhere) {
   }
 }
 
-TEST(KioskState, WhatAnOlderPlayerWroteLacksOnlyChoicesThatItDidNotKnow) {
-  const auto state = ParseKioskState(
-      R"({"schema":1,"title":"A","seconds":2,"language":"","captions":"en","volume":1})", "old");
-  ASSERT_TRUE(state.ok()) << state.message();
-  EXPECT_EQ(state->choices.captions, "en");
-  EXPECT_EQ(state->choices.caption_style, render::CaptionStyle());
-  EXPECT_FALSE(state->choices.descriptions || state->choices.reduced_motion);
-}
-
 TEST(KioskState, AFullOrForbiddenFolderIsAnError) {
   EXPECT_FALSE(SaveKioskState("/proc/nowhere", {}).ok());
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "shared/core/json.h"
 #include "shared/show/show_content.h"
 
 namespace lararium::player {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <cstdio>
 #include <opencv2/core.hpp>
 #include <span>
 #include <vector>
@@ -12,7 +12,6 @@
 #include "shared/core/random.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/light/lamp.h"
-#include "shared/light/shadow_ratio.h"
 #include "shared/render/clip_space.h"
 #include "shared/render/renderer.h"
 #include "tests/light/sh_test_support.h"

@@ -39,17 +39,6 @@ TEST(Settings, KeepTheLanguageThatWasChosen) {
   }
 }
 
-TEST(Settings, OfOlderVersionsFollowTheEnvironmentsLanguage) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = folder / "editor.json";
-  ASSERT_TRUE(WriteFileAtomically(
-                  file, std::string_view(R"({"schema": 1, "theme": "light", "scale": 1.25})"))
-                  .ok());
-  const Result<Settings> loaded = LoadSettings(file);
-  ASSERT_TRUE(loaded.ok()) << loaded.message();
-  EXPECT_EQ(*loaded, (Settings{Theme::kLight, 1.25, ""}));
-}
-
 class DamagedSettings : public testing::TestWithParam<const char*> {};
 
 TEST_P(DamagedSettings, AreToldOfOnceAndMovedAside) {

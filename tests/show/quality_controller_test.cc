@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "shared/core/json.h"
 #include "shared/core/random.h"
 
 namespace lararium::show {

@@ -69,7 +69,7 @@ TEST(CaptureAdvice, TellsWhatAVisitorDoesWhoIsLocatedPoorly) {
             "(about 12 points found again): film what lies to the left too, walking past it.");
 }
 
-TEST(CaptureAdvice, OfAnEarlierVersionIsSaidAsItWasWritten) {
+TEST(CaptureAdvice, OfOneSentenceIsSaidAsItWasWritten) {
   EXPECT_EQ(English({.kind = AdviceKind::kWritten, .text = "Walk 100 %s further."}),
             "Walk 100 %s further.");
 }

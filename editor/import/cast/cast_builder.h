@@ -3,8 +3,6 @@
 // Builds people of the cast: makes a human with skeleton, skin, eyes, teeth, hair, face shapes,
 // levels of detail and credits from a recipe and the library.
 
-#include <filesystem>
-
 #include "editor/import/cast/cast_body.h"
 #include "editor/import/cast/cast_library.h"
 #include "editor/import/cast/cast_recipe.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <string>
 
 #include "editor/import/cast/plain_skeleton.h"

@@ -3,7 +3,6 @@
 // Measures on a shaped body the capsules that cloth and hair cannot enter: limbs along their
 // bones, the trunk as flat capsules across it.
 
-#include <span>
 #include <vector>
 
 #include "editor/import/cast/cast_body.h"

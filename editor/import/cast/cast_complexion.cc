@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <initializer_list>
-#include <string>
 
 #include "editor/import/cast/plain_skeleton.h"
 

@@ -5,7 +5,6 @@
 // composed of them.
 
 #include <span>
-#include <vector>
 
 #include "editor/import/cast/cast_library.h"
 #include "editor/import/cast/cast_parts.h"

@@ -59,9 +59,6 @@ struct CastModifier {
 };
 
 enum class CastPart { kEyes, kEyebrows, kEyelashes, kTeeth, kTongue, kHair };
-inline constexpr CastPart kCastParts[] = {CastPart::kEyes,      CastPart::kEyebrows,
-                                          CastPart::kEyelashes, CastPart::kTeeth,
-                                          CastPart::kTongue,    CastPart::kHair};
 std::string_view FolderOf(CastPart part);  // "eyes"
 
 class CastLibrary {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "shared/core/json.h"
+
 namespace lararium::import {
 namespace {
 

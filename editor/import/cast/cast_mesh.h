@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {

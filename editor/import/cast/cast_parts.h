@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "editor/import/cast/cast_body.h"

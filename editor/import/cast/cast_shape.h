@@ -7,7 +7,6 @@
 
 #include <glm/vec3.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "editor/import/cast/cast_library.h"

@@ -1,6 +1,7 @@
 #include "editor/import/cast/cast_subdivide.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "editor/import/cast/implicit_surface.h"
 #include "shared/human/skeleton.h"

@@ -8,6 +8,7 @@
 #include "editor/import/model/bone_structure.h"
 #include "editor/import/model/joint_names.h"
 #include "shared/core/file.h"
+#include "shared/core/json.h"
 
 namespace lararium::import {
 namespace {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {

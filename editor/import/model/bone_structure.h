@@ -2,7 +2,6 @@
 
 // Finds a human body in a tree of bones without using names.
 
-#include <string>
 #include <vector>
 
 #include "editor/import/model/bone_map.h"

@@ -2,7 +2,6 @@
 
 // Samples the animations of a scene as clips of the skeleton.
 
-#include <string>
 #include <vector>
 
 #include "editor/import/model/model_bind_pose.h"

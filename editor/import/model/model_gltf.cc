@@ -1,7 +1,6 @@
 #include "editor/import/model/model_gltf.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -559,10 +558,6 @@ Result<GltfDocument> SplitBinary(std::span<const std::byte> bytes, const std::st
 
 std::string GltfDocument::NodeName(size_t node) const {
   return TextOr(Entry(json, "nodes", node), "name", "node " + std::to_string(node));
-}
-
-std::string GltfDocument::MeshName(size_t mesh) const {
-  return TextOr(Entry(json, "meshes", mesh), "name", "mesh " + std::to_string(mesh));
 }
 
 std::vector<std::string> GltfDocument::TargetNames(size_t mesh) const {

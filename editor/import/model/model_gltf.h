@@ -21,7 +21,6 @@ struct GltfDocument {
 
   // The name in the file, or the index if it has none.
   std::string NodeName(size_t node) const;
-  std::string MeshName(size_t mesh) const;
   // Names of the morph targets of a mesh; empty if the file has none.
   std::vector<std::string> TargetNames(size_t mesh) const;
 };

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <exception>
 #include <fstream>
 #include <thread>
 

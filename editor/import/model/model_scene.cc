@@ -4,7 +4,6 @@
 #include <assimp/postprocess.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <exception>
 #include <glm/common.hpp>

@@ -13,16 +13,13 @@
 
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::import {
 namespace {
 
 constexpr size_t kMaxMaterials = 1000;
 constexpr size_t kMaxImageBytes = size_t{256} << 20;
-
-float LinearFromSrgb(float value) {
-  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
 
 // Guesses the kind of surface from the name of the material.
 human::Surface SurfaceOf(const std::string& name) {

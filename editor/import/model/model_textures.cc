@@ -1,7 +1,6 @@
 #include "editor/import/model/model_textures.h"
 
 #include <algorithm>
-#include <exception>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 

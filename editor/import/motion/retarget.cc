@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <vector>
 
 #include "editor/import/model/clip_track.h"

@@ -1,9 +1,7 @@
 #include "editor/import/objects/modelling.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -6,7 +6,6 @@
 
 #include <glm/vec3.hpp>
 #include <span>
-#include <vector>
 
 #include "editor/import/objects/paint.h"
 #include "shared/stage/prop.h"

@@ -5,7 +5,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "editor/import/model/model_gltf.h"

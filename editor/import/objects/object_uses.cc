@@ -2,7 +2,6 @@
 // (docs/file-formats.md, "Objects").
 
 #include <algorithm>
-#include <array>
 
 #include "editor/import/objects/workshop.h"
 

@@ -2,7 +2,6 @@
 
 // Signed distance to a body, which keeps cloth out of it while a garment is draped.
 
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>

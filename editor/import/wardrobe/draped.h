@@ -6,11 +6,9 @@
 #include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-#include <string>
 #include <vector>
 
 #include "editor/import/cast/cast_body.h"
-#include "editor/import/wardrobe/body_field.h"
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "editor/import/wardrobe/posed_body.h"
 #include "editor/import/wardrobe/sheet.h"

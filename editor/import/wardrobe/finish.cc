@@ -5,11 +5,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/mat3x3.hpp>
-#include <numeric>
 #include <unordered_map>
 
 #include "editor/import/cast/cast_rig.h"
-#include "editor/import/wardrobe/skin_weights.h"
 #include "editor/import/wardrobe/weave.h"
 #include "shared/core/parallel.h"
 

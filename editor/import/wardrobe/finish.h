@@ -3,7 +3,6 @@
 // Converts a draped garment to a drawn mesh and a simulated cloth.
 
 #include <span>
-#include <vector>
 
 #include "editor/import/cast/cast_body.h"
 #include "editor/import/wardrobe/draped.h"

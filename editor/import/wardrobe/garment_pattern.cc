@@ -1,10 +1,10 @@
 #include "editor/import/wardrobe/garment_pattern.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
+
+#include "shared/core/json.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::import {
 namespace {
@@ -56,9 +56,7 @@ std::vector<std::string> WordsOf(const std::pair<const char*, Value> (&words)[kC
 glm::vec3 ToLinear(uint32_t rgb) {
   glm::vec3 colour;
   for (int k = 0; k < 3; ++k) {
-    const float encoded = static_cast<float>(rgb >> (16 - 8 * k) & 0xffu) / 255.0f;
-    colour[k] =
-        encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    colour[k] = LinearFromSrgb(static_cast<float>(rgb >> (16 - 8 * k) & 0xffu) / 255.0f);
   }
   return colour;
 }
@@ -108,19 +106,6 @@ GarmentPattern PlainPattern(GarmentKind kind) {
       break;
   }
   return pattern;
-}
-
-Status CheckFields(const JsonView& garment) {
-  constexpr const char* kFields[] = {"name",          "length", "sleeve", "one_shoulder", "ease",
-                                     "belt",          "blouse", "colour", "belt_colour",  "stripes",
-                                     "stripe_colour", "border", "wear",   "seed"};
-  for (const auto& [key, unused] : garment.json().items()) {
-    if (std::find(std::begin(kFields), std::end(kFields), key) == std::end(kFields)) {
-      return garment.Problem("has the unknown field '" + key.substr(0, 40) + "'",
-                             "docs/how-to-dress-the-cast.md lists the fields");
-    }
-  }
-  return Status();
 }
 
 // Reads a word, or metres above the floor, as a share of the leg.
@@ -186,11 +171,6 @@ std::vector<std::string> GarmentWords(std::string_view field) {
   return WordsOf(kDyes);
 }
 
-bool IsGarmentName(std::string_view name) {
-  return std::any_of(std::begin(kKinds), std::end(kKinds),
-                     [name](const auto& kind) { return name == kind.first; });
-}
-
 std::string NameOf(GarmentKind kind) {
   for (const auto& [name, value] : kKinds) {
     if (value == kind) {
@@ -217,10 +197,9 @@ Result<glm::vec3> ParseDye(const JsonView& field) {
 }
 
 Result<GarmentPattern> ParseGarmentPattern(const JsonView& garment) {
-  if (!garment.json().is_object()) {
-    return garment.Problem("must be an object", "docs/how-to-dress-the-cast.md has examples");
-  }
-  LARARIUM_RETURN_IF_ERROR(CheckFields(garment));
+  LARARIUM_RETURN_IF_ERROR(garment.CheckFields(
+      {"name", "length", "sleeve", "one_shoulder", "ease", "belt", "blouse", "colour",
+       "belt_colour", "stripes", "stripe_colour", "border", "wear", "seed"}));
   LARARIUM_ASSIGN_OR_RETURN(const JsonView name, garment.Field("name"));
   LARARIUM_ASSIGN_OR_RETURN(const GarmentKind kind, OneOf(name, kKinds));
   GarmentPattern pattern = PlainPattern(kind);

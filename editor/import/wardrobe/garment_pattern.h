@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {
@@ -44,7 +44,6 @@ struct GarmentPattern {
 
 // The garment names that a recipe may use: "tunic", ...
 std::vector<std::string> GarmentNames();
-bool IsGarmentName(std::string_view name);
 std::string NameOf(GarmentKind kind);
 
 // The words that a field accepts: length, sleeve, belt or stripes; dye names for any other

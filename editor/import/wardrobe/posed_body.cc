@@ -246,28 +246,20 @@ std::vector<bool> IsBody(const FittedBody& body) {
 Girth::Girth(const FittedBody& body, const PosedBody& posed, float height, float half_slab) {
   const std::vector<float> arm = ArmShare(body);
   const std::vector<bool> is_body = IsBody(body);
+  std::vector<glm::vec2> points;
   glm::vec2 low(1e9f);
   glm::vec2 high(-1e9f);
   for (size_t v = 0; v < posed.positions.size(); ++v) {
     const glm::vec3& p = posed.positions[v];
     if (is_body[v] && arm[v] < 0.3f && std::abs(p.y - height) < half_slab) {
-      points_.emplace_back(p.x, p.z);
-      low = glm::min(low, points_.back());
-      high = glm::max(high, points_.back());
+      points.emplace_back(p.x, p.z);
+      low = glm::min(low, points.back());
+      high = glm::max(high, points.back());
     }
   }
   middle_ = glm::vec3(0.5f * (low.x + high.x), height, 0.5f * (low.y + high.y));
-  Rebuild();
+  radius_ = HullRadius(points, {middle_.x, middle_.z}, kAngles);
 }
-
-void Girth::Include(std::span<const glm::vec3> points) {
-  for (const glm::vec3& p : points) {
-    points_.emplace_back(p.x, p.z);
-  }
-  Rebuild();
-}
-
-void Girth::Rebuild() { radius_ = HullRadius(points_, {middle_.x, middle_.z}, kAngles); }
 
 float Girth::Radius(float angle) const {
   float turn = angle / glm::two_pi<float>();

@@ -70,7 +70,7 @@ class Girth {
   static constexpr int kAngles = 72;
 
   // The convex hull of the points of trunk and legs (vertices whose share of arms and head is
-  // small) within `half_slab` of the height. Include adds points.
+  // small) within `half_slab` of the height.
   Girth(const FittedBody& body, const PosedBody& posed, float height, float half_slab);
 
   // An angle of 0 points to the back of the person (+z), a quarter turn to their right (+x).
@@ -81,11 +81,8 @@ class Girth {
   float Length() const;
   // The angle at which this share of the length is reached, from the back to the right.
   float AngleAt(float share) const;
-  void Include(std::span<const glm::vec3> points);
 
  private:
-  void Rebuild();
-  std::vector<glm::vec2> points_;
   glm::vec3 middle_ = glm::vec3(0.0f);
   std::vector<float> radius_;
 };

@@ -4,12 +4,10 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "editor/document/document_fields.h"
 #include "editor/jobs/filming.h"
 #include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/viewport/gizmo_view.h"

@@ -12,7 +12,6 @@
 #include "editor/document/document_fields.h"
 #include "editor/import/cast/cast_presets.h"
 #include "editor/import/objects/object_models.h"
-#include "editor/jobs/training.h"
 #include "editor/panels/dialogs/export_panel.h"
 #include "editor/panels/dialogs/key_list.h"
 #include "editor/panels/dialogs/training_report_panel.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <deque>
 #include <string>
-#include <vector>
 
 #include "editor/panels/widgets/icons.h"
 #include "editor/panels/widgets/text.h"

@@ -7,9 +7,7 @@
 #include <cfloat>
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "editor/document/cast_edits.h"

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "shared/core/srgb.h"
 #include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 
@@ -12,10 +13,6 @@ namespace lararium::panels {
 namespace {
 
 using Eigen::Vector3d;
-
-double LinearFromSrgb(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 uchar Luminance(const cv::Vec3b& bgr) {
   return static_cast<uchar>(std::lround(0.114 * bgr[0] + 0.587 * bgr[1] + 0.299 * bgr[2]));

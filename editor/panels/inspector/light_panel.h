@@ -3,8 +3,6 @@
 // The inspector of a light probe: its picture with the sun, and its rotation and brightness, set by
 // hand or matched to the place.
 
-#include <span>
-
 #include "editor/panels/widgets/editor_state.h"
 #include "editor/session/workspace.h"
 

@@ -3,8 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "editor/jobs/drawn_occluder.h"

@@ -9,9 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "editor/document/occluder_shape.h"
 #include "editor/document/place_edits.h"

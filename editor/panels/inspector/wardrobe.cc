@@ -12,9 +12,9 @@
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "editor/panels/inspector/recipe_panel.h"
 #include "editor/panels/widgets/text.h"
-#include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
 #include "shared/core/lower_case.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::panels {
 namespace {
@@ -47,15 +47,11 @@ std::string GarmentText(const Json& garment, const char* field) {
 
 std::string NameOf(const Json& garment) { return GarmentText(garment, "name"); }
 
-float Encode(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
 // The present colour of a garment, sRGB; the default of its kind where none is set.
 glm::vec3 ColourOf(const Json& garment) {
   const auto pattern = import::ParseGarmentPattern(JsonView(garment, "garment"));
   const glm::vec3 linear = pattern.ok() ? pattern->colour : glm::vec3(0.5f);
-  return {Encode(linear.x), Encode(linear.y), Encode(linear.z)};
+  return {SrgbFromLinear(linear.x), SrgbFromLinear(linear.y), SrgbFromLinear(linear.z)};
 }
 
 std::string HexOf(const glm::vec3& srgb) {

@@ -1,7 +1,6 @@
 #include "editor/panels/viewport/align_panel.h"
 
 #include <algorithm>
-#include <functional>
 #include <string>
 
 #include "editor/jobs/occluder_alignment.h"

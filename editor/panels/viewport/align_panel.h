@@ -6,7 +6,6 @@
 #include <imgui.h>
 
 #include <cstddef>
-#include <optional>
 
 #include "editor/panels/widgets/editor_state.h"
 #include "editor/session/workspace.h"

@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "shared/core/check.h"
-
 namespace lararium::panels {
 
 namespace {

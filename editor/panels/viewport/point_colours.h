@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <glm/gtc/type_precision.hpp>
-#include <span>
 #include <vector>
 
 #include "editor/train/map_statistics.h"

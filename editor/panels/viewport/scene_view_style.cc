@@ -11,7 +11,6 @@
 #include "editor/panels/viewport/gizmo_view.h"
 #include "editor/panels/viewport/orbit_keys.h"
 #include "editor/panels/viewport/pick_view.h"
-#include "shared/geometry/glm_convert.h"
 
 namespace lararium::panels {
 

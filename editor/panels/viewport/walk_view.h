@@ -5,7 +5,6 @@
 
 #include <imgui.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

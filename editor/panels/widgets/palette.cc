@@ -1,8 +1,9 @@
 #include "editor/panels/widgets/palette.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+
+#include "shared/core/srgb.h"
 
 namespace lararium::panels {
 
@@ -79,10 +80,8 @@ ImVec4 Over(const ImVec4& front, const ImVec4& ground) {
 }
 
 double Luminance(const ImVec4& colour) {
-  const auto linear = [](double v) {
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(colour.x) + 0.7152 * linear(colour.y) + 0.0722 * linear(colour.z);
+  return 0.2126 * LinearFromSrgb<double>(colour.x) + 0.7152 * LinearFromSrgb<double>(colour.y) +
+         0.0722 * LinearFromSrgb<double>(colour.z);
 }
 
 double Contrast(const ImVec4& a, const ImVec4& b) {

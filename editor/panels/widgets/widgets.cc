@@ -15,6 +15,7 @@
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "shared/core/lower_case.h"
+#include "shared/core/srgb.h"
 #include "shared/core/units.h"
 
 namespace lararium::panels {
@@ -491,17 +492,11 @@ bool TransformProperties(editor::Workspace& workspace, geometry::Similarity3& tr
 
 bool ColourProperty(editor::Workspace& workspace, const char* label, Eigen::Vector3d& albedo) {
   PropertyLabel(label);
-  const auto encode = [](double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-  };
-  const auto decode = [](double srgb) {
-    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-  };
-  Eigen::Vector3f colour = albedo.unaryExpr(encode).cast<float>();
+  Eigen::Vector3f colour = albedo.unaryExpr(&SrgbFromLinear<double>).cast<float>();
   const bool changed = ImGui::ColorEdit3(label, colour.data(), ImGuiColorEditFlags_NoLabel);
   EndGestureWithItem(workspace);
   if (changed) {
-    albedo = colour.cast<double>().unaryExpr(decode).cwiseMax(0.0).cwiseMin(1.0);
+    albedo = colour.cast<double>().unaryExpr(&LinearFromSrgb<double>).cwiseMax(0.0).cwiseMin(1.0);
   }
   return changed;
 }

@@ -3,7 +3,6 @@
 // A person or a prop on the GPU. It consists of parts with one material each, whose vertices follow
 // joints. The joints of a prop are its movable parts. Private to render.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>

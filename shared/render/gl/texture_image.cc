@@ -8,19 +8,12 @@
 #include <optional>
 
 #include "shared/core/check.h"
+#include "shared/core/srgb.h"
 #include "shared/image/decode.h"
 #include "shared/image/image_header.h"
 
 namespace lararium::render {
 namespace {
-
-double LinearFromSrgb(double c) {
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-double SrgbFromLinear(double c) {
-  return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-}
 
 // Index: [alpha][encoded colour].
 using Table = std::array<std::array<uint8_t, 256>, 256>;

@@ -1,6 +1,5 @@
 #include "shared/render/passes/key_light.h"
 
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,6 @@
 #include "shared/render/text/caption_font.h"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "shared/core/json.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#include <string>
 #include <utility>
 
 namespace lararium::render {

@@ -1,0 +1,14 @@
+#pragma once
+
+// The names of the JSON types, for headers that only mention them. A source that uses the types includes
+// shared/core/json.h, which is far heavier.
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace lararium {
+
+using Json = nlohmann::json;  // keys are sorted, so that files diff well
+
+class JsonView;
+
+}  // namespace lararium
