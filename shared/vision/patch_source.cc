@@ -195,7 +195,7 @@ bool PatchSource::View(const ExposedCamera& camera,
       PixelFromPlaneSlope(model, plane) * plane_slope * patch.plane_from_key_pixel;
   const double area = pixel_from_key.determinant();
   if (!(area > 0.05 && area < 8.0)) {
-    return false;  // From behind, edge-on, or much larger than in the source.
+    return false;  // The patch is shown from behind, edge-on, or much too large.
   }
   view.key_from_pixel = pixel_from_key.inverse();
   view.velocity.setZero();
