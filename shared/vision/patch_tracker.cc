@@ -45,21 +45,9 @@ PatchTracker::PatchTracker(std::shared_ptr<const TrackedMap> map) : pool_(std::m
   depths_.reserve(PatchPool::kMostPatches);
 }
 
-void PatchTracker::SetOccluders(std::span<const OccluderMesh> meshes) {
-  pool_.SetOccluders(meshes);
-}
-
 void PatchTracker::Start(const CameraModel& camera, const Rigid3& camera_from_map) {
   exposure_.Forget();
   pool_.Start(camera, camera_from_map);
-}
-
-void PatchTracker::Merge(ImagePyramid& image,
-                         const CameraModel& camera,
-                         const Rigid3& camera_from_map,
-                         std::span<const LocatedPoint> points,
-                         const Rigid3& camera_from_map_now) {
-  pool_.Merge(image, camera, camera_from_map, points, camera_from_map_now);
 }
 
 FollowedPose PatchTracker::Follow(const ImagePyramid& image,

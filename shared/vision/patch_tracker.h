@@ -48,7 +48,7 @@ class PatchTracker {
   // Replaces the objects that hide map points. Points behind an occluder are not searched for while
   // it is trusted. It is trusted after points behind it were not found, and never if hardly any
   // patch would be left.
-  void SetOccluders(std::span<const OccluderMesh> meshes);
+  void SetOccluders(std::span<const OccluderMesh> meshes) { pool_.SetOccluders(meshes); }
 
   // Discards all patches and chooses new ones for a pose that was found without a prior. camera
   // describes the images to come.
@@ -72,7 +72,9 @@ class PatchTracker {
              const geometry::CameraModel& camera,
              const geometry::Rigid3& camera_from_map,
              std::span<const LocatedPoint> points,
-             const geometry::Rigid3& camera_from_map_now);
+             const geometry::Rigid3& camera_from_map_now) {
+    pool_.Merge(image, camera, camera_from_map, points, camera_from_map_now);
+  }
 
   // The points that agree with the last reliable pose.
   std::span<const SeenPoint> seen() const { return seen_; }
