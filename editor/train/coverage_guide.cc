@@ -237,12 +237,13 @@ CoverageGuide::Way CoverageGuide::Follow(const CoverageFrame& frame) {
   at_ = view_at_;
   double parallax = 0.0;
   if (HasMoved(turning)) {
-    const auto pose = EstimateRelativePose(pairs, kSampson);
-    if (pose && Explains(*pose, turning, pairs) && !Leaps(pose->b_from_a.rotation, frame.shift)) {
-      camera_from_view = pose->b_from_a.rotation;
-      parallax = pose->median_angle;
+    const auto relative = EstimateRelativePose(pairs, kSampson);
+    if (pose && Explains(*pose, turning, pairs) &&
+        !Leaps(relative->b_from_a.rotation, frame.shift)) {
+      camera_from_view = relative->b_from_a.rotation;
+      parallax = relative->median_angle;
       way.moved = true;
-      at_ = view_at_ + MovedBy(world_from_view_, pairs, *pose);
+      at_ = view_at_ + MovedBy(world_from_view_, pairs, *relative);
     }
   }
   world_from_camera_ = (world_from_view_ * camera_from_view.conjugate()).normalized();
@@ -283,8 +284,8 @@ std::vector<const CoverageGuide::KnownView*> CoverageGuide::ViewsToRecognise(boo
   return views;
 }
 
-std::optional<CoverageGuide::Sighting> CoverageGuide::ViewFrom(const KnownView& view,
-                                                               const CoverageFeatures& seen) {
+std::optional<CoverageGuide::PoseFromView> CoverageGuide::ViewFrom(const KnownView& view,
+                                                                   const CoverageFeatures& seen) {
   constexpr float kRatio = 0.8f;
   constexpr size_t kFewest = 25;
   constexpr double kLeastShare = 0.5;
@@ -297,54 +298,55 @@ std::optional<CoverageGuide::Sighting> CoverageGuide::ViewFrom(const KnownView& 
   if (pairs.size() < kFewest) {
     return std::nullopt;
   }
-  const auto pose = EstimateRelativePose(pairs, kSampson);
-  if (!pose || pose->inliers.size() < kFewest ||
-      static_cast<double>(pose->inliers.size()) < kLeastShare * static_cast<double>(pairs.size())) {
+  const auto relative = EstimateRelativePose(pairs, kSampson);
+  if (!relative || relative->inliers.size() < kFewest ||
+      static_cast<double>(relative->inliers.size()) <
+          kLeastShare * static_cast<double>(pairs.size())) {
     return std::nullopt;
   }
   PointPairs agreeing;
-  for (const uint32_t i : pose->inliers) {
+  for (const uint32_t i : relative->inliers) {
     agreeing.a.push_back(pairs.a[i]);
     agreeing.b.push_back(pairs.b[i]);
   }
   const Turning turning = EstimateTurning(agreeing);
   const bool moved = HasMoved(turning);
-  const Quaterniond camera_from_view = moved ? pose->b_from_a.rotation : turning.b_from_a;
-  Sighting sighting;
-  sighting.world_from_camera = (view.world_from_view * camera_from_view.conjugate()).normalized();
-  sighting.at = view.at;
+  const Quaterniond camera_from_view = moved ? relative->b_from_a.rotation : turning.b_from_a;
+  PoseFromView pose;
+  pose.world_from_camera = (view.world_from_view * camera_from_view.conjugate()).normalized();
+  pose.at = view.at;
   if (moved) {
-    sighting.at += MovedBy(view.world_from_view, pairs, *pose);
+    pose.at += MovedBy(view.world_from_view, pairs, *relative);
   }
-  sighting.links = view.links + 1;
-  return sighting;
+  pose.links = view.links + 1;
+  return pose;
 }
 
 // Recognises earlier views and corrects the pose. A single view may mislead, because a flat scene
 // has two possible poses, so two views must agree.
 bool CoverageGuide::Recognise(const CoverageFeatures& seen, bool lost) {
   constexpr double kAgree = 4.0 * kRadiansPerDegree;
-  std::vector<Sighting> sightings;
+  std::vector<PoseFromView> poses;
   for (const KnownView* view : ViewsToRecognise(lost)) {
-    if (const auto sighting = ViewFrom(*view, seen)) {
-      sightings.push_back(*sighting);
+    if (const auto pose = ViewFrom(*view, seen)) {
+      poses.push_back(*pose);
     }
   }
-  for (const Sighting& sighting : sightings) {
-    const auto agree = std::ranges::count_if(sightings, [&](const Sighting& other) {
-      return other.world_from_camera.angularDistance(sighting.world_from_camera) < kAgree;
+  for (const PoseFromView& pose : poses) {
+    const auto agree = std::ranges::count_if(poses, [&](const PoseFromView& other) {
+      return other.world_from_camera.angularDistance(pose.world_from_camera) < kAgree;
     });
     if (agree < 2) {
       continue;
     }
     // The first rays are rotated along, so that their angles to the current rays stay the same.
-    const Quaterniond corrected = sighting.world_from_camera * world_from_camera_.conjugate();
+    const Quaterniond corrected = pose.world_from_camera * world_from_camera_.conjugate();
     for (auto& [id, observation] : observations_) {
       observation.first = corrected * observation.first;
     }
-    world_from_camera_ = sighting.world_from_camera;
-    at_ = sighting.at;
-    links_ = sighting.links;
+    world_from_camera_ = pose.world_from_camera;
+    at_ = pose.at;
+    links_ = pose.links;
     return true;
   }
   return false;

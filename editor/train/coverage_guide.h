@@ -136,7 +136,7 @@ class CoverageGuide {
     int links = 0;  // Number of measured motions that lead from the first frame to the view.
   };
   // The camera's pose according to one recognised view.
-  struct Sighting {
+  struct PoseFromView {
     Eigen::Quaterniond world_from_camera = Eigen::Quaterniond::Identity();
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
     int links = 0;  // See KnownView::links.
@@ -153,7 +153,7 @@ class CoverageGuide {
   Way Follow(const CoverageFrame& frame);
   bool Leaps(const Eigen::Quaterniond& camera_from_view, double shift) const;
   std::vector<const KnownView*> ViewsToRecognise(bool lost) const;
-  static std::optional<Sighting> ViewFrom(const KnownView& view, const CoverageFeatures& seen);
+  static std::optional<PoseFromView> ViewFrom(const KnownView& view, const CoverageFeatures& seen);
   bool Recognise(const CoverageFeatures& seen, bool lost);
   void BeginView(const CoverageFrame& frame, bool lost);
   void NoteObservations(const CoverageFrame& frame, bool moved);

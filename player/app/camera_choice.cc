@@ -24,7 +24,7 @@ Result<CameraChoice> ChooseTrained(std::span<const TrainedCamera> trained, int w
 
 }  // namespace
 
-Result<CameraChoice> ChooseCamera(const PlayOptions& options,
+Result<CameraChoice> ChooseCamera(const CameraOptions& options,
                                   std::span<const TrainedCamera> trained,
                                   int width,
                                   int height) {

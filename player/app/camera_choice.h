@@ -26,7 +26,7 @@ struct CameraChoice {
 // trained: the cameras of all places, at least one; the first that fits is used for all places.
 // width and height: size of the source's images. A calibration for another size is scaled if the
 // aspect ratio agrees; otherwise it does not fit, which is an error.
-Result<CameraChoice> ChooseCamera(const PlayOptions& options,
+Result<CameraChoice> ChooseCamera(const CameraOptions& options,
                                   std::span<const TrainedCamera> trained,
                                   int width,
                                   int height);

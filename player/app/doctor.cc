@@ -80,7 +80,7 @@ Status Images(capture::FrameSource& source, vision::PoseSource* poses, CameraPro
   return Status();
 }
 
-Result<std::unique_ptr<vision::PoseSource>> TrackerOf(const PlayOptions& play,
+Result<std::unique_ptr<vision::PoseSource>> TrackerOf(const CameraOptions& camera,
                                                       const show::ShowContent& content,
                                                       const CameraProbe& probe) {
   std::vector<TrainedCamera> trained;
@@ -88,7 +88,7 @@ Result<std::unique_ptr<vision::PoseSource>> TrackerOf(const PlayOptions& play,
     trained.push_back({place.stage.name, place.map->camera});
   }
   LARARIUM_ASSIGN_OR_RETURN(const CameraChoice choice,
-                            ChooseCamera(play, trained, probe.width, probe.height));
+                            ChooseCamera(camera, trained, probe.width, probe.height));
   return vision::CreateTracker(show::Maps(content.places), choice.camera, {});
 }
 
@@ -97,8 +97,8 @@ CameraProbe ProbeCamera(const DoctorOptions& options,
                         const show::ShowContent* content) {
   CameraProbe probe;
   probe.devices = CountCameras();
-  PlayOptions play;
-  play.device = options.device;
+  CameraOptions camera;
+  camera.device = options.device;
   Result<std::unique_ptr<capture::FrameSource>> source =
       capture::OpenCamera(options.camera, device.capture);
   if (!source.ok()) {
@@ -109,7 +109,7 @@ CameraProbe ProbeCamera(const DoctorOptions& options,
   probe.height = (*source)->height();
   std::unique_ptr<vision::PoseSource> poses;
   if (content != nullptr) {
-    auto tracker = TrackerOf(play, *content, probe);
+    auto tracker = TrackerOf(camera, *content, probe);
     if (tracker.ok()) {
       poses = std::move(*tracker);
     } else {
@@ -205,10 +205,10 @@ std::vector<Finding> JudgeShow(const Result<show::ShowContent>& content, bool tr
   }
   const auto show = show::Show::Create(*content, {}, log);
   if (!show.ok()) {
-    findings.push_back({"drama", Verdict::kBad, show.message(), "ask whoever made the show"});
+    findings.push_back({"drama", Verdict::kBad, show.message(), "ask the author of the show"});
   } else if (!(*show)->drama().errors().empty()) {
     findings.push_back({"drama", Verdict::kWarning, (*show)->drama().errors().front().message,
-                        "ask whoever made the show; it plays without this part"});
+                        "ask the author of the show; it plays without this part"});
   }
   return findings;
 }
@@ -337,7 +337,7 @@ Finding JudgeGraphics(const Result<std::string>& device) {
 Finding JudgeDrawing(const DrawingProbe& probe, double wanted) {
   if (!probe.problem.ok()) {
     return {"drawing", Verdict::kBad, probe.problem.message(),
-            "install the driver of the graphics card, or ask whoever made the show"};
+            "install the driver of the graphics card, or ask the author of the show"};
   }
   // A rate slightly below the wanted one is good enough: a rare late picture is not noticed.
   const auto fast = std::ranges::find_if(

@@ -29,7 +29,7 @@ Status MeasureLatency(const LatencyOptions& options) {
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<capture::FrameSource> source,
                             capture::OpenCamera(options.camera, device.capture));
-  PlayOptions window;
+  DisplayOptions window;
   window.monitor = options.monitor;
   LARARIUM_ASSIGN_OR_RETURN(Screen screen, Screen::Open(window, "Latency"));
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,

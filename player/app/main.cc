@@ -29,12 +29,12 @@ int Report(const Status& status, Log& log) {
 // Starts the staff page; nullptr: none was requested. Call this while there is only one thread and
 // before the watchdog of a kiosk starts, so that nothing is started if the port is in use.
 Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log& log) {
-  if (options.staff_page.empty()) {
+  if (options.staff_page.address.empty()) {
     return std::unique_ptr<StaffPage>();
   }
   LARARIUM_ASSIGN_OR_RETURN(const ListenAddress address,
-                            ParseListenAddress("--staff-page", options.staff_page));
-  return StaffPage::Start({address, options.staff_pin, options.sandbox}, log);
+                            ParseListenAddress("--staff-page", options.staff_page.address));
+  return StaffPage::Start({address, options.staff_page.pin, options.sandbox}, log);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     return *code;
   }
   const auto* play = std::get_if<PlayOptions>(&command);
-  const Result<std::shared_ptr<Log>> log = MakeLog(play != nullptr ? play->log : "");
+  const Result<std::shared_ptr<Log>> log = MakeLog(play != nullptr ? play->output.log : "");
   if (!log.ok()) {
     std::fprintf(stderr, "%s\n", log.message().c_str());
     return 1;
@@ -64,18 +64,18 @@ int main(int argc, char** argv) {
   if (play == nullptr) {
     return Report(PrintInfo(std::get<InfoOptions>(command)), **log);
   }
-  if (!play->benchmark.empty()) {
-    const BenchmarkOptions options{.show = play->show,
-                                   .place = play->place,
-                                   .sequences = play->benchmark,
-                                   .foreign = play->foreign,
-                                   .first_pose = play->first_pose,
+  if (!play->benchmark.folder.empty()) {
+    const BenchmarkOptions options{.show = play->bundle.show,
+                                   .place = play->bundle.place,
+                                   .sequences = play->benchmark.folder,
+                                   .foreign = play->benchmark.foreign,
+                                   .first_pose = play->benchmark.first_pose,
                                    .frames = play->frames,
                                    .threads = play->threads,
                                    .seed = play->seed,
                                    .smoothing = play->smoothing,
-                                   .poses_out = play->poses_out,
-                                   .stats_out = play->stats_out};
+                                   .poses_out = play->output.poses,
+                                   .stats_out = play->output.stats};
     return Report(Benchmark(options, **log), **log);
   }
   const Result<std::unique_ptr<StaffPage>> page = OpenStaffPage(*play, **log);
@@ -83,12 +83,12 @@ int main(int argc, char** argv) {
     return Report(page.status(), **log);
   }
   const int staff_link = *page != nullptr ? (*page)->link() : -1;
-  if (!play->kiosk) {
+  if (!play->kiosk.enabled) {
     return Report(Play(*play, start, **log, {}, Heartbeat(), staff_link), **log);
   }
   std::optional<Curtain> curtain;
-  if (!play->headless && play->display != Display::kOpenXr) {
-    curtain.emplace(play->monitor, **log);
+  if (!play->display.headless && play->display.mode != Display::kOpenXr) {
+    curtain.emplace(play->display.monitor, **log);
   }
   const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
     const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();

@@ -90,38 +90,43 @@ void AddSwitchOption(CLI::App& app,
 }
 
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
-  app.add_option("SHOW", play.show, "The bundle to play (.larshow)")->check(CLI::ExistingFile);
-  app.add_option("--trust", play.trust, "Play only what was signed with the key of this .pub file")
+  app.add_option("SHOW", play.bundle.show, "The bundle to play (.larshow)")
       ->check(CLI::ExistingFile);
-  app.add_option("--place", play.place, "Only this place of the bundle; all otherwise");
-  app.add_option("--language", play.language,
+  app.add_option("--trust", play.bundle.trust,
+                 "Play only what was signed with the key of this .pub file")
+      ->check(CLI::ExistingFile);
+  app.add_option("--place", play.bundle.place, "Only this place of the bundle; all otherwise");
+  app.add_option("--language", play.choices.language,
                  "Language that people speak, as la or en; otherwise as the author chose");
-  app.add_option("--captions", play.captions,
+  app.add_option("--captions", play.choices.captions,
                  "Language of the captions, or off; otherwise as the author chose");
-  AddChoiceOption(app, "--caption-size", render::kCaptionSizes, play.caption_size,
+  AddChoiceOption(app, "--caption-size", render::kCaptionSizes, play.choices.caption_size,
                   "Letters of captions and of the guide");
-  AddChoiceOption(app, "--caption-contrast", render::kCaptionContrasts, play.caption_contrast,
+  AddChoiceOption(app, "--caption-contrast", render::kCaptionContrasts,
+                  play.choices.caption_contrast,
                   "high: captions, guide and menu bold, white and yellow on black");
-  AddSwitchOption(app, "--descriptions", play.descriptions,
+  AddSwitchOption(app, "--descriptions", play.choices.descriptions,
                   "on: what is to be seen is described, for visitors who do not see well");
-  AddSwitchOption(app, "--reduced-motion", play.reduced_motion,
+  AddSwitchOption(app, "--reduced-motion", play.choices.reduced_motion,
                   "on: nothing of what the player adds glides that can fade");
 
   CLI::Option_group* source = app.add_option_group("source", "Where images come from");
-  source->add_option("--camera", play.camera, "Number of a camera (0 unless told otherwise)");
-  source->add_option("--video", play.video, "Video file")->check(CLI::ExistingFile);
-  source->add_option("--images", play.images, "Folder of images")->check(CLI::ExistingDirectory);
+  source->add_option("--camera", play.camera.number,
+                     "Number of a camera (0 unless told otherwise)");
+  source->add_option("--video", play.camera.video, "Video file")->check(CLI::ExistingFile);
+  source->add_option("--images", play.camera.images, "Folder of images")
+      ->check(CLI::ExistingDirectory);
   source->require_option(0, 1);
 
-  app.add_option("--intrinsics", play.intrinsics, "fx,fy,cx,cy[,k1,k2,p1,p2] in pixels")
+  app.add_option("--intrinsics", play.camera.intrinsics, "fx,fy,cx,cy[,k1,k2,p1,p2] in pixels")
       ->delimiter(',')
       ->expected(4, 8)
       ->check(CLI::Number);
-  app.add_option("--device", play.device,
+  app.add_option("--device", play.camera.device,
                  "Device file: the camera's calibration and look, the headset")
       ->check(CLI::ExistingFile);
   app.add_option_function<std::string>(
-         "--look", [&play](const std::string& look) { play.camera_look = look == "camera"; },
+         "--look", [&play](const std::string& look) { play.camera.look = look == "camera"; },
          "camera: people as noisy, soft and smeared as the camera's image; plain: as drawn")
       ->check(CLI::IsMember({"camera", "plain"}));
 
@@ -129,28 +134,28 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                  "Listen for Open Sound Control: PORT on this machine, ADDRESS:PORT or "
                  "INTERFACE:PORT on a network");
   CLI::Option* page = app.add_option(
-      "--staff-page", play.staff_page,
+      "--staff-page", play.staff_page.address,
       "A page for staff, by HTTP: PORT for this machine only, ADDRESS:PORT or INTERFACE:PORT for "
       "a network, 0.0.0.0:PORT for all of them");
-  app.add_option("--staff-pin-file", play.staff_pin,
+  app.add_option("--staff-pin-file", play.staff_page.pin,
                  "File with the PIN for changing things on that page; without one it only shows")
       ->check(CLI::ExistingFile)
       ->needs(page);
   app.add_flag("--evidence", play.evidence,
                "People and things in the colours of how certain they are; F2 switches");
   app.add_option(
-         "--display", play.display,
+         "--display", play.display.mode,
          "mono; side-by-side: for both eyes through the lenses of the device file's headset, "
          "which is what happens where it has a panel; openxr: on a headset that an OpenXR "
          "runtime drives")
       ->transform(CLI::Transformer(DisplayNames()));
-  app.add_flag("--headless", play.headless, "Draw off screen");
-  AddGraphicsOption(app, play.graphics,
+  app.add_flag("--headless", play.display.headless, "Draw off screen");
+  AddGraphicsOption(app, play.display.graphics,
                     "gl: OpenGL 3.3; gles: OpenGL ES 3.0; auto: the first, where it can be had");
-  app.add_option("--monitor", play.monitor,
+  app.add_option("--monitor", play.display.monitor,
                  "Full screen on this monitor; a kiosk is on the first unless told otherwise")
       ->check(CLI::Range(0, kLargestCount));
-  AddSizeOption(app, play.size,
+  AddSizeOption(app, play.display.size,
                 "Size of the pictures, as 1280x720; as the camera's images unless given. A "
                 "headset's panel has the device file's");
   app.add_option_function<std::string>(
@@ -165,12 +170,12 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
          "on: no other programs, no network, no settings of the machine; off")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_flag("--staff", play.staff, "Show how tracking is, in a corner of the picture");
-  app.add_flag("--loop", play.loop, "Begin a video or folder again at its end");
-  CLI::Option* kiosk = app.add_flag("--kiosk", play.kiosk,
+  app.add_flag("--loop", play.camera.loop, "Begin a video or folder again at its end");
+  CLI::Option* kiosk = app.add_flag("--kiosk", play.kiosk.enabled,
                                     "Full screen, watched over, for one visitor after the other");
-  app.add_option("--state", play.state, "Folder in which a kiosk remembers where it was")
+  app.add_option("--state", play.kiosk.state, "Folder in which a kiosk remembers where it was")
       ->needs(kiosk);
-  app.add_option("--visit-minutes", play.visit_minutes,
+  app.add_option("--visit-minutes", play.kiosk.visit_minutes,
                  "How long a kiosk's visit may take, where others wait; otherwise as long as the "
                  "visitor stays")
       ->check(CLI::Range(0.5, 240.0))
@@ -198,28 +203,29 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
       ->transform(CLI::Transformer(ListeningNames()));
 
   CLI::Option* benchmark =
-      app.add_option("--benchmark", play.benchmark,
+      app.add_option("--benchmark", play.benchmark.folder,
                      "Measure the tracker on sequences with ground truth: a folder with "
                      "ground_truth.json, or a folder of such folders")
           ->check(CLI::ExistingDirectory);
-  app.add_option("--foreign", play.foreign,
+  app.add_option("--foreign", play.benchmark.foreign,
                  "Images or a video of another place, which must not be tracked")
       ->check(CLI::ExistingPath)
       ->needs(benchmark);
-  app.add_flag("--first-pose", play.first_pose, "Relocalise in every frame")->needs(benchmark);
+  app.add_flag("--first-pose", play.benchmark.first_pose, "Relocalise in every frame")
+      ->needs(benchmark);
 
   CLI::Option* visitor = app.add_option("--visitor", play.visitor,
                                         "Play again what a visitor did: a file of --visitor-log")
                              ->check(CLI::ExistingFile);
-  app.add_option("--visitor-log", play.visitor_log,
+  app.add_option("--visitor-log", play.output.visitor_log,
                  "Write down here what the visitor does, as far as the drama hears of it")
       ->excludes(visitor);
 
-  app.add_option("--poses-out", play.poses_out, "Write the poses here (poses.json)");
-  app.add_option("--stats-out", play.stats_out, "Write times and counts here (stats.json)");
-  app.add_option("--record", play.record, "Write the composite here, with its sound (.mp4)");
-  app.add_option("--sound", play.sound, "Write the sound here (.wav)");
-  app.add_option("--log", play.log, "Write the log here too");
+  app.add_option("--poses-out", play.output.poses, "Write the poses here (poses.json)");
+  app.add_option("--stats-out", play.output.stats, "Write times and counts here (stats.json)");
+  app.add_option("--record", play.output.record, "Write the composite here, with its sound (.mp4)");
+  app.add_option("--sound", play.output.sound, "Write the sound here (.wav)");
+  app.add_option("--log", play.output.log, "Write the log here too");
 }
 
 }  // namespace
@@ -265,8 +271,8 @@ Command ParseCommandLine(int argc, const char* const* argv) {
 
   try {
     app.parse(argc, argv);
-    const size_t numbers = play.intrinsics.size();
-    if (!*info_command && !*doctor_command && !*latency_command && play.show.empty()) {
+    const size_t numbers = play.camera.intrinsics.size();
+    if (!*info_command && !*doctor_command && !*latency_command && play.bundle.show.empty()) {
       throw CLI::RequiredError("SHOW");
     }
     if (numbers != 0 && numbers != 4 && numbers != 8) {
@@ -275,34 +281,35 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     if (!play.osc.empty() && !ParseListenAddress("--osc", play.osc).ok()) {
       throw CLI::ValidationError("--osc", ParseListenAddress("--osc", play.osc).message());
     }
-    for (const std::string& page : {play.staff_page, doctor.staff_page}) {
+    for (const std::string& page : {play.staff_page.address, doctor.staff_page}) {
       if (!page.empty() && !ParseListenAddress("--staff-page", page).ok()) {
         throw CLI::ValidationError("--staff-page",
                                    ParseListenAddress("--staff-page", page).message());
       }
     }
-    if (!play.benchmark.empty() && !play.staff_page.empty()) {
+    if (!play.benchmark.folder.empty() && !play.staff_page.address.empty()) {
       throw CLI::ValidationError("--staff-page", "cannot go with --benchmark");
     }
-    if (!play.benchmark.empty() && (play.camera || !play.video.empty() || !play.images.empty())) {
+    if (!play.benchmark.folder.empty() &&
+        (play.camera.number || !play.camera.video.empty() || !play.camera.images.empty())) {
       throw CLI::ValidationError("--benchmark", "takes its images from its own folder");
     }
-    if (!play.benchmark.empty() && play.kiosk) {
+    if (!play.benchmark.folder.empty() && play.kiosk.enabled) {
       throw CLI::ValidationError("--kiosk", "cannot go with --benchmark");
     }
-    if (play.loop && play.video.empty() && play.images.empty()) {
+    if (play.camera.loop && play.camera.video.empty() && play.camera.images.empty()) {
       throw CLI::ValidationError("--loop", "goes with --video or --images");
     }
-    if (play.headless && play.display == Display::kOpenXr) {
+    if (play.display.headless && play.display.mode == Display::kOpenXr) {
       throw CLI::ValidationError("--display openxr", "cannot go with --headless");
     }
-    for (const auto& [display, graphics] :
-         {std::pair(play.display, play.graphics), std::pair(doctor.display, doctor.graphics)}) {
+    for (const auto& [display, graphics] : {std::pair(play.display.mode, play.display.graphics),
+                                            std::pair(doctor.display, doctor.graphics)}) {
       if (display == Display::kOpenXr && graphics == render::GraphicsApi::kOpenGlEs30) {
         throw CLI::ValidationError("--display openxr", "cannot go with --graphics gles");
       }
     }
-    if (play.headless && play.monitor >= 0) {
+    if (play.display.headless && play.display.monitor >= 0) {
       throw CLI::ValidationError("--monitor", "cannot go with --headless");
     }
   } catch (const CLI::ParseError& error) {
@@ -317,9 +324,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   if (*latency_command) {
     return latency;
   }
-  const bool shown_on_monitor = !play.headless && play.display != Display::kOpenXr;
-  if (play.kiosk && shown_on_monitor && play.monitor < 0) {
-    play.monitor = 0;  // full screen, so that visitors do not see the desktop
+  const bool shown_on_monitor = !play.display.headless && play.display.mode != Display::kOpenXr;
+  if (play.kiosk.enabled && shown_on_monitor && play.display.monitor < 0) {
+    play.display.monitor = 0;  // full screen, so that visitors do not see the desktop
   }
   return play;
 }

@@ -30,12 +30,16 @@ struct PictureSize {
   int height = 0;
 };
 
-struct PlayOptions {
+// The bundle to play.
+struct BundleOptions {
   std::filesystem::path show;
   // Public key: only bundles that it signed are played. Empty: any bundle is played.
   std::filesystem::path trust;
   std::string place;  // empty: all places of the bundle
+};
 
+// What a visitor could choose as well.
+struct ChoiceOptions {
   std::string language;  // spoken language; empty: the author's choice
   std::string captions;  // language of captions; empty: the author's choice; "off": no captions
   // If one of these four is not given: the choice of a kiosk's last visitor, otherwise normal or
@@ -44,59 +48,82 @@ struct PlayOptions {
   std::optional<render::CaptionContrast> caption_contrast;
   std::optional<bool> descriptions;
   std::optional<bool> reduced_motion;
+};
 
+struct CameraOptions {
   // Source of images; at most one is set. If none is set: camera 0.
-  std::optional<int> camera;
+  std::optional<int> number;
   std::filesystem::path video;
   std::filesystem::path images;
+  bool loop = false;  // a recorded source starts again at its end
 
   std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
-  std::filesystem::path device;
-  bool camera_look = true;  // people get the noise, softness and blur of the camera's image
+  std::filesystem::path device;    // device file
+  bool look = true;                // people get the noise, softness and blur of the camera's image
+};
 
-  bool evidence = false;  // the show starts in the evidence view
-
-  std::string osc;  // address to listen on for OSC messages; empty: none
-
-  std::string staff_page;           // address of the staff page; empty: no page
-  std::filesystem::path staff_pin;  // file with the PIN of the staff; empty: the page is read-only
-
+struct DisplayOptions {
   // nullopt: side by side if the device file describes a headset's panel, otherwise mono.
-  std::optional<Display> display;
+  std::optional<Display> mode;
   render::GraphicsChoice graphics;  // used for windows and headless
   bool headless = false;
   int monitor = -1;                 // monitor for full screen; -1: a window
   std::optional<PictureSize> size;  // size of pictures; nullopt: that of the camera's images
+};
+
+struct PageOptions {
+  std::string address;        // address of the staff page; empty: no page
+  std::filesystem::path pin;  // file with the PIN of the staff; empty: the page is read-only
+};
+
+struct KioskOptions {
+  bool enabled = false;         // supervised, full screen, for one visitor after another
+  std::filesystem::path state;  // folder for the state
+  double visit_minutes = 0.0;   // longest visit; 0: no limit
+};
+
+// Measures the tracker on sequences instead of playing.
+struct SequenceOptions {
+  std::filesystem::path folder;                // empty: the show is played
+  std::vector<std::filesystem::path> foreign;  // images of other places
+  bool first_pose = false;                     // relocalise in every frame
+};
+
+// Files that are written; those with an empty path are not.
+struct OutputOptions {
+  std::filesystem::path visitor_log;  // the visitor's actions
+  std::filesystem::path poses;
+  std::filesystem::path stats;
+  std::filesystem::path record;  // .mp4
+  std::filesystem::path sound;   // .wav
+  std::filesystem::path log;
+};
+
+struct PlayOptions {
+  BundleOptions bundle;
+  ChoiceOptions choices;
+  CameraOptions camera;
+  DisplayOptions display;
+  PageOptions staff_page;
+  KioskOptions kiosk;
+  SequenceOptions benchmark;
+  OutputOptions output;
+
+  std::string osc;        // address to listen on for OSC messages; empty: none
+  bool evidence = false;  // the show starts in the evidence view
+  bool staff = false;     // show the state of tracking in a corner of the picture
+  bool sandbox = true;    // give up rights that playing does not need (sandbox.h)
   // Level of render::QualityLadder(), 0 is the finest. nullopt: adapted to the speed of the
   // machine, or the finest with --pace fast.
   std::optional<int> quality;
-  bool sandbox = true;          // give up rights that playing does not need (sandbox.h)
-  bool staff = false;           // show the state of tracking in a corner of the picture
-  bool kiosk = false;           // supervised, full screen, for one visitor after another
-  std::filesystem::path state;  // folder for the kiosk's state
-  double visit_minutes = 0.0;   // longest visit of a kiosk; 0: no limit
-  bool loop = false;            // a recorded source starts again at its end
+  // nullopt: headphones; none with --headless.
+  std::optional<Listening> listening;
   Pace pace = Pace::kRealtime;
   int64_t frames = 0;  // number of frames to play; 0: all
   int threads = 0;     // 0: one for each core
   uint64_t seed = 1;
   vision::Smoothing smoothing = vision::Smoothing::kSoft;
-  // nullopt: headphones; none with --headless.
-  std::optional<Listening> listening;
-
-  // Folder of sequences: measures the tracker on them instead of playing.
-  std::filesystem::path benchmark;
-  std::vector<std::filesystem::path> foreign;  // images of other places
-  bool first_pose = false;                     // relocalise in every frame
-
-  std::filesystem::path visitor_log;  // file in which the visitor's actions are recorded
-  std::filesystem::path visitor;      // recorded actions that are replayed
-
-  std::filesystem::path poses_out;
-  std::filesystem::path stats_out;
-  std::filesystem::path record;
-  std::filesystem::path sound;  // .wav
-  std::filesystem::path log;
+  std::filesystem::path visitor;  // recorded actions that are replayed
 };
 
 struct InfoOptions {

@@ -33,7 +33,7 @@ Status Play(const PlayOptions& options,
   if (options.threads > 0) {
     limit.emplace(options.threads);
   }
-  const bool sandbox = options.sandbox && options.display != Display::kOpenXr;
+  const bool sandbox = options.sandbox && options.display.mode != Display::kOpenXr;
   if (options.sandbox && !sandbox) {
     log.info("no sandbox: the headset's runtime needs the system");
   }

@@ -5,10 +5,11 @@
 
 namespace lararium::player {
 
-Result<Recorder> Recorder::Create(const PlayOptions& options,
+Result<Recorder> Recorder::Create(const OutputOptions& options,
                                   const capture::FrameSource& source,
                                   const render::RenderTarget& target,
-                                  const show::Show& show) {
+                                  const show::Show& show,
+                                  bool binaural) {
   Recorder recorder(options, source);
   if (!options.record.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(
@@ -17,14 +18,14 @@ Result<Recorder> Recorder::Create(const PlayOptions& options,
                                                       show::SoundRecording::Sounds(show)));
   }
   LARARIUM_ASSIGN_OR_RETURN(
-      recorder.sound_, show::SoundRecording::Create(show, options.listening != Listening::kSpeakers,
-                                                    recorder.video_.get(), options.sound));
+      recorder.sound_,
+      show::SoundRecording::Create(show, binaural, recorder.video_.get(), options.sound));
   return recorder;
 }
 
 Status Recorder::Add(const show::StagedFrame& staged, const render::RenderTarget& target) {
   const vision::TrackedFrame& tracked = staged.tracked;
-  if (!options_->poses_out.empty()) {
+  if (!options_->poses.empty()) {
     poses_.push_back(vision::MakePoseRecord(source_->FrameName(tracked.frame.index), tracked));
   }
   LARARIUM_RETURN_IF_ERROR(sound_->Add(staged.sound));
@@ -39,8 +40,8 @@ Status Recorder::Add(const show::StagedFrame& staged, const render::RenderTarget
 }
 
 Status Recorder::Finish() {
-  if (!options_->poses_out.empty()) {
-    LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options_->poses_out, poses_));
+  if (!options_->poses.empty()) {
+    LARARIUM_RETURN_IF_ERROR(vision::SavePoses(options_->poses, poses_));
   }
   LARARIUM_RETURN_IF_ERROR(sound_->Finish(1.0 / source_->frames_per_second()));
   return video_ != nullptr ? video_->Finish() : Status();

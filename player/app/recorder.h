@@ -20,10 +20,12 @@ namespace lararium::player {
 class Recorder {
  public:
   // Opens the files that the options ask for. source and options must outlive the object.
-  static Result<Recorder> Create(const PlayOptions& options,
+  // binaural: sound is mixed for headphones.
+  static Result<Recorder> Create(const OutputOptions& options,
                                  const capture::FrameSource& source,
                                  const render::RenderTarget& target,
-                                 const show::Show& show);
+                                 const show::Show& show,
+                                 bool binaural);
 
   // Continues with another show (show::Show::ResumeFrom).
   Status SetShow(const show::Show& show) { return sound_->SetShow(show); }
@@ -35,10 +37,10 @@ class Recorder {
   Status Finish();
 
  private:
-  Recorder(const PlayOptions& options, const capture::FrameSource& source)
+  Recorder(const OutputOptions& options, const capture::FrameSource& source)
       : options_(&options), source_(&source) {}
 
-  const PlayOptions* options_;
+  const OutputOptions* options_;
   const capture::FrameSource* source_;
   std::unique_ptr<capture::VideoWriter> video_;
   int64_t video_index_ = -1;                   // index of the last frame in the video

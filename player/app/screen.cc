@@ -4,7 +4,7 @@
 
 namespace lararium::player {
 
-Result<Screen> Screen::Open(const PlayOptions& options, const std::string& title) {
+Result<Screen> Screen::Open(const DisplayOptions& options, const std::string& title) {
   Screen screen;
   if (options.headless) {
     LARARIUM_ASSIGN_OR_RETURN(screen.offscreen_, render::CreateOffscreenContext(options.graphics));
@@ -12,8 +12,8 @@ Result<Screen> Screen::Open(const PlayOptions& options, const std::string& title
   }
   render::WindowOptions window;
   window.title = title;
-  window.vsync = options.display != Display::kOpenXr;  // an OpenXR headset sets the pace itself
-  if (options.display != Display::kOpenXr) {           // OpenXR needs OpenGL 3.3
+  window.vsync = options.mode != Display::kOpenXr;  // an OpenXR headset sets the pace itself
+  if (options.mode != Display::kOpenXr) {           // OpenXR needs OpenGL 3.3
     window.graphics = options.graphics;
   }
   if (options.monitor >= 0) {

@@ -19,7 +19,7 @@ namespace lararium::player {
 // on the thread that opened it.
 class Screen {
  public:
-  static Result<Screen> Open(const PlayOptions& options, const std::string& title);
+  static Result<Screen> Open(const DisplayOptions& options, const std::string& title);
 
   void Present(const render::RenderTarget& target);
   // Logs a warning if the monitor does not have the size of a headset's panel, so that the panel

@@ -1,5 +1,6 @@
 #include "player/app/show_maker.h"
 
+#include <chrono>
 #include <utility>
 
 #include "shared/bundle/bundle.h"
@@ -7,7 +8,8 @@
 
 namespace lararium::player {
 
-void ShowMaker::SetDevice(const Device& device) {
+void ShowMaker::SetDevice(const Device& device, bool camera_look) {
+  camera_look_ = camera_look;
   look_ = device.look;
   lost_ = device.lost;
 }
@@ -18,18 +20,23 @@ void ShowMaker::SetPicture(const PictureSize& size, const show::ViewPart& part, 
   around_ = around;
 }
 
-Result<show::ShowContent> ShowMaker::Load(const show::LanguageChoice& languages,
+Result<show::ShowContent> ShowMaker::Load(const show::LanguageChoice& languages, float finest) {
+  languages_ = languages;
+  return Read(languages, finest);
+}
+
+Result<show::ShowContent> ShowMaker::Read(const show::LanguageChoice& languages,
                                           float finest) const {
   bundle::OpenOptions opening;
-  if (!options_.trust.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(opening.trusted, bundle::LoadPublicKey(options_.trust));
+  if (!bundle_.trust.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(opening.trusted, bundle::LoadPublicKey(bundle_.trust));
   }
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle,
-                            bundle::Bundle::Open(options_.show, opening));
+                            bundle::Bundle::Open(bundle_.show, opening));
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
-                            show::LoadShowContent(bundle, options_.place, languages, finest));
+                            show::LoadShowContent(bundle, bundle_.place, languages, finest));
   for (show::ShowPlace& place : content.places) {
-    if (!options_.camera_look) {
+    if (!camera_look_) {
       place.stage.camera.reset();
     } else if (look_) {
       place.stage.camera = look_;
@@ -39,13 +46,9 @@ Result<show::ShowContent> ShowMaker::Load(const show::LanguageChoice& languages,
 }
 
 Result<std::unique_ptr<show::Show>> ShowMaker::Make(show::ShowContent content) const {
-  drama::DramaOptions drama;
-  drama.seed = options_.seed;
-  // A player only ever goes back to the beginning, and plays for days: it needs no past.
-  drama.past = options_.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
-  Result<std::unique_ptr<show::Show>> made = show::Show::Create(std::move(content), drama, log_);
+  Result<std::unique_ptr<show::Show>> made = show::Show::Create(std::move(content), drama_, log_);
   if (!made.ok()) {
-    return made.status().At(options_.show.string());
+    return made.status().At(bundle_.show.string());
   }
   show::Show& show = **made;
   show.SetTrackingLossFader(lost_);
@@ -60,12 +63,35 @@ Result<std::unique_ptr<show::Show>> ShowMaker::Make(show::ShowContent content) c
 Result<std::unique_ptr<show::Show>> ShowMaker::MakeAt(double time,
                                                       const show::LanguageChoice& languages,
                                                       float finest) const {
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Load(languages, finest));
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Read(languages, finest));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
-  if (options_.visitor_log.empty()) {  // a recording first needs the visitor's earlier actions
+  if (drama_.past ==
+      drama::Past::kForgotten) {  // a recording first needs the visitor's earlier actions
     LARARIUM_RETURN_IF_ERROR(show->PrepareAt(time));
   }
   return show;
+}
+
+void ShowMaker::BeginOther(const show::LanguageChoice& languages, double time, float finest) {
+  if (!other_.valid() && languages != languages_) {
+    other_languages_ = languages;
+    other_ = std::async(std::launch::async, [this, languages, time, finest] {
+      return MakeAt(time, languages, finest);
+    });
+  }
+}
+
+bool ShowMaker::OtherIsReady(bool wait) const {
+  return other_.valid() &&
+         (wait || other_.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
+}
+
+Result<std::unique_ptr<show::Show>> ShowMaker::TakeOther() {
+  Result<std::unique_ptr<show::Show>> other = other_.get();
+  if (other.ok()) {
+    languages_ = other_languages_;
+  }
+  return other;
 }
 
 }  // namespace lararium::player

@@ -3,6 +3,7 @@
 // Reads a bundle and creates its show; also creates the same show in other languages while the
 // first is played.
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -18,15 +19,16 @@
 
 namespace lararium::player {
 
-// Call the Set functions before the first show is created. The other functions may be called on any
-// thread.
+// Call the Set functions before the first show is created.
 class ShowMaker {
  public:
-  // options and log must outlive the object.
-  ShowMaker(const PlayOptions& options, Log& log) : options_(options), log_(log) {}
+  // bundle and log must outlive the object.
+  ShowMaker(const BundleOptions& bundle, const drama::DramaOptions& drama, Log& log)
+      : bundle_(bundle), drama_(drama), log_(log) {}
 
-  // The look in the device file takes precedence over that of the places in the bundle.
-  void SetDevice(const Device& device);
+  // camera_look: people get the look of the camera's images. The look in the device file takes
+  // precedence over that of the places in the bundle.
+  void SetDevice(const Device& device, bool camera_look);
   // size: size of pictures. part: part of the camera's view that they show. around: people are also
   // visible outside the borders of the camera's view.
   void SetPicture(const PictureSize& size, const show::ViewPart& part, bool around);
@@ -34,23 +36,41 @@ class ShowMaker {
   void SetVisitor(drama::VisitorLog visitor) { visitor_ = std::move(visitor); }
 
   // Reads and checks the bundle. finest: see show::LoadShowContent.
-  Result<show::ShowContent> Load(const show::LanguageChoice& languages, float finest) const;
+  Result<show::ShowContent> Load(const show::LanguageChoice& languages, float finest);
   // Creates a show at the beginning of its drama.
   Result<std::unique_ptr<show::Show>> Make(show::ShowContent content) const;
-  // Loads the content and creates a show at a time of its drama, seconds.
+
+  // The languages that were loaded or taken last.
+  const show::LanguageChoice& languages() const { return languages_; }
+  // Begins to create the show in other languages at a time of its drama, seconds, on another
+  // thread. Does nothing while that is being done, or if it has these languages already.
+  void BeginOther(const show::LanguageChoice& languages, double time, float finest);
+  // Returns whether the other show, or its failure, can be taken. wait: waits for it.
+  bool OtherIsReady(bool wait) const;
+  // Requires OtherIsReady(). After an error the languages are those of before.
+  Result<std::unique_ptr<show::Show>> TakeOther();
+
+ private:
+  Result<show::ShowContent> Read(const show::LanguageChoice& languages, float finest) const;
   Result<std::unique_ptr<show::Show>> MakeAt(double time,
                                              const show::LanguageChoice& languages,
                                              float finest) const;
 
- private:
-  const PlayOptions& options_;
+  const BundleOptions& bundle_;
+  drama::DramaOptions drama_;
   Log& log_;
+  bool camera_look_ = true;
   std::optional<light::CameraTraits> look_;
   show::TrackingLossFaderOptions lost_;
   PictureSize size_;
   show::ViewPart part_;
   bool around_ = false;
   std::optional<drama::VisitorLog> visitor_;
+  show::LanguageChoice languages_;
+  // The show in other languages, and these. Declared last, because its thread uses the other
+  // members.
+  show::LanguageChoice other_languages_;
+  std::future<Result<std::unique_ptr<show::Show>>> other_;
 };
 
 }  // namespace lararium::player

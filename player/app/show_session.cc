@@ -2,13 +2,20 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
-#include <optional>
+#include <future>
 #include <utility>
+#include <vector>
 
+#include "player/app/camera_choice.h"
 #include "player/app/heap.h"
+#include "shared/capture/looped_source.h"
+#include "shared/capture/steady_camera.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/vision/pose_smoother.h"
+#include "shared/vision/tracker.h"
 
 namespace lararium::player {
 namespace {
@@ -36,14 +43,44 @@ float HourNow() {
          static_cast<float>(local.tm_sec) / 3600.0f;
 }
 
+double Milliseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+// A player only ever goes back to the beginning, and plays for days: it needs no past.
+drama::DramaOptions DramaOptionsOf(const PlayOptions& options) {
+  drama::DramaOptions drama;
+  drama.seed = options.seed;
+  drama.past = options.output.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
+  return drama;
+}
+
+Result<std::unique_ptr<capture::FrameSource>> OpenSource(const CameraOptions& options,
+                                                         const capture::CameraSettings& settings,
+                                                         FaultLog& faults) {
+  if (options.video.empty() && options.images.empty()) {
+    const auto open = [number = options.number.value_or(0), settings] {
+      return capture::OpenCamera(number, settings);
+    };
+    LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<capture::FrameSource> camera, open());
+    return capture::MakeSteady(
+        std::move(camera),
+        capture::RealWorld(
+            open,
+            [&faults](bool connected, const std::string& why) {
+              faults.CameraChanged(connected, why);
+            },
+            [&faults](bool steady, double leap) { faults.ClockChanged(steady, leap); }));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<capture::FrameSource> source,
+                            options.video.empty() ? capture::OpenImageFolder(options.images)
+                                                  : capture::OpenVideo(options.video));
+  return options.loop ? capture::Loop(std::move(source)) : std::move(source);
+}
+
 }  // namespace
 
 void RequestEnd() { g_end_requested = 1; }
-
-const render::Quality& QualityOf(size_t level) {
-  const std::span<const render::Quality> fader = render::QualityLadder();
-  return fader[std::min(level, fader.size() - 1)];
-}
 
 ShowSession::ShowSession(const PlayOptions& options,
                          SteadyClock::time_point started,
@@ -57,82 +94,202 @@ ShowSession::ShowSession(const PlayOptions& options,
       faults_(log),
       heartbeat_(heartbeat),
       restarts_(start.number),
-      maker_(options, log) {
+      quality_(static_cast<size_t>(options.quality.value_or(0))),
+      maker_(options.bundle, DramaOptionsOf(options), log) {
   // Created first, because it collects all warnings of the log.
   if (staff_link >= 0) {
     staff_.emplace(staff_link, log);
   }
-  if (options.kiosk) {
-    kiosk_.emplace(options.state.empty() ? DefaultStateFolder() : options.state, start, log);
-    kiosk_->SetVisit({.longest = 60.0 * options.visit_minutes});
-    choices_ = kiosk_->state().choices;
-    house_ = kiosk_->state().house;
-  }
-  ApplyOptions(house_);
-  ApplyOptions(choices_);
+  controls_.emplace(options.choices, options.kiosk, start, log);
 }
+
+// --- Preparing
+
+Status ShowSession::Prepare() {
+  if (!options_.camera.device.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(device_, LoadDevice(options_.camera.device));
+  }
+  maker_.SetDevice(device_, options_.camera.look);
+  LARARIUM_ASSIGN_OR_RETURN(source_, OpenSource(options_.camera, device_.capture, faults_));
+  // In lock-step the level must not depend on the time that anything takes.
+  if (!options_.quality && !lock_step()) {
+    quality_.Adapt(source_->frames_per_second());
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content, LoadInChosenLanguages());
+  LARARIUM_ASSIGN_OR_RETURN(const PictureLayout layout, ChooseView(content));
+  maker_.SetPicture(layout.size, layout.part, layout.headset && layout.headset->runtime_shows_room);
+  if (!options_.visitor.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(drama::VisitorLog visitor, drama::VisitorLog::Load(options_.visitor));
+    maker_.SetVisitor(std::move(visitor));
+  }
+  // Drivers and the drama both need time to start, so they are prepared in parallel.
+  std::future<Status> prepared = std::async(std::launch::async, [&]() -> Status {
+    LARARIUM_RETURN_IF_ERROR(CreateTracker(content, layout.camera));
+    LARARIUM_ASSIGN_OR_RETURN(show_, maker_.Make(content));
+    return Status();
+  });
+  const Status drawing = PrepareDrawing(content, layout);
+  const Status playing = prepared.get();
+  LARARIUM_RETURN_IF_ERROR(playing);
+  LARARIUM_RETURN_IF_ERROR(drawing);
+  controls_->Attach(device_.buttons, *poses_, *output_);
+  controls_->SetShow(*show_);
+  if (const Kiosk* kiosk = controls_->kiosk()) {
+    if (const double time = kiosk->ResumeAt(content.title); time > 0.0) {
+      show_->RestartAt(time);
+    }
+  }
+  ApplyQuality();
+  LARARIUM_ASSIGN_OR_RETURN(recorder_,
+                            Recorder::Create(options_.output, *source_, output_->shown(), *show_,
+                                             options_.listening != Listening::kSpeakers));
+  OpenSound();
+  if (!options_.osc.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const ListenAddress address,
+                              ParseListenAddress("--osc", options_.osc));
+    LARARIUM_ASSIGN_OR_RETURN(osc_, OscListener::Open(address, log_));
+  }
+  return Status();
+}
+
+// The choices of a kiosk's last visitor may belong to another show, so loading may fail with them.
+Result<show::ShowContent> ShowSession::LoadInChosenLanguages() {
+  Result<show::ShowContent> loaded = maker_.Load(controls_->languages(), FinestDetail());
+  if (!loaded.ok() && controls_->kiosk() != nullptr) {
+    controls_->ResetLanguages();
+    loaded = maker_.Load(controls_->languages(), FinestDetail());
+  }
+  return loaded;
+}
+
+// In lock-step nothing may depend on the time at which a finer level of detail is loaded.
+float ShowSession::FinestDetail() const {
+  if (lock_step()) {
+    return 0.0f;
+  }
+  const std::optional<PictureSize>& size = options_.display.size;
+  return show::FinestDetail(quality_.quality(), size ? size->width : source_->width());
+}
+
+Result<PictureLayout> ShowSession::ChooseView(const show::ShowContent& content) const {
+  std::vector<TrainedCamera> trained;
+  for (const show::ShowPlace& place : content.places) {
+    trained.push_back({place.stage.name, place.map->camera});
+  }
+  LARARIUM_ASSIGN_OR_RETURN(
+      const CameraChoice choice,
+      ChooseCamera(options_.camera, trained, source_->width(), source_->height()));
+  LARARIUM_ASSIGN_OR_RETURN(const PictureLayout layout,
+                            ChooseLayout(options_.display, device_.headset, choice.camera));
+  log_.info("camera intrinsics from {}", choice.origin);
+  return layout;
+}
+
+Status ShowSession::CreateTracker(const show::ShowContent& content,
+                                  const geometry::CameraModel& camera) {
+  vision::TrackerOptions tracking;
+  tracking.seed = options_.seed;
+  tracking.threads = options_.threads;
+  tracking.background =
+      lock_step() ? vision::BackgroundWork::kJoined : vision::BackgroundWork::kFree;
+  LARARIUM_ASSIGN_OR_RETURN(poses_,
+                            vision::CreateTracker(show::Maps(content.places), camera, tracking));
+  show::SetOccluders(content.places, *poses_);
+  poses_ = vision::Smooth(std::move(poses_), show::Maps(content.places), options_.smoothing);
+  return Status();
+}
+
+Status ShowSession::PrepareDrawing(const show::ShowContent& content, const PictureLayout& layout) {
+  LARARIUM_ASSIGN_OR_RETURN(
+      output_, PictureOutput::Open(options_.display, layout, content, quality_.quality(),
+                                   options_.bundle.show.string(), log_));
+  if (staff_) {
+    staff_->Prepare(output_->picture());
+  }
+  output_->renderer().SetEvidence(options_.evidence);
+  for (const show::ShowPlace& place : content.places) {
+    statistics_.places.push_back(place.stage.name);
+  }
+  statistics_.gpu = render::GraphicsDeviceName();
+  statistics_.graphics = render::Name(render::CurrentGraphicsApi());
+  log_.info("drawn with {} by {}", statistics_.graphics, statistics_.gpu);
+  return Status();
+}
+
+// Failing to open sound is not an error: the show is played without it.
+void ShowSession::OpenSound() {
+  const Listening listening = options_.listening.value_or(
+      options_.display.headless ? Listening::kNone : Listening::kHeadphones);
+  if (lock_step() || listening == Listening::kNone || show_->sounds()->clips().empty()) {
+    return;
+  }
+  audio::MixerOptions mixing;
+  mixing.hrtf = listening == Listening::kHeadphones;
+  Result<std::unique_ptr<audio::Mixer>> mixer = audio::Mixer::Create(show_->sounds(), mixing);
+  if (!mixer.ok()) {
+    log_.warn("{}; the show goes on in silence", mixer.message());
+    return;
+  }
+  sound_ = std::make_unique<audio::SoundPlayer>(
+      std::move(*mixer), [] { return audio::CreateAudioOut(audio::AudioOutKind::kDevice); }, log_);
+  SetVolume();
+}
+
+// --- The loop
 
 bool ShowSession::KeepGoing(double longest_work) {
   const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
-  const bool keep_going = g_end_requested == 0 && !enough && screen_->KeepGoing();
-  PressKeys();
-  ObeyStaff();
+  const bool keep_going =
+      g_end_requested == 0 && !controls_->ends() && !enough && output_->screen().KeepGoing();
+  TakeInput();
   if (drawn_frames_ > 0 && SteadyClock::now() - last_shown_ < kLongestSilence &&
       longest_work < kLongestWork) {
     heartbeat_.Beat();
   }
-  if (options_.pace == Pace::kRealtime) {
+  if (!lock_step()) {
     show_->SetHour(HourNow());
   }
   return keep_going;
 }
 
-size_t ShowSession::level() const {
-  return quality_ ? quality_->level() : static_cast<size_t>(options_.quality.value_or(0));
+void ShowSession::TakeInput() {
+  for (const std::string& message : osc_ != nullptr ? osc_->Take() : std::vector<std::string>()) {
+    show_->PressKey(message);
+  }
+  for (const std::string& key : output_->screen().TakeKeys()) {
+    controls_->PressKey(key, Now());
+  }
+  if (staff_) {
+    for (const StaffCommand& command : staff_->link().TakeCommands()) {
+      controls_->Obey(command, Now());
+    }
+  }
+  SetVolume();
 }
 
-void ShowSession::SetLevel(size_t level) {
+void ShowSession::SetVolume() {
+  if (sound_ != nullptr) {
+    sound_->SetVolume(controls_->volume());
+  }
+}
+
+void ShowSession::ApplyQuality() {
   heartbeat_.BeatBeforeLongWork();  // drivers may have to compile shaders
-  const render::Quality& quality = QualityOf(level);
-  renderer_->SetQuality(quality);
-  show_->SetQuality(quality);
-}
-
-void ShowSession::ChooseQuality(SteadyClock::time_point now,
-                                const show::StagedFrame& staged,
-                                double work_ms) {
-  if (!quality_) {
-    return;
-  }
-  const double time = Seconds(now);
-  const size_t before = quality_->level();
-  if (staged.camera_from_stage) {
-    quality_->AddFrame(time, work_ms);
-  }
-  if (const std::optional<show::PowerState> power = power_->Take()) {
-    quality_->SetPower(time, *power);
-  }
-  if (quality_->level() != before) {
-    const show::QualityStep& step = quality_->steps().back();
-    log_.info("quality {} instead of {}: {}", quality_->level(), before, show::Name(step.reason));
-    SetLevel(quality_->level());
-  }
+  output_->renderer().SetQuality(quality_.quality());
+  show_->SetQuality(quality_.quality());
 }
 
 void ShowSession::AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn) {
   const SteadyClock::time_point now = SteadyClock::now();
-  const auto milliseconds = [](SteadyClock::duration duration) {
-    return std::chrono::duration<double, std::milli>(duration).count();
-  };
-  statistics_.located_age.Add(milliseconds(staged.located - staged.arrival));
-  statistics_.staged_age.Add(milliseconds(staged.staged - staged.arrival));
-  statistics_.drawn_age.Add(milliseconds(drawn - staged.arrival));
-  statistics_.shown_age.Add(milliseconds(now - staged.arrival));
-  statistics_.total.Add(milliseconds(now - staged.arrival));
+  statistics_.located_age.Add(Milliseconds(staged.located - staged.arrival));
+  statistics_.staged_age.Add(Milliseconds(staged.staged - staged.arrival));
+  statistics_.drawn_age.Add(Milliseconds(drawn - staged.arrival));
+  statistics_.shown_age.Add(Milliseconds(now - staged.arrival));
+  statistics_.total.Add(Milliseconds(now - staged.arrival));
   if (drawn_frames_ == 0) {
     statistics_.startup_seconds = Seconds(now);
   } else {
-    statistics_.interval.Add(milliseconds(now - last_shown_));
+    statistics_.interval.Add(Milliseconds(now - last_shown_));
   }
   last_shown_ = now;
   ++drawn_frames_;
@@ -140,36 +297,25 @@ void ShowSession::AddTimes(const show::StagedFrame& staged, SteadyClock::time_po
 
 // Called also between two images of the camera.
 Status ShowSession::ServeOpenXr() {
-  if (openxr_ != nullptr) {
-    LARARIUM_ASSIGN_OR_RETURN(const bool more, openxr_->headset().Frame());
+  if (OpenXrHeadset* headset = output_->openxr()) {
+    LARARIUM_ASSIGN_OR_RETURN(const bool more, headset->Frame());
     if (!more) {
       log_.info("the headset's runtime ended the session");
       RequestEnd();
     }
-    for (const std::string& button : openxr_->headset().TakeButtons()) {
-      PressKey(button);
+    for (const std::string& button : headset->TakeButtons()) {
+      controls_->PressKey(button, Now());
     }
   }
   return Status();
 }
 
-Status ShowSession::DrawPicture(const show::StagedFrame& staged) {
-  if (openxr_ != nullptr) {
-    return openxr_->Draw(staged, *renderer_, *target_, Seconds(SteadyClock::now()), Shown(),
-                         [this](const geometry::CameraModel& eye) { ShowMenuTo(eye); });
-  }
-  return stereo_ ? stereo_->Draw(staged, *renderer_, *target_) : renderer_->Draw(staged, *target_);
-}
-
 Status ShowSession::DrawFrame(show::StagedFrame& staged) {
-  if (kiosk_) {
-    kiosk_->BeforeFrame(staged);
-  }
   drama_time_ = staged.time;
   if (options_.staff) {
-    ShowToStaff();
+    ShowTracking();
   }
-  ShowMenu(staged);
+  controls_->BeforeFrame(staged, Now());
   if (draw_ms_ > kSlowPicture) {
     heartbeat_.BeatBeforeLongWork();
   }
@@ -177,26 +323,87 @@ Status ShowSession::DrawFrame(show::StagedFrame& staged) {
   SteadyClock::time_point drawn;
   {
     const ScopedStageTimer timer(statistics_.render);
-    LARARIUM_RETURN_IF_ERROR(DrawPicture(staged));
-    target_->Finish();
+    LARARIUM_RETURN_IF_ERROR(
+        output_->Draw(staged, Now(), controls_->shown(),
+                      [this](const geometry::CameraModel& eye) { controls_->ShowMenu(eye); }));
     drawn = SteadyClock::now();
-    screen_->Present(shown());
+    output_->Present();
   }
   if (sound_ != nullptr) {
     sound_->Show(staged.sound);
   }
   AddTimes(staged, drawn);
   faults_.AfterFrame(staged.tracked);
-  draw_ms_ = std::chrono::duration<double, std::milli>(drawn - begin).count();
-  ChooseQuality(last_shown_, staged, std::max(draw_ms_, staged.stage_ms));
+  draw_ms_ = Milliseconds(drawn - begin);
+  const std::optional<double> work_ms =
+      staged.camera_from_stage ? std::optional(std::max(draw_ms_, staged.stage_ms)) : std::nullopt;
+  if (quality_.AfterFrame(Seconds(last_shown_), work_ms, log_)) {
+    ApplyQuality();
+  }
   heartbeat_.Beat();
-  AfterFrame(staged);
+  controls_->AfterFrame(staged, Seconds(last_shown_));
+  SetVolume();
   TellStaff(staged);
   if (drawn_frames_ == kFirstFrames) {
     render::ReleaseShaderCompiler();
     heap_keeper_.emplace(kKeepInterval);
   }
-  return recorder_->Add(staged, shown());
+  return recorder_->Add(staged, output_->shown());
+}
+
+void ShowSession::TellStaff(const show::StagedFrame& staged) {
+  if (!staff_) {
+    return;
+  }
+  staff_->AfterFrame(staged, output_->picture(), [&](StaffState& state) {
+    controls_->FillStaffState(staged, state);
+    state.quality = quality_.level();
+    state.audible = sound_ != nullptr;
+    state.up_seconds = Seconds(last_shown_);
+    state.restarts = restarts_;
+  });
+  const Kiosk* kiosk = controls_->kiosk();
+  if (kiosk != nullptr && told_statistics_ != kiosk->statistics_version()) {
+    told_statistics_ = kiosk->statistics_version();
+    staff_->link().TellStatistics(kiosk->statistics());
+  }
+}
+
+// Adds quality and frame rate to the state of tracking that is drawn for the staff.
+void ShowSession::ShowTracking() {
+  char more[64];
+  const double rate =
+      statistics_.interval.count() == 0 ? 0.0 : 1000.0 / statistics_.interval.mean();
+  std::snprintf(more, sizeof(more), "   quality %zu   %.0f/s", quality_.level(), rate);
+  output_->renderer().SetStaff(more);
+}
+
+// Another language needs other texts and voices. The show continues while they are loaded. In
+// lock-step a frame must not depend on the time that loading takes, so it is waited for.
+bool ShowSession::OtherLanguagesAreReady() {
+  maker_.BeginOther(controls_->languages(), drama_time_, FinestDetail());
+  return maker_.OtherIsReady(lock_step());
+}
+
+// The drama continues at the same time. Call this while no frame is being staged or drawn.
+Status ShowSession::ChangeLanguages() {
+  heartbeat_.BeatBeforeLongWork();
+  Result<std::unique_ptr<show::Show>> next = maker_.TakeOther();
+  const show::LanguageChoice& languages = maker_.languages();
+  if (!next.ok()) {
+    log_.warn("{}; the languages stay", next.message());
+    controls_->KeepLanguages(languages, Now());
+    return Status();
+  }
+  LARARIUM_RETURN_IF_ERROR((*next)->ResumeFrom(*show_));
+  LARARIUM_RETURN_IF_ERROR(recorder_->SetShow(**next));
+  sound_.reset();
+  show_ = std::move(*next);
+  controls_->SetShow(*show_);
+  show_->SetQuality(quality_.quality());
+  OpenSound();
+  log_.info("language '{}', captions '{}'", languages.spoken, languages.captions);
+  return output_->renderer().SetTexts(show_->content());
 }
 
 Status ShowSession::RunLockStep() {
@@ -228,7 +435,7 @@ Status ShowSession::RunRealtime() {
     }
     LARARIUM_RETURN_IF_ERROR(ServeOpenXr());
     // With a headset, ServeOpenXr has waited for the display already.
-    const auto wait = openxr_ != nullptr ? std::chrono::milliseconds(0) : kInputInterval;
+    const auto wait = output_->openxr() != nullptr ? std::chrono::milliseconds(0) : kInputInterval;
     if (std::unique_ptr<show::StagedFrame> staged = pipeline->Take(wait)) {
       LARARIUM_RETURN_IF_ERROR(DrawFrame(*staged));
       pipeline->Recycle(std::move(staged));
@@ -239,25 +446,24 @@ Status ShowSession::RunRealtime() {
 }
 
 Status ShowSession::Run() {
-  LARARIUM_RETURN_IF_ERROR(options_.pace == Pace::kFast ? RunLockStep() : RunRealtime());
-  if (openxr_ != nullptr) {
-    LARARIUM_RETURN_IF_ERROR(openxr_->headset().End());
+  LARARIUM_RETURN_IF_ERROR(lock_step() ? RunLockStep() : RunRealtime());
+  if (OpenXrHeadset* headset = output_->openxr()) {
+    LARARIUM_RETURN_IF_ERROR(headset->End());
   }
   LARARIUM_RETURN_IF_ERROR(recorder_->Finish());
-  if (quality_) {
-    statistics_.quality = quality_->ToJson();
+  statistics_.quality = quality_.ToJson();
+  if (!options_.output.stats.empty()) {
+    LARARIUM_RETURN_IF_ERROR(SaveJson(options_.output.stats, statistics_.ToJson()));
   }
-  if (!options_.stats_out.empty()) {
-    LARARIUM_RETURN_IF_ERROR(SaveJson(options_.stats_out, statistics_.ToJson()));
-  }
-  if (!options_.visitor_log.empty()) {
+  if (!options_.output.visitor_log.empty()) {
     LARARIUM_RETURN_IF_ERROR(
-        WriteFileAtomically(options_.visitor_log, show_->drama().visitor_log().Write()));
+        WriteFileAtomically(options_.output.visitor_log, show_->drama().visitor_log().Write()));
   }
   log_.info("{} frames shown, {:.1f} % tracked", drawn_frames_,
             100.0 * statistics_.tracking.tracked_fraction());
-  return begin_again_ ? Status::Error("staff page", "the staff asked to restart the player")
-                      : Status();
+  return controls_->restarts()
+             ? Status::Error("staff page", "the staff asked to restart the player")
+             : Status();
 }
 
 }  // namespace lararium::player

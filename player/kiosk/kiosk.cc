@@ -27,7 +27,7 @@ Kiosk::Kiosk(std::filesystem::path folder, const ChildStart& start, Log& log)
   if (state.ok()) {
     state_ = *state;
   } else {
-    log_.warn("{}; the kiosk begins anew", state.message());
+    log_.warn("{}; the kiosk starts with a new state", state.message());
   }
   statistics_ = LoadVisitStatistics(folder, log);
   counter_ = VisitCounter(start.number > 0 && state_.seconds > 0.0);

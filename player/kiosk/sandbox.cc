@@ -150,7 +150,7 @@ Status Problem(const char* what, int code) {
 
 Status Forbid(const Filter& filter, std::span<const char* const> calls) {
   if (filter == nullptr) {
-    return Problem("cannot be made", -ENOMEM);
+    return Problem("cannot be created", -ENOMEM);
   }
   for (const char* name : calls) {
     const int call = seccomp_syscall_resolve_name(name);
@@ -194,7 +194,7 @@ Status EnterSandbox() {
   const int clone3 = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
   for (const int added : {sockets, processes, clone3}) {
     if (added != 0) {
-      return Problem("cannot be made", added);
+      return Problem("cannot be created", added);
     }
   }
   return Load(filter.get());
@@ -203,7 +203,7 @@ Status EnterSandbox() {
 Status EnterPageSandbox(int listening) {
   const Filter filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)));
   if (filter == nullptr) {
-    return Problem("cannot be made", -ENOMEM);
+    return Problem("cannot be created", -ENOMEM);
   }
   const auto allow = [&](const char* name, std::initializer_list<scmp_arg_cmp> conditions) {
     const int call = seccomp_syscall_resolve_name(name);
@@ -228,7 +228,7 @@ Status EnterPageSandbox(int listening) {
   added.push_back(allow("mprotect", {Without(2, PROT_EXEC)}));
   for (const int code : added) {
     if (code != 0 && code != -EDOM) {
-      return Problem("cannot be made", code);
+      return Problem("cannot be created", code);
     }
   }
   return Load(filter.get());

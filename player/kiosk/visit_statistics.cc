@@ -71,7 +71,7 @@ void SetAside(const std::filesystem::path& path, const Status& why, Log& log) {
   const std::filesystem::path aside = path.string() + ".damaged";
   std::error_code error;
   std::filesystem::rename(path, aside, error);
-  log.warn("{}; statistics begin anew, the old file is {}", why.message(),
+  log.warn("{}; the statistics start again from zero, the old file is {}", why.message(),
            error ? "lost" : aside.string());
 }
 

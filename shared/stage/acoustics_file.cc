@@ -13,7 +13,7 @@ namespace {
 constexpr double kMinDb = -60.0;
 constexpr double kMaxDb = 12.0;
 constexpr double kMaxMetres = 1e4;
-constexpr size_t kMaxMaterialName = 200;
+constexpr size_t kMaxAcousticsText = 200;
 
 // Indexed by Reverb.
 constexpr std::array<std::string_view, 9> kReverbs = {"none",       "small_room", "wooden_room",
@@ -32,7 +32,7 @@ Result<float> ParseDb(const JsonView& json, std::string_view key) {
 Result<Ambience> ParseAmbience(const JsonView& json) {
   LARARIUM_RETURN_IF_ERROR(json.CheckFields({"sound", "gain_db", "at"}));
   Ambience ambience;
-  LARARIUM_ASSIGN_OR_RETURN(ambience.sound, json.Text("sound", kMaxMaterialName));
+  LARARIUM_ASSIGN_OR_RETURN(ambience.sound, json.Text("sound", kMaxAcousticsText));
   LARARIUM_ASSIGN_OR_RETURN(ambience.gain_db, ParseDb(json, "gain_db"));
   if (json.Has("at")) {
     LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> at, json.Numbers("at", 3));
@@ -45,7 +45,7 @@ Result<Ambience> ParseAmbience(const JsonView& json) {
 }
 
 Result<Reverb> ParseReverb(const JsonView& json) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, json.Text("reverb", kMaxMaterialName));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, json.Text("reverb", kMaxAcousticsText));
   const auto found = std::find(kReverbs.begin(), kReverbs.end(), name);
   if (found != kReverbs.end()) {
     return static_cast<Reverb>(found - kReverbs.begin());

@@ -14,8 +14,8 @@ constexpr int kSchema = 1;
 constexpr size_t kMaxClaims = 10'000;  // Per subject.
 constexpr size_t kMaxSources = 1000;
 constexpr size_t kMaxLanguages = 64;
-constexpr size_t kMaxAuthorName = 200;  // Bytes.
-constexpr size_t kMaxClaimText = 4000;  // Bytes.
+constexpr size_t kMaxParadataName = 200;  // Bytes.
+constexpr size_t kMaxClaimText = 4000;    // Bytes.
 
 constexpr std::array<std::string_view, kCertaintyCount> kCertainties = {"", "attested", "inferred",
                                                                         "imagined"};
@@ -55,9 +55,9 @@ Status ParseMembers(const JsonView& view, size_t max_count, Parse parse) {
     const Json name_json = name;
     const Result<std::string> plain = PlainText(JsonView(name_json, member.place()), true);
     LARARIUM_RETURN_IF_ERROR(plain.status());
-    if (name.empty() || name.size() > kMaxAuthorName) {
+    if (name.empty() || name.size() > kMaxParadataName) {
       return view.Problem("has a name that is empty or longer than " +
-                          std::to_string(kMaxAuthorName) + " bytes");
+                          std::to_string(kMaxParadataName) + " bytes");
     }
     LARARIUM_RETURN_IF_ERROR(parse(name, member));
   }
@@ -68,7 +68,7 @@ Status ParseCertainty(const JsonView& view, Claim& claim) {
   if (!view.Has("certainty")) {
     return Status();
   }
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("certainty", kMaxAuthorName));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("certainty", kMaxParadataName));
   const auto found = std::find(kCertainties.begin() + 1, kCertainties.end(), name);
   if (found == kCertainties.end()) {
     return view.Problem("\"certainty\" is '" + name + "'",
@@ -85,7 +85,7 @@ Status ParseSourcesOf(const JsonView& view, const Paradata& paradata, Claim& cla
   LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("source"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> keys, field.Array(kMaxSources));
   for (const JsonView& key : keys) {
-    LARARIUM_ASSIGN_OR_RETURN(std::string name, key.Text(kMaxAuthorName));
+    LARARIUM_ASSIGN_OR_RETURN(std::string name, key.Text(kMaxParadataName));
     if (!paradata.sources.contains(name)) {
       return key.Problem("there is no source '" + name + "'", "list it in \"sources\"");
     }

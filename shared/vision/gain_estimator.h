@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "shared/vision/patch_tracker.h"
 #include "shared/vision/scene_database.h"
+#include "shared/vision/tracked_frame.h"
 
 namespace lararium::vision {
 

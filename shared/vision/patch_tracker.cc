@@ -1,10 +1,13 @@
 #include "shared/vision/patch_tracker.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
-#include "shared/vision/patch_tracker_parts.h"
+#include "shared/core/check.h"
 
 namespace lararium::vision {
 namespace {
@@ -12,33 +15,39 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-// The conditions for an honest pose, together with kLeastShare.
+// The conditions for a reliable pose.
 constexpr int kLeastAgreeing = 20;
+constexpr double kLeastShare = 0.15;  // Share of the expected patches that agree.
 constexpr int kLeastCells = 6;  // Cells with agreeing patches, out of kSpreadColumns x kSpreadRows.
 constexpr int kSpreadColumns = 6;
 constexpr int kSpreadRows = 5;
 constexpr double kLargestTrackedErrorPx = 3.0;
 
-constexpr int kMostFailures = 4;
-constexpr uint32_t kAimInterval = 8;  // Frames between searches for a better keyframe of a patch.
+constexpr double kNoiseInflation = 2.0;  // Factor on the variance; pixel noise is correlated.
+constexpr double kModelErrorPx = 0.03;   // Error of warp and interpolation, pixels of the level.
+constexpr double kLeastPoseScale = 0.4;
+
+int Coarsest(const ImagePyramid& image) {
+  return std::min(image.levels() - 1, CoarsestLevel(image.level(0).cols));
+}
 
 }  // namespace
 
-PatchTracker::PatchTracker(std::shared_ptr<const TrackedMap> map)
-    : map_(std::move(map)), not_before_(map_->database().points.size(), 0) {
-  slots_.reserve(kMostSlots);
+PatchTracker::PatchTracker(std::shared_ptr<const TrackedMap> map) : pool_(std::move(map)) {
   for (Fit* fit : {&fit_, &searched_}) {
-    fit->observations.reserve(kMostSlots);
-    fit->matches.reserve(kMostSlots);
-    fit->pose.squares.reserve(kMostSlots);
-    fit->pose.in_camera.reserve(kMostSlots);
+    fit->observations.reserve(PatchPool::kMostPatches);
+    fit->matches.reserve(PatchPool::kMostPatches);
+    fit->pose.squares.reserve(PatchPool::kMostPatches);
+    fit->pose.in_camera.reserve(PatchPool::kMostPatches);
   }
-  seen_.reserve(kMostSlots);
-  depths_.reserve(kMostSlots);
-  const auto keyframes = static_cast<uint32_t>(map_->database().keyframes.size());
-  for (uint32_t k = 0; k < keyframes; ++k) {
-    scale_ += map_->median_depth(k) / keyframes;
-  }
+  agreeing_.reserve(PatchPool::kMostPatches);
+  seen_.reserve(PatchPool::kMostPatches);
+  depths_.reserve(PatchPool::kMostPatches);
+}
+
+void PatchTracker::Start(const CameraModel& camera, const Rigid3& camera_from_map) {
+  exposure_.Forget();
+  pool_.Start(camera, camera_from_map);
 }
 
 FollowedPose PatchTracker::Follow(const ImagePyramid& image,
@@ -47,21 +56,16 @@ FollowedPose PatchTracker::Follow(const ImagePyramid& image,
                                   const Rigid3* before,
                                   double frames) {
   FollowedPose result;
-  ++now_;
-  has_motion_ = before != nullptr;
-  if (before != nullptr) {
-    before_ = *before;
-    frames_ = frames;
-  }
-  HideSlots(predictions[0].Center());
+  exposure_.BeginImage(before, frames);
+  pool_.BeginImage(predictions[0].Center());
   Rigid3 pose = BestPrediction(image, camera, predictions);
   const int coarsest = Coarsest(image);
   int finest = 0;
   for (int level = coarsest; level >= finest; --level) {
-    SetMotion(pose);
-    finest = std::min(FinestLevel(camera, pose), level);
+    exposure_.SetPose(pose);
+    finest = std::min(FinestLevel({camera, pose, exposure_.motion()}), level);
     const int wanted = level == finest ? 1000 : level == coarsest ? 60 : 100;
-    const int stride = std::max(1, static_cast<int>(slots_.size()) / wanted);
+    const int stride = std::max(1, static_cast<int>(pool_.size()) / wanted);
     Rigid3 moved = pose;
     bool found = RunLevel(image, camera, level, stride, moved, result.expected);
     if (level == coarsest && (!found || 3 * fit_.pose.inliers < result.expected)) {
@@ -80,16 +84,17 @@ FollowedPose PatchTracker::Follow(const ImagePyramid& image,
   result.camera_from_map = pose;
   result.evidence.covariance = Covariance();
   result.agreeing = fit_.pose.inliers;
-  if (!has_motion_ && result.agreeing > 0) {
+  if (exposure_.motion() == nullptr && result.agreeing > 0) {
     // Blur by an unknown motion shows as patches that are not found. Its effect on the other
     // patches is a common error, so the covariance grows.
     result.evidence.covariance /= result.share() * result.share();
   }
   Judge(camera, result);
-  if (result.honest) {
-    EstimateShutter(image, camera, finest, pose);
-    result.blur_px = BlurPx(camera, pose);
-    Settle(camera, result);
+  if (result.reliable) {
+    const ExposedCamera exposed{camera, pose, exposure_.motion()};
+    LearnShutter(image, exposed, finest);
+    result.blur_px = BlurPx(exposed);
+    Settle(camera, pose);
   }
   return result;
 }
@@ -100,7 +105,7 @@ void PatchTracker::Judge(const CameraModel& camera, FollowedPose& pose) {
   int cells = 0;
   depths_.clear();
   for (size_t i = 0; i < fit_.observations.size(); ++i) {
-    if (fit_.pose.squares[i] >= kInlierSquare) {
+    if (!fit_.Agrees(i)) {
       continue;
     }
     const Eigen::Vector2d pixel = fit_.observations[i].pixel.cast<double>();
@@ -119,58 +124,242 @@ void PatchTracker::Judge(const CameraModel& camera, FollowedPose& pose) {
   pose.evidence.inliers = pose.agreeing;
   const double variance = ComputeRegistrationVariance(camera, pose.evidence).Sum();
   pose.expected_error_px = std::sqrt(variance);
-  pose.honest = pose.agreeing >= kLeastAgreeing && pose.share() >= kLeastShare &&
-                cells >= kLeastCells && pose.expected_error_px < kLargestTrackedErrorPx;
+  pose.reliable = pose.agreeing >= kLeastAgreeing && pose.share() >= kLeastShare &&
+                  cells >= kLeastCells && pose.expected_error_px < kLargestTrackedErrorPx;
 }
 
-// Updates the motion statistics, records which patches agreed, drops those that failed too often,
-// and adds new ones.
-void PatchTracker::Settle(const CameraModel& camera, const FollowedPose& pose) {
-  SetMotion(pose.camera_from_map);
-  if (has_motion_) {
-    accelerations_ = Accelerations();
-    knows_accelerations_ = true;
-  }
-  if (has_motion_ && has_motion_before_) {
-    constexpr double kMemory = 0.7;
-    const Vector6d acceleration = motion_ - motion_before_;
-    accelerations_ =
-        kMemory * accelerations_ + (1.0 - kMemory) * acceleration * acceleration.transpose();
-  }
-  has_motion_before_ = has_motion_;
-  motion_before_ = motion_;
+// Updates the motion statistics and the set of patches.
+void PatchTracker::Settle(const CameraModel& camera, const Rigid3& camera_from_map) {
+  exposure_.EndImage(camera_from_map);
+  agreeing_.clear();
   seen_.clear();
-  for (Slot& slot : slots_) {
-    ++slot.failures;
-  }
   for (size_t i = 0; i < fit_.observations.size(); ++i) {
-    if (fit_.pose.squares[i] < kInlierSquare) {
-      Slot& slot = slots_[fit_.observations[i].slot];
-      slot.failures = 0;
-      seen_.push_back({slot.point, fit_.observations[i].pixel});
+    if (fit_.Agrees(i)) {
+      const PatchObservation& observation = fit_.observations[i];
+      agreeing_.push_back(observation.patch);
+      seen_.push_back({pool_[observation.patch].point, observation.pixel});
     }
   }
-  SettleHidden(camera, pose.camera_from_map);
-  for (size_t i = slots_.size(); i-- > 0;) {
-    Slot& slot = slots_[i];
-    const auto pixel = camera.Project(pose.camera_from_map * slot.point_in_map);
-    if (!pixel || !camera.Contains(*pixel)) {
-      RemoveSlot(i, 0);
-    } else if (slot.failures >= kMostFailures) {
-      RemoveSlot(i, kRestFailed);
-    } else if ((slot.point + now_) % kAimInterval == 0 && !AimSlot(slot, pose.camera_from_map)) {
-      RemoveSlot(i, kRestFailed);
+  pool_.EndImage({camera, camera_from_map, exposure_.motion()}, agreeing_);
+}
+
+// --- Finding the pose
+
+void PatchTracker::Fit::Clear() {
+  observations.clear();
+  matches.clear();
+}
+
+void PatchTracker::AddObservation(
+    const CameraModel& camera, uint32_t patch, int level, const PatchFit& found, Fit& fit) const {
+  fit.observations.push_back({patch, PixelFromLevel(found.centre, level)});
+  const double size = 1 << level;
+  const Eigen::Vector2d pixel = PixelFromLevel(Eigen::Vector2d(found.centre.cast<double>()), level);
+  const Eigen::Matrix2d information =
+      found.information.cast<double>() / (kNoiseInflation * size * size);
+  // The inverse of (information^-1 + error^2 I), in a form that also works if information is
+  // singular, as it is at an edge.
+  const double error2 =
+      std::pow(kModelErrorPx * size, 2) + std::pow(static_cast<double>(pool_[patch].sigma_px), 2);
+  const Eigen::Matrix2d softened =
+      information * (Eigen::Matrix2d::Identity() + error2 * information).inverse();
+  Eigen::Matrix2d symmetric = 0.5 * (softened + softened.transpose());
+  symmetric.diagonal().array() += 1e-9;
+  PatchMatch& match = fit.matches.emplace_back();
+  match.point = pool_[patch].point_in_map;
+  match.plane = camera.PlaneFromPixel(pixel);
+  match.whitening = symmetric.llt().matrixU();
+  match.whitening.col(0) *= camera.fx;
+  match.whitening.col(1) *= camera.fy;
+}
+
+bool PatchTracker::RunLevel(const ImagePyramid& image,
+                            const CameraModel& camera,
+                            int level,
+                            int stride,
+                            Rigid3& camera_from_map,
+                            int& expected) {
+  fit_.Clear();
+  expected = 0;
+  const ExposedCamera exposed{camera, camera_from_map, exposure_.motion()};
+  PatchTemplate patch;
+  const bool last = stride == 1;
+  const PatchSearch search{
+      .iterations = 10, .largest_shift = last ? 2.0f : 3.5f, .converged = last ? 0.01f : 0.05f};
+  for (auto i = static_cast<uint32_t>(pool_.image() % static_cast<uint32_t>(stride));
+       i < pool_.size(); i += static_cast<uint32_t>(stride)) {
+    PatchView view;
+    PatchFit fit;
+    if (!pool_.Sample(exposed, i, level, view, patch)) {
+      continue;
+    }
+    ++expected;
+    const Eigen::Vector2f start = LevelFromPixel(view.pixel, level).cast<float>();
+    if (!AlignPatch(image.level(level), patch, start, search, fit) ||
+        fit.correlation < kLeastCorrelation) {
+      continue;
+    }
+    AddObservation(camera, i, level, fit, fit_);
+  }
+  if (!EstimatePatchPose(fit_.matches, camera_from_map, kLeastPoseScale, fit_.pose)) {
+    return false;
+  }
+  camera_from_map = fit_.pose.camera_from_map;
+  return true;
+}
+
+bool PatchTracker::SearchLevel(const ImagePyramid& image,
+                               const CameraModel& camera,
+                               int level,
+                               int stride,
+                               int least,
+                               Rigid3& camera_from_map) {
+  constexpr int kReach = 5;
+  searched_.Clear();
+  const ExposedCamera exposed{camera, camera_from_map, exposure_.motion()};
+  PatchTemplate patch;
+  for (auto i = uint32_t{0}; i < pool_.size(); i += static_cast<uint32_t>(stride)) {
+    PatchView view;
+    if (!pool_.Sample(exposed, i, level, view, patch)) {
+      continue;
+    }
+    const Eigen::Vector2f centre = LevelFromPixel(view.pixel, level).cast<float>();
+    float highest = kLeastCorrelation;
+    Eigen::Vector2f best = centre;
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+      for (int dx = -kReach; dx <= kReach; ++dx) {
+        const Eigen::Vector2f place = centre + Eigen::Vector2f(dx, dy);
+        const float correlation = CorrelatePatch(image.level(level), patch, place);
+        if (correlation > highest) {
+          highest = correlation;
+          best = place;
+        }
+      }
+    }
+    PatchFit fit;
+    if (highest > kLeastCorrelation &&
+        AlignPatch(image.level(level), patch, best, {.largest_shift = 1.5f}, fit)) {
+      AddObservation(camera, i, level, fit, searched_);
     }
   }
-  CountCells(camera, pose.camera_from_map);
-  if (next_near_ >= near_count_) {
-    RankKeyframes(pose.camera_from_map);
-    next_near_ = 0;
+  if (!EstimatePatchPose(searched_.matches, camera_from_map, kLeastPoseScale, searched_.pose) ||
+      searched_.pose.inliers <= least) {
+    return false;
   }
-  if (near_count_ > 0 && slots_.size() < kMostSlots) {
-    AddFrom(near_[next_near_++], camera, pose.camera_from_map,
-            slots_.size() < kMostSlots / 2 ? 2 : 1);
+  std::swap(fit_, searched_);
+  camera_from_map = fit_.pose.camera_from_map;
+  return true;
+}
+
+// The prediction with the highest correlation of the patches on the coarsest level.
+Rigid3 PatchTracker::BestPrediction(const ImagePyramid& image,
+                                    const CameraModel& camera,
+                                    std::span<const Rigid3> predictions) {
+  if (predictions.size() == 1) {
+    return predictions[0];
   }
+  const int level = Coarsest(image);
+  constexpr uint32_t kSample = 40;
+  const auto stride = std::max(uint32_t{1}, static_cast<uint32_t>(pool_.size()) / kSample);
+  size_t best = 0;
+  float highest = -1.0f;
+  for (size_t candidate = 0; candidate < predictions.size(); ++candidate) {
+    float sum = 0.0f;
+    exposure_.SetPose(predictions[candidate]);
+    const ExposedCamera exposed{camera, predictions[candidate], exposure_.motion()};
+    for (uint32_t i = 0; i < pool_.size(); i += stride) {
+      PatchView view;
+      PatchTemplate patch;
+      if (pool_.Sample(exposed, i, level, view, patch)) {
+        sum += std::max(0.0f, CorrelatePatch(image.level(level), patch,
+                                             LevelFromPixel(view.pixel, level).cast<float>()));
+      }
+    }
+    if (sum > highest) {
+      highest = sum;
+      best = candidate;
+    }
+  }
+  return predictions[best];
+}
+
+// --- The exposure
+
+// Mean length, in pixels, of the patches' paths in the image during the exposure.
+double PatchTracker::BlurPx(const ExposedCamera& camera) const {
+  constexpr size_t kSample = 20;
+  if (camera.motion == nullptr) {
+    return 0.0;
+  }
+  double sum = 0.0;
+  int count = 0;
+  const size_t stride = std::max(size_t{1}, pool_.size() / kSample);
+  for (size_t i = 0; i < pool_.size(); i += stride) {
+    PatchView view;
+    if (pool_.View(camera, i, view)) {
+      sum += view.velocity.norm();
+      ++count;
+    }
+  }
+  return sum / std::max(count, 1);
+}
+
+// Sum of the correlations of the agreeing patches, at their found positions, if they are blurred
+// for the camera's shutter time.
+double PatchTracker::Likeness(const ImagePyramid& image,
+                              const ExposedCamera& camera,
+                              int level) const {
+  constexpr size_t kSample = 40;
+  double sum = 0.0;
+  const size_t stride = std::max(size_t{1}, fit_.observations.size() / kSample);
+  for (size_t i = 0; i < fit_.observations.size(); i += stride) {
+    PatchView view;
+    PatchTemplate sampled;
+    const PatchObservation& observation = fit_.observations[i];
+    if (fit_.Agrees(i) && pool_.Sample(camera, observation.patch, level, view, sampled)) {
+      sum += CorrelatePatch(image.level(level), sampled, LevelFromPixel(observation.pixel, level));
+    }
+  }
+  return sum;
+}
+
+// Learns the shutter time from the blur of fast motion.
+void PatchTracker::LearnShutter(const ImagePyramid& image, const ExposedCamera& camera, int level) {
+  constexpr double kLeastShownPx = 3.0;  // Minimum motion per frame, pixels of the level.
+  if (camera.motion == nullptr ||
+      BlurPx(camera) / camera.motion->shutter / (1 << level) < kLeastShownPx) {
+    return;
+  }
+  const auto likeness = [&](double change) {
+    ExposureMotion tried = *camera.motion;
+    tried.shutter += change;
+    return Likeness(image, {camera.model, camera.camera_from_map, &tried}, level);
+  };
+  const double less = likeness(-ExposureModel::kShutterStep);
+  const double same = likeness(0.0);
+  const double more = likeness(ExposureModel::kShutterStep);
+  exposure_.LearnShutter(less, same, more);
+}
+
+// The finest level on which the blur leaves structure to align. On finer levels only the ends of
+// the blur path have contrast, and these depend on the speed there as much as on the position in
+// the middle.
+int PatchTracker::FinestLevel(const ExposedCamera& camera) const {
+  constexpr double kMostBlurPx = 8.0;  // Pixels of the level.
+  const double blur = BlurPx(camera);
+  return blur > kMostBlurPx ? static_cast<int>(std::ceil(std::log2(blur / kMostBlurPx))) : 0;
+}
+
+// Covariance of the pose: that of patches with independent errors, enlarged for the errors that
+// they share. These are the errors of the keyframes' poses and the part of the acceleration during
+// the exposure that earlier images do not predict.
+Matrix6d PatchTracker::Covariance() const {
+  constexpr double kSharedErrors = 2.0;
+  Matrix6d covariance = kSharedErrors * fit_.pose.covariance;
+  if (exposure_.motion() != nullptr) {
+    covariance += exposure_.UnpredictedCovariance();
+  }
+  return covariance;
 }
 
 }  // namespace lararium::vision

@@ -161,7 +161,7 @@ class Tracker final : public PoseSource {
     }
     const FollowedPose followed = patch_trackers_[map_]->Follow(
         pyramid_, tracked.camera, std::span(predictions.data(), count), &before, frames);
-    if (!followed.honest) {
+    if (!followed.reliable) {
       return false;
     }
     Report(followed, tracked);
@@ -227,7 +227,7 @@ class Tracker final : public PoseSource {
     patch_tracker.Start(tracked.camera, rough);
     const FollowedPose followed =
         patch_tracker.Follow(pyramid_, tracked.camera, std::span(&rough, 1), before, frames);
-    if (followed.honest && DistancePx(tracked.camera, rough, followed.camera_from_map,
+    if (followed.reliable && DistancePx(tracked.camera, rough, followed.camera_from_map,
                                       followed.evidence.depths[1]) < kTwoMeaningsPx) {
       Report(followed, tracked);
       return true;
@@ -316,7 +316,7 @@ class Tracker final : public PoseSource {
     const Rigid3 theirs = since * found;
     const double our_share = FollowAnew(map_, tracked.camera, ours).share();
     const FollowedPose followed = FollowAnew(located.map, tracked.camera, theirs);
-    if (followed.honest && followed.share() > our_share) {
+    if (followed.reliable && followed.share() > our_share) {
       if (located.map == map_) {
         motion_.Correct(followed.camera_from_map);
       } else {

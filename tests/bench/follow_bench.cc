@@ -174,17 +174,17 @@ void BenchFollow(benchmark::State& state) {
   ImagePyramid pyramid;
   Rigid3 before = truth.front();
   size_t frame = 0;
-  int64_t honest = 0;
+  int64_t reliable = 0;
   for (auto _ : state) {
     frame = (frame + 1) % kFrames;
     pyramid.Build(pictures[frame], CoarsestLevel(kCamera.width) + 1);
     const FollowedPose pose =
         patch_tracker.Follow(pyramid, kCamera, std::span(&before, 1), &before, 1.0);
-    honest += pose.honest;
-    before = pose.honest ? pose.camera_from_map : truth[frame];
+    reliable += pose.reliable;
+    before = pose.reliable ? pose.camera_from_map : truth[frame];
   }
   state.counters["followed"] =
-      static_cast<double>(honest) / static_cast<double>(state.iterations());
+      static_cast<double>(reliable) / static_cast<double>(state.iterations());
 }
 BENCHMARK(BenchFollow)->Unit(benchmark::kMillisecond);
 

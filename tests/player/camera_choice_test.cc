@@ -24,7 +24,7 @@ class CameraChoiceTest : public ::testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  PlayOptions options_;
+  CameraOptions options_;
 };
 
 TEST_F(CameraChoiceTest, TheBundleIsTheLastResort) {

@@ -30,30 +30,33 @@ class OptionsTest : public ::testing::Test {
 };
 
 TEST_F(OptionsTest, OnlyAKiosksVisitsHaveTheirTime) {
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--kiosk"})).visit_minutes, 0.0);
-  EXPECT_EQ(
-      std::get<PlayOptions>(Parse({show_, "--kiosk", "--visit-minutes", "7.5"})).visit_minutes,
-      7.5);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--kiosk"})).kiosk.visit_minutes, 0.0);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--kiosk", "--visit-minutes", "7.5"}))
+                .kiosk.visit_minutes,
+            7.5);
   EXPECT_EQ(ExitCode({show_, "--visit-minutes", "10"}), 2);
   EXPECT_EQ(ExitCode({show_, "--kiosk", "--visit-minutes", "0"}), 2);
 }
 
 TEST_F(OptionsTest, TheDisplayIsTheDevicesUnlessItIsGiven) {
-  EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).display.has_value());
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "side-by-side"})).display,
+  EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).display.mode.has_value());
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "side-by-side"})).display.mode,
             Display::kSideBySide);
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "mono"})).display, Display::kMono);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "mono"})).display.mode,
+            Display::kMono);
   EXPECT_EQ(ExitCode({show_, "--display", "cinema"}), 2);
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "openxr"})).display, Display::kOpenXr);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "openxr"})).display.mode,
+            Display::kOpenXr);
   EXPECT_EQ(ExitCode({show_, "--display", "openxr", "--headless"}), 2);
 }
 
 TEST_F(OptionsTest, GraphicsAreWhatCanBeHadUnlessTheyAreGiven) {
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_})).graphics, std::nullopt);
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "auto"})).graphics, std::nullopt);
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "gl"})).graphics,
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_})).display.graphics, std::nullopt);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "auto"})).display.graphics,
+            std::nullopt);
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "gl"})).display.graphics,
             render::GraphicsApi::kOpenGl33);
-  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "gles"})).graphics,
+  EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--graphics", "gles"})).display.graphics,
             render::GraphicsApi::kOpenGlEs30);
   EXPECT_EQ(std::get<DoctorOptions>(Parse({"doctor", "--graphics", "gles"})).graphics,
             render::GraphicsApi::kOpenGlEs30);
@@ -66,8 +69,8 @@ TEST_F(OptionsTest, AStaffPageHasAPortAndMayHaveAPin) {
   const Command command = Parse({show_, "--staff-page", "0.0.0.0:8090", "--staff-pin-file", show_});
   const auto* play = std::get_if<PlayOptions>(&command);
   ASSERT_NE(play, nullptr);
-  EXPECT_EQ(play->staff_page, "0.0.0.0:8090");
-  EXPECT_EQ(play->staff_pin, show_);
+  EXPECT_EQ(play->staff_page.address, "0.0.0.0:8090");
+  EXPECT_EQ(play->staff_page.pin, show_);
   EXPECT_EQ(ExitCode({show_, "--staff-page", "page"}), 2);
   EXPECT_EQ(ExitCode({show_, "--staff-page", "70000"}), 2);
   EXPECT_EQ(ExitCode({show_, "--staff-pin-file", show_}), 2) << "without a page";
@@ -76,16 +79,16 @@ TEST_F(OptionsTest, AStaffPageHasAPortAndMayHaveAPin) {
 }
 
 TEST_F(OptionsTest, HowCaptionsLookIsLeftToTheVisitorUnlessItIsGiven) {
-  EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).caption_size.has_value());
+  EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).choices.caption_size.has_value());
   const auto play = std::get<PlayOptions>(
       Parse({show_, "--caption-size", "largest", "--caption-contrast", "high"}));
-  EXPECT_EQ(play.caption_size, render::CaptionSize::kLargest);
-  EXPECT_EQ(play.caption_contrast, render::CaptionContrast::kHigh);
-  EXPECT_FALSE(play.descriptions.has_value() || play.reduced_motion.has_value());
+  EXPECT_EQ(play.choices.caption_size, render::CaptionSize::kLargest);
+  EXPECT_EQ(play.choices.caption_contrast, render::CaptionContrast::kHigh);
+  EXPECT_FALSE(play.choices.descriptions.has_value() || play.choices.reduced_motion.has_value());
   const auto other =
       std::get<PlayOptions>(Parse({show_, "--descriptions", "on", "--reduced-motion", "off"}));
-  EXPECT_EQ(other.descriptions, true);
-  EXPECT_EQ(other.reduced_motion, false);
+  EXPECT_EQ(other.choices.descriptions, true);
+  EXPECT_EQ(other.choices.reduced_motion, false);
   EXPECT_EQ(ExitCode({show_, "--descriptions", "maybe"}), 2);
   EXPECT_EQ(ExitCode({show_, "--caption-size", "huge"}), 2);
   EXPECT_EQ(ExitCode({show_, "--caption-contrast", "low"}), 2);
@@ -96,10 +99,10 @@ TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
                                  "--intrinsics", "500,500,320,240", "--record", "out.mp4"});
   const auto* play = std::get_if<PlayOptions>(&command);
   ASSERT_NE(play, nullptr);
-  EXPECT_TRUE(play->headless);
+  EXPECT_TRUE(play->display.headless);
   EXPECT_EQ(play->pace, Pace::kFast);
   EXPECT_EQ(play->frames, 9);
-  EXPECT_EQ(play->intrinsics, (std::vector<double>{500, 500, 320, 240}));
+  EXPECT_EQ(play->camera.intrinsics, (std::vector<double>{500, 500, 320, 240}));
 }
 
 TEST_F(OptionsTest, ABenchmarkTakesItsImagesFromItsOwnFolder) {
@@ -108,9 +111,9 @@ TEST_F(OptionsTest, ABenchmarkTakesItsImagesFromItsOwnFolder) {
                                  show_, "--first-pose", "--smoothing", "strong"});
   const auto* play = std::get_if<PlayOptions>(&command);
   ASSERT_NE(play, nullptr);
-  EXPECT_EQ(play->benchmark, folder);
-  EXPECT_EQ(play->foreign.size(), 2u);
-  EXPECT_TRUE(play->first_pose);
+  EXPECT_EQ(play->benchmark.folder, folder);
+  EXPECT_EQ(play->benchmark.foreign.size(), 2u);
+  EXPECT_TRUE(play->benchmark.first_pose);
   EXPECT_EQ(play->smoothing, vision::Smoothing::kStrong);
   EXPECT_EQ(ExitCode({show_, "--benchmark", folder, "--camera", "0"}), 2);
   EXPECT_EQ(ExitCode({show_, "--foreign", folder}), 2);
@@ -121,7 +124,7 @@ TEST_F(OptionsTest, ABenchmarkTakesItsImagesFromItsOwnFolder) {
 TEST_F(OptionsTest, AKioskIsFullScreenOnTheFirstMonitorUnlessToldOtherwise) {
   const auto monitor = [this](std::vector<std::string> more) {
     more.insert(more.begin(), show_);
-    return std::get<PlayOptions>(Parse(more)).monitor;
+    return std::get<PlayOptions>(Parse(more)).display.monitor;
   };
   EXPECT_LT(monitor({}), 0) << "a window";
   EXPECT_EQ(monitor({"--kiosk"}), 0);
@@ -137,7 +140,7 @@ TEST_F(OptionsTest, SoundGoesWhereItIsTold) {
   const auto* play = std::get_if<PlayOptions>(&command);
   ASSERT_NE(play, nullptr);
   EXPECT_EQ(play->listening, Listening::kSpeakers);
-  EXPECT_EQ(play->sound, "mix.wav");
+  EXPECT_EQ(play->output.sound, "mix.wav");
   EXPECT_EQ(ExitCode({show_, "--audio", "loud"}), 2);
 }
 

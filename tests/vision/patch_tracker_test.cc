@@ -42,7 +42,7 @@ TEST_P(FollowerTest, BelievesWhatTheSearchSawWhereNoLevelFollows) {
   patch_tracker.Start(kPosterCamera, before);
   const FollowedPose followed =
       patch_tracker.Follow(image, kPosterCamera, std::span(&before, 1), nullptr, 1.0);
-  ASSERT_TRUE(followed.honest);
+  ASSERT_TRUE(followed.reliable);
   EXPECT_LT(test::CornerError(followed.camera_from_map, now), 0.3);
   ASSERT_EQ(patch_tracker.seen().size(), static_cast<size_t>(followed.agreeing));
   for (const SeenPoint& seen : patch_tracker.seen()) {

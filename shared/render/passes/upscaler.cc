@@ -14,7 +14,7 @@ Result<Upscaler> Upscaler::Create(Way way) {
   upscaler.way_ = way;
   if (way == Way::kShaders) {
     LARARIUM_ASSIGN_OR_RETURN(upscaler.shaders_,
-                              ShaderProgram::Create("full_screen.vert", "enlarged.frag"));
+                              ShaderProgram::Create("full_screen.vert", "upscale.frag"));
     upscaler.no_vertices_ = GlVertexArray::Generate();
   }
   return upscaler;
@@ -52,11 +52,11 @@ void Upscaler::ByProcessor(const RenderTarget& picture, const RenderTarget& targ
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
   glReadPixels(0, 0, picture_.cols, picture_.rows, GL_RGBA, GL_UNSIGNED_BYTE, picture_.data);
   const cv::Size size(target.width(), target.height());
-  cv::resize(picture_, enlarged_, size, 0.0, 0.0, cv::INTER_LINEAR);
+  cv::resize(picture_, upscaled_, size, 0.0, 0.0, cv::INTER_LINEAR);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, target.texture());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                  enlarged_.data);
+                  upscaled_.data);
 }
 
 }  // namespace lararium::render

@@ -34,7 +34,7 @@ class Upscaler {
   ShaderProgram shaders_;
   GlVertexArray no_vertices_;
   cv::Mat picture_;  // RGBA, kept between calls
-  cv::Mat enlarged_;
+  cv::Mat upscaled_;
 };
 
 }  // namespace lararium::render
