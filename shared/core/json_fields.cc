@@ -29,9 +29,19 @@ class FieldReader final : public Fields {
 
   bool reading() const override { return true; }
   std::string where() const override { return levels_.back().view.place(); }
+  std::string where(const Key& key) override {
+    const std::optional<JsonView> field = Find(key);
+    return field ? field->place() : where();
+  }
   bool Has(std::string_view name, bool /*written*/) override {
     Note(name);
     return status_.ok() && levels_.back().view.Has(name);
+  }
+  bool IsText(const Key& key) override {
+    Key present = key;
+    present.required = false;
+    const std::optional<JsonView> field = Find(present);
+    return field && field->json().is_string();
   }
   void RefuseUnknown() override { levels_.back().refuse_unknown = true; }
   void Check(const Status& status) override {
@@ -58,6 +68,11 @@ class FieldReader final : public Fields {
   void Text(const Key& key, std::string& value, size_t max_bytes) override {
     if (const std::optional<JsonView> field = Find(key)) {
       Take(field->Text(max_bytes), value);
+    }
+  }
+  void Raw(const Key& key, Json& value) override {
+    if (const std::optional<JsonView> field = Find(key)) {
+      value = field->json();
     }
   }
   void Numbers(const Key& key, std::span<double> values) override {
@@ -104,14 +119,14 @@ class FieldReader final : public Fields {
     for (const auto& [name, value] : field->json().items()) {
       names.push_back(name);
     }
-    levels_.push_back({*field, {}, {}, levels_.back().refuse_unknown});
+    levels_.push_back({*field, {}, {}, levels_.back().refuse_unknown, true});
     return true;
   }
 
   // A misspelled field is reported as unknown rather than as missing.
   void Leave() override {
     const Level& level = levels_.back();
-    if (level.refuse_unknown && level.view.json().is_object() &&
+    if (level.refuse_unknown && !level.free_names && level.view.json().is_object() &&
         (status_.ok() || missing_level_ == levels_.size())) {
       if (const Status known = level.view.CheckFields(level.known); !known.ok()) {
         status_ = known;
@@ -126,6 +141,7 @@ class FieldReader final : public Fields {
     std::vector<JsonView> entries;        // Of a list.
     std::vector<std::string_view> known;  // The fields of an object that were described.
     bool refuse_unknown = false;
+    bool free_names = false;  // The author chooses the names of the fields.
   };
 
   void Push(const JsonView& object, bool refuse_unknown) {
@@ -137,7 +153,7 @@ class FieldReader final : public Fields {
 
   void Note(std::string_view name) {
     std::vector<std::string_view>& known = levels_.back().known;
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (!levels_.back().free_names && std::find(known.begin(), known.end(), name) == known.end()) {
       known.push_back(name);
     }
   }
@@ -181,7 +197,9 @@ class FieldWriter final : public Fields {
 
   bool reading() const override { return false; }
   std::string where() const override { return ""; }
+  std::string where(const Key& /*key*/) override { return ""; }
   bool Has(std::string_view /*name*/, bool written) override { return written; }
+  bool IsText(const Key& /*key*/) override { return false; }
   void RefuseUnknown() override {}
   void Check(const Status& /*status*/) override {}
 
@@ -193,6 +211,7 @@ class FieldWriter final : public Fields {
   }
   void Flag(const Key& key, bool& value) override { Put(key, value); }
   void Text(const Key& key, std::string& value, size_t /*max_bytes*/) override { Put(key, value); }
+  void Raw(const Key& key, Json& value) override { Put(key, value); }
   void Numbers(const Key& key, std::span<double> values) override {
     Put(key, std::vector<double>(values.begin(), values.end()));
   }
@@ -246,6 +265,15 @@ void Fields::Require(bool condition, std::string_view problem, std::string_view 
   }
 }
 
+void Fields::RequireAt(const Key& key,
+                       bool condition,
+                       std::string_view problem,
+                       std::string_view remedy) {
+  if (!condition && reading()) {
+    Check(Status::Error(where(key), problem, remedy));
+  }
+}
+
 void Fields::Number(const Key& key, float& value, double min, double max) {
   double wide = value;
   Number(key, wide, min, max);
@@ -267,7 +295,13 @@ size_t Fields::ChoiceIndex(const Key& key,
   std::string name(names[index]);
   Text(key, name);
   const auto found = std::find(names.begin(), names.end(), name);
-  Require(found != names.end(), Filled(problem, name), remedy);
+  if (found == names.end()) {
+    std::string known;
+    for (const std::string_view one : names) {
+      known += (known.empty() ? "" : ", ") + std::string(one);
+    }
+    Require(false, Filled(problem, name), Filled(remedy, known));
+  }
   return found != names.end() ? static_cast<size_t>(found - names.begin()) : index;
 }
 

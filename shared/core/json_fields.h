@@ -64,15 +64,24 @@ class Fields {
   virtual bool reading() const = 0;
   // While reading: the file and the path of the object within it. While writing: "".
   virtual std::string where() const = 0;
+  // The same for a field of the object or an entry of the list.
+  virtual std::string where(const Key& key) = 0;
   // While reading: whether the object has the field. While writing: `written`. The field counts as
   // known even if it is not described.
   virtual bool Has(std::string_view name, bool written = true) = 0;
+  // While reading: whether the value is a text. For fields that may have values of two types.
+  virtual bool IsText(const Key& key) = 0;
   // Makes an unknown field of this object an error in documents that ignore unknown fields.
   virtual void RefuseUnknown() = 0;
 
-  // While reading, a failed status or condition is an error. Require() adds where().
+  // While reading, a failed status or condition is an error. Require() adds where(), and
+  // RequireAt() where(key).
   virtual void Check(const Status& status) = 0;
   void Require(bool condition, std::string_view problem, std::string_view remedy = {});
+  void RequireAt(const Key& key,
+                 bool condition,
+                 std::string_view problem,
+                 std::string_view remedy = {});
 
   virtual void Number(const Key& key,
                       double& value,
@@ -85,6 +94,8 @@ class Fields {
   virtual void Integer(const Key& key, int64_t& value, int64_t min, int64_t max) = 0;
   virtual void Flag(const Key& key, bool& value) = 0;
   virtual void Text(const Key& key, std::string& value, size_t max_bytes = 1 << 20) = 0;
+  // A value that is kept as it is.
+  virtual void Raw(const Key& key, nlohmann::json& value) = 0;
   // A list of exactly as many numbers as there are values.
   virtual void Numbers(const Key& key, std::span<double> values) = 0;
   void Numbers(const Key& key, std::span<float> values);
@@ -104,7 +115,7 @@ class Fields {
     Present(key, value, [&](const Key& present) { Number(present, *value, min, max); });
   }
   // A text that is one of the names; the value is its index. In the problem, "{}" stands for a text
-  // that is no name.
+  // that is no name; in the remedy, for the names from the first to the last.
   template <typename Enum>
   void Choice(const Key& key,
               Enum& value,
@@ -140,24 +151,24 @@ class Fields {
     Present(key, value, [&](const Key& present) { Object(present, *value); });
   }
 
-  // A list of at most max_count entries. describe(key, entry) describes one of them; without
-  // `describe`, they are objects.
+  // A list of at most max_count entries. Entries are objects that describe(fields, entry) or
+  // DescribeFields() describes, unless `describe` takes (key, entry) and adds the entry itself.
   template <typename T, typename Describe>
   void List(const Key& key, std::vector<T>& values, size_t max_count, Describe describe) {
     if (const std::optional<size_t> count = EnterList(key, values.size(), max_count)) {
       values.resize(*count);
       for (size_t i = 0; i < values.size(); ++i) {
-        describe(Key(i), values[i]);
+        Entry(Key(i), values[i], describe);
       }
       Leave();
     }
   }
   template <typename T>
   void List(const Key& key, std::vector<T>& values, size_t max_count) {
-    List(key, values, max_count, [this](const Key& entry, T& value) { Object(entry, value); });
+    List(key, values, max_count, [](Fields& fields, T& entry) { DescribeFields(fields, entry); });
   }
   // An object whose fields have names of the author's choice. `problem` is the error if it is no
-  // object or has more than max_count fields.
+  // object or has more than max_count fields. `describe` is as for List().
   template <typename Map, typename Describe>
   void Entries(
       const Key& key, Map& values, size_t max_count, std::string_view problem, Describe describe) {
@@ -167,7 +178,7 @@ class Fields {
     }
     if (EnterEntries(key, names, max_count, problem)) {
       for (const std::string& name : names) {
-        describe(Key(std::string_view(name)), values[name]);
+        Entry(Key(std::string_view(name)), values[name], describe);
       }
       Leave();
     }
@@ -191,6 +202,15 @@ class Fields {
                      std::span<const std::string_view> names,
                      std::string_view problem,
                      std::string_view remedy);
+
+  template <typename T, typename Describe>
+  void Entry(const Key& key, T& value, Describe& describe) {
+    if constexpr (std::invocable<Describe&, Fields&, T&>) {
+      Object(key, value, std::ref(describe));
+    } else {
+      describe(key, value);
+    }
+  }
 
   template <typename T, typename Describe>
   void Present(const Key& key, std::optional<T>& value, Describe describe) {

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "shared/core/json.h"
 #include "shared/core/status.h"
 
 namespace lararium::stage {

@@ -51,24 +51,12 @@ TEST(ShowManifest, RoundTrips) {
   EXPECT_EQ(parsed->members[3].size, 4u);
 }
 
-// A manifest of schema 1: one light, in the place itself.
-Json OfSchemaOne() {
+TEST(ShowManifest, ProbesMayHaveNoSun) {
   Json json = Json::parse(FormatShowManifest(Listed()));
-  json["schema"] = 1;
-  Json& place = json["places"][0];
-  const Json probe = place["probes"][0];
-  place.erase("probes");
-  place["light"] = probe["light"];
-  place["sun"] = probe["sun"];
-  return json;
-}
-
-TEST(ShowManifest, BundlesOfSchemaOneHaveOneProbe) {
-  const auto parsed = Parse(OfSchemaOne());
+  json["places"][0]["probes"][0].erase("sun");
+  const auto parsed = Parse(json);
   ASSERT_TRUE(parsed.ok()) << parsed.message();
-  ASSERT_EQ(parsed->places[0].probes.size(), 1u);
-  EXPECT_EQ(parsed->places[0].probes[0].light.sky, Listed().places[0].probes[0].light.sky);
-  EXPECT_TRUE(parsed->places[0].probes[0].light.sun);
+  EXPECT_FALSE(parsed->places[0].probes.at(0).light.sun);
 }
 
 TEST(ShowManifest, ProbesMayHaveReflections) {
@@ -93,30 +81,6 @@ TEST(ShowManifest, ParadataAreAMember) {
   EXPECT_EQ(parsed->paradata, manifest.paradata);
 }
 
-TEST(ShowManifest, OlderBundlesHaveNoSun) {
-  Json json = OfSchemaOne();
-  json["places"][0].erase("sun");
-  const auto parsed = Parse(json);
-  ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_FALSE(parsed->places[0].probes.at(0).light.sun);
-}
-
-TEST(ShowManifest, OldLightOfNineCoefficientsKeepsThemAndHasNoMore) {
-  Json json = OfSchemaOne();
-  Json& numbers = json["places"][0]["light"];
-  numbers.clear();
-  for (int i = 0; i < 27; ++i) {
-    numbers.push_back(i);
-  }
-  const auto parsed = Parse(json);
-  ASSERT_TRUE(parsed.ok()) << parsed.message();
-  const light::ShRgb& sky = parsed->places[0].probes.at(0).light.sky;
-  EXPECT_EQ(sky[8], glm::vec3(24.0f, 25.0f, 26.0f));
-  for (size_t k = 9; k < light::kShCount; ++k) {
-    EXPECT_EQ(sky[k], glm::vec3(0.0f));
-  }
-}
-
 TEST(ShowManifest, ANewerSchemaAsksForANewerPlayer) {
   Json json = Json::parse(FormatShowManifest(Listed()));
   json["schema"] = ShowManifest::kSchema + 1;
@@ -128,9 +92,7 @@ TEST(ShowManifest, RefusesEveryMissingField) {
   for (const auto& [key, value] : json.items()) {
     Json without = json;
     without.erase(key);
-    if (key != "objects" && key != "lines" && key != "spoken" && key != "captions") {
-      EXPECT_THAT(Parse(without).message(), HasSubstr(key));
-    }
+    EXPECT_THAT(Parse(without).message(), HasSubstr(key));
   }
 }
 
@@ -177,27 +139,6 @@ TEST(ShowManifest, KeepsObjectsLinesAndLanguages) {
     EXPECT_THAT(ParseShowManifest(FormatShowManifest(without), "m").message(),
                 HasSubstr("is used but not listed"));
   }
-}
-
-TEST(ShowManifest, SpeechOfBundlesOfBeforeIsOfNoLanguage) {
-  ShowManifest manifest = Listed();
-  manifest.members.push_back({"speech/0.json", 1, ComputeSha256({})});
-  Json json = Json::parse(FormatShowManifest(manifest));
-  json["speech"] = Json::array({{{"name", "greeting"}, {"visemes", "speech/0.json"}}});
-  const auto parsed = Parse(json);
-  ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_EQ(parsed->lines.at(0).spoken.at(parsed->spoken.at(0).name).visemes, "speech/0.json");
-}
-
-TEST(ShowManifest, ABundleOfBeforeHasNoObjects) {
-  Json json = Json::parse(FormatShowManifest(Listed()));
-  json.erase("objects");
-  json.erase("lines");
-  json.erase("spoken");
-  json.erase("captions");
-  const auto parsed = Parse(json);
-  ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_TRUE(parsed->objects.empty());
 }
 
 TEST(ShowManifest, RefusesObjectsThatAreNotThereOrHaveAScale) {
@@ -310,20 +251,6 @@ TEST(ShowManifest, KeepsWhatAnOccluderDoes) {
     EXPECT_FALSE(read.*does);
     EXPECT_EQ(int{read.blocks_sound} + int{read.blocks_walking} + int{read.receives_shadow}, 2);
   }
-}
-
-TEST(ShowManifest, OccludersOfOlderBundlesDoEverything) {
-  Json json = Json::parse(FormatShowManifest(Listed()));
-  Json& occluder = json["places"][0]["occluders"][0];
-  for (const char* key : {"blocks_sound", "blocks_walking", "receives_shadow"}) {
-    ASSERT_EQ(occluder.erase(key), 1u);
-  }
-  const auto parsed = ParseShowManifest(json.dump(), "manifest.json");
-  ASSERT_TRUE(parsed.ok()) << parsed.message();
-  const OccluderEntry& read = parsed->places[0].occluders[0];
-  EXPECT_TRUE(read.blocks_sound && read.blocks_walking && read.receives_shadow);
-  occluder["receives_shadow"] = "yes";
-  EXPECT_THAT(ParseShowManifest(json.dump(), "m").message(), HasSubstr("receives_shadow"));
 }
 
 }  // namespace

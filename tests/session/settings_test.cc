@@ -39,17 +39,6 @@ TEST(Settings, KeepTheLanguageThatWasChosen) {
   }
 }
 
-TEST(Settings, OfOlderVersionsFollowTheEnvironmentsLanguage) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path file = folder / "editor.json";
-  ASSERT_TRUE(WriteFileAtomically(
-                  file, std::string_view(R"({"schema": 1, "theme": "light", "scale": 1.25})"))
-                  .ok());
-  const Result<Settings> loaded = LoadSettings(file);
-  ASSERT_TRUE(loaded.ok()) << loaded.message();
-  EXPECT_EQ(*loaded, (Settings{Theme::kLight, 1.25, ""}));
-}
-
 class DamagedSettings : public testing::TestWithParam<const char*> {};
 
 TEST_P(DamagedSettings, AreToldOfOnceAndMovedAside) {
@@ -66,16 +55,18 @@ TEST_P(DamagedSettings, AreToldOfOnceAndMovedAside) {
 INSTANTIATE_TEST_SUITE_P(
     Files,
     DamagedSettings,
-    testing::Values("",
-                    "7",
-                    R"({"schema": 2, "theme": "dark", "scale": 1})",
-                    R"({"schema": 1, "theme": "pink", "scale": 1})",
-                    R"({"schema": 1, "theme": "dark", "scale": 40})",
-                    R"({"schema": 1, "theme": "dark", "scale": "1"})",
-                    R"({"schema": 1, "theme": "dark", "scale": 1, "language": "xx"})",
-                    R"({"schema": 1, "theme": "dark", "scale": 1, "language": 7})",
-                    R"({"schema": 1, "theme": "dark"})",
-                    R"({"schema": 1, "theme": "dark", "scale": 1, "sound": true})"));
+    testing::Values(
+        "",
+        "7",
+        R"({"schema": 2, "theme": "dark", "scale": 1, "language": ""})",
+        R"({"schema": 1, "theme": "pink", "scale": 1, "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": 40, "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": "1", "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": 1, "language": "xx"})",
+        R"({"schema": 1, "theme": "dark", "scale": 1, "language": 7})",
+        R"({"schema": 1, "theme": "dark", "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": 1})",
+        R"({"schema": 1, "theme": "dark", "scale": 1, "language": "", "sound": true})"));
 
 }  // namespace
 }  // namespace lararium::editor
