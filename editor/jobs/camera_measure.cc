@@ -109,7 +109,7 @@ Result<light::CameraTraits> MeasureCamera(const ProjectPaths& paths,
 
 Result<light::CameraResponse> LoadCameraResponse(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  return ParseFields<light::CameraResponse>(JsonView(json, file.string()));
+  return ParseFields<light::CameraResponse>(JsonView(json, file.string()), UnknownFields::kIgnore);
 }
 
 std::string CameraText(const light::CameraTraits& traits) {
