@@ -8,6 +8,7 @@
 #include "shared/core/byte_order_mark.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/stage/caption_file.h"
 
 namespace lararium::bake {
@@ -456,61 +457,55 @@ std::string FormatLinesCsv(const LineTable& table) {
   return csv;
 }
 
+namespace {
+
+void DescribeLine(Fields& fields, const std::vector<std::string>& languages, Line& line) {
+  fields.Text("id", line.id, 64);
+  fields.Text(Optional("speaker", !line.speaker.empty()), line.speaker, 64);
+  fields.Text(Optional("notes", !line.notes.empty()), line.notes, kMaxCell);
+  fields.Entries("text", line.text, std::numeric_limits<size_t>::max(), "must be an object",
+                 [&](const Key& language, std::string& text) {
+                   const std::string name(language.name);
+                   fields.Require(
+                       std::find(languages.begin(), languages.end(), name) != languages.end(),
+                       "'" + name + "' is none of the file's \"languages\"");
+                   fields.Text(language, text, kMaxCell);
+                 });
+}
+
+// While reading, `builder` checks the languages and the lines, and keeps them.
+void DescribeTable(Fields& fields, LineTable& table, TableBuilder& builder) {
+  fields.Schema(1);
+  fields.List("languages", table.languages, kMaxLanguages, [&](const Key& key, std::string& tag) {
+    fields.Text(key, tag, 64);
+    if (fields.reading()) {
+      fields.Check(builder.AddLanguage(tag, fields.where(key)));
+    }
+  });
+  fields.List("lines", table.lines, kMaxLines, [&](Fields& entry, Line& line) {
+    DescribeLine(entry, table.languages, line);
+    if (entry.reading()) {
+      entry.Check(builder.AddLine(line, entry.where()));
+    }
+  });
+}
+
+}  // namespace
+
 Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where) {
   LARARIUM_RETURN_IF_ERROR(CheckText(text, where));
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
-  const JsonView root(json, where);
-  LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
+  LineTable table;
   TableBuilder builder;
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView languages, root.Field("languages"));
-  LARARIUM_ASSIGN_OR_RETURN(const auto language_list, languages.Array(kMaxLanguages));
-  for (const JsonView& language : language_list) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::string tag, language.Text(64));
-    LARARIUM_RETURN_IF_ERROR(builder.AddLanguage(tag, language.place()));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView lines, root.Field("lines"));
-  LARARIUM_ASSIGN_OR_RETURN(const auto line_list, lines.Array(kMaxLines));
-  for (const JsonView& entry : line_list) {
-    Line line;
-    LARARIUM_ASSIGN_OR_RETURN(line.id, entry.Text("id", 64));
-    if (entry.Has("speaker")) {
-      LARARIUM_ASSIGN_OR_RETURN(line.speaker, entry.Text("speaker", 64));
-    }
-    if (entry.Has("notes")) {
-      LARARIUM_ASSIGN_OR_RETURN(line.notes, entry.Text("notes", kMaxCell));
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView texts, entry.Field("text"));
-    if (!texts.json().is_object()) {
-      return texts.Problem("must be an object");
-    }
-    for (const auto& [language, ignored] : texts.json().items()) {
-      const auto& known = builder.table().languages;
-      if (std::find(known.begin(), known.end(), language) == known.end()) {
-        return texts.Problem("'" + language + "' is none of the file's \"languages\"");
-      }
-      LARARIUM_ASSIGN_OR_RETURN(line.text[language], texts.Text(language, kMaxCell));
-    }
-    LARARIUM_RETURN_IF_ERROR(builder.AddLine(std::move(line), entry.place()));
-  }
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      text, where, [&](Fields& fields) { DescribeTable(fields, table, builder); },
+      UnknownFields::kIgnore));
   return builder.Take();
 }
 
 std::string FormatLinesJson(const LineTable& table) {
-  Json json = {{"schema", 1}, {"languages", table.languages}, {"lines", Json::array()}};
-  for (const Line& line : table.lines) {
-    Json texts = Json::object();
-    for (const auto& [language, text] : line.text) {
-      texts[language] = text;
-    }
-    Json entry = {{"id", line.id}, {"text", std::move(texts)}};
-    if (!line.speaker.empty()) {
-      entry["speaker"] = line.speaker;
-    }
-    if (!line.notes.empty()) {
-      entry["notes"] = line.notes;
-    }
-    json["lines"].push_back(std::move(entry));
-  }
+  LineTable written = table;
+  TableBuilder unused;
+  const Json json = WriteFields([&](Fields& fields) { DescribeTable(fields, written, unused); });
   return json.dump(1) + "\n";
 }
 

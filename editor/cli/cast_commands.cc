@@ -99,7 +99,7 @@ CommandResult List(const ProjectDocument& document) {
       result.text += "; " + clip.name + " from " + clip.file;
     }
     result.text += "\n";
-    result.json.push_back(FormatCastMember(member));
+    result.json.push_back(FormatFields(member));
   }
   if (document.cast.empty()) {
     result.text = "the cast is empty; add a person with --name NAME\n";

@@ -22,7 +22,7 @@ CommandResult ListObjects(const ProjectDocument& document) {
                    (object.file.empty() ? object.model + ", built in" : object.file) +
                    Text("; at %.3f,%.3f,%.3f, heading %.1f degrees\n", object.position.x(),
                         object.position.y(), object.position.z(), object.heading);
-    result.json.push_back(FormatObject(object));
+    result.json.push_back(FormatFields(object));
   }
   if (document.objects.empty()) {
     result.text = "no objects; add one with --add NAME --model amphora, say\n";
@@ -68,7 +68,7 @@ Status WorkOnObjects(const ObjectOptions& options,
 
 // Changes the acoustics in their JSON form, so that its parser checks the values.
 Status EditAcoustics(const SoundOptions& options, stage::Acoustics& acoustics) {
-  Json json = stage::FormatAcoustics(acoustics);
+  Json json = FormatFields(acoustics);
   if (!options.reverb.empty()) {
     json["reverb"] = options.reverb;
   }
@@ -106,7 +106,7 @@ Status EditAcoustics(const SoundOptions& options, stage::Acoustics& acoustics) {
   if (ambience.empty()) {
     json.erase("ambience");
   }
-  LARARIUM_ASSIGN_OR_RETURN(acoustics, stage::ParseAcoustics(JsonView(json, "acoustics")));
+  LARARIUM_ASSIGN_OR_RETURN(acoustics, ParseFields<stage::Acoustics>(JsonView(json, "acoustics")));
   return Status();
 }
 
@@ -146,7 +146,7 @@ Result<CommandResult> ListSounds(const ProjectPaths& paths, const ProjectDocumen
   }
   for (const PlaceDocument& place : document.places) {
     result.text += "place " + place.name + ": " + DescribeAcoustics(place.acoustics) + "\n";
-    result.json["places"][place.name] = stage::FormatAcoustics(place.acoustics);
+    result.json["places"][place.name] = FormatFields(place.acoustics);
   }
   return result;
 }

@@ -115,7 +115,7 @@ std::string Described(const OccluderDocument& occluder) {
 }
 
 Json ListedJson(const OccluderDocument& occluder) {
-  Json json = FormatOccluder(occluder);
+  Json json = FormatFields(occluder);
   json["receives_shadow"] = occluder.receives_shadow;
   json["blocks_sound"] = occluder.blocks_sound;
   json["blocks_walking"] = occluder.blocks_walking;

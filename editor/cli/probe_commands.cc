@@ -143,8 +143,7 @@ Result<CommandResult> RunMerge(const ProbeOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const Merged merged, Merge(options));
   LARARIUM_RETURN_IF_ERROR(WriteLinear(options.out, merged.image.linear));
   if (!options.response_out.empty()) {
-    LARARIUM_RETURN_IF_ERROR(
-        SaveJson(options.response_out, light::FormatCameraResponse(merged.response)));
+    LARARIUM_RETURN_IF_ERROR(SaveJson(options.response_out, FormatFields(merged.response)));
   }
   CommandResult result;
   result.text = "wrote " + options.out.string() + "\n" + MergeText(merged);

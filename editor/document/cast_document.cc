@@ -11,75 +11,20 @@ namespace {
 
 constexpr size_t kMaxClips = 1000;
 
-Result<ClipDocument> ParseClip(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"name", "file", "loops"}));
-  ClipDocument clip;
-  LARARIUM_ASSIGN_OR_RETURN(clip.name, ParsePlainName(view, "name"));
-  LARARIUM_ASSIGN_OR_RETURN(clip.file, view.Text("file"));
-  if (view.Has("loops")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView loops, view.Field("loops"));
-    LARARIUM_ASSIGN_OR_RETURN(clip.loops, loops.Boolean());
-  }
-  return clip;
-}
-
-Status ParseClips(const JsonView& view, std::vector<ClipDocument>& clips) {
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("clips"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(kMaxClips));
-  std::set<std::string> names;
-  for (const JsonView& entry : list) {
-    LARARIUM_ASSIGN_OR_RETURN(ClipDocument clip, ParseClip(entry));
-    if (!names.insert(clip.name).second) {
-      return entry.Problem("the name \"" + clip.name + "\" is used twice", "rename one");
-    }
-    clips.push_back(std::move(clip));
-  }
-  return Status();
-}
-
-Status ParsePlainFigure(const JsonView& view, CastDocument& member) {
-  if (view.Has("height")) {
-    LARARIUM_ASSIGN_OR_RETURN(member.height, view.Number("height", kMinHeight, kMaxHeight));
-  }
-  if (view.Has("tunic")) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> tunic, view.Numbers("tunic", 3));
-    member.tunic = {tunic[0], tunic[1], tunic[2]};
-    if (member.tunic.minCoeff() < 0.0 || member.tunic.maxCoeff() > 1.0) {
-      return view.Problem("\"tunic\" must hold albedos from 0 to 1");
-    }
-  }
-  return Status();
-}
-
-Result<int> ParseSetting(const JsonView& view, std::string_view key, int otherwise) {
-  if (!view.Has(key)) {
-    return otherwise;
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t value, view.Integer(key, 0, 1000));
-  return static_cast<int>(value);
+void DescribeClip(Fields& fields, ClipDocument& clip) {
+  DescribePlainName(fields, "name", clip.name);
+  fields.Text("file", clip.file);
+  fields.Flag(Optional("loops", clip.loops), clip.loops);
 }
 
 }  // namespace
 
-Result<bake::VoiceSettings> ParseVoice(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"variant", "pitch", "range", "rate"}));
-  bake::VoiceSettings voice;
-  if (view.Has("variant")) {
-    LARARIUM_ASSIGN_OR_RETURN(voice.variant, view.Text("variant", 32));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(voice.pitch, ParseSetting(view, "pitch", voice.pitch));
-  LARARIUM_ASSIGN_OR_RETURN(voice.range, ParseSetting(view, "range", voice.range));
-  LARARIUM_ASSIGN_OR_RETURN(voice.rate, ParseSetting(view, "rate", voice.rate));
-  LARARIUM_RETURN_IF_ERROR(voice.Validate(view.place()));
-  return voice;
-}
-
-Json FormatVoice(const bake::VoiceSettings& voice) {
-  Json json = {{"pitch", voice.pitch}, {"range", voice.range}, {"rate", voice.rate}};
-  if (!voice.variant.empty()) {
-    json["variant"] = voice.variant;
-  }
-  return json;
+void DescribeVoice(Fields& fields, bake::VoiceSettings& voice) {
+  fields.Text(Optional("variant", !voice.variant.empty()), voice.variant, 32);
+  fields.Integer(Optional("pitch"), voice.pitch, 0, 1000);
+  fields.Integer(Optional("range"), voice.range, 0, 1000);
+  fields.Integer(Optional("rate"), voice.rate, 0, 1000);
+  fields.Check(voice.Validate(fields.where()));
 }
 
 Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member) {
@@ -105,71 +50,34 @@ Result<import::BoneNames> GivenBoneNames(const std::filesystem::path& bone_map,
   return given;
 }
 
-Result<CastDocument> ParseCastMember(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"name", "preset", "recipe", "model", "bone_map",
-                                             "bones", "clips", "height", "tunic", "voice"}));
-  CastDocument member;
-  LARARIUM_ASSIGN_OR_RETURN(member.name, ParsePlainName(view, "name"));
-  if (view.Has("preset") + view.Has("recipe") + view.Has("model") > 1) {
-    return view.Problem("has more than one of preset, recipe and model", "keep one of them");
+void DescribeFields(Fields& fields, CastDocument& member) {
+  DescribePlainName(fields, "name", member.name);
+  const bool has_preset = fields.Has("preset", !member.preset.empty());
+  const bool has_recipe = fields.Has("recipe", member.recipe && !has_preset);
+  const bool has_model = fields.Has("model", !member.model.empty() && !has_preset && !has_recipe);
+  fields.Require(int{has_preset} + int{has_recipe} + int{has_model} <= 1,
+                 "has more than one of preset, recipe and model", "keep one of them");
+  fields.Text(Optional("preset", has_preset), member.preset);
+  if (has_recipe) {
+    fields.Object("recipe", member.recipe);
   }
-  if (view.Has("preset")) {
-    LARARIUM_ASSIGN_OR_RETURN(member.preset, view.Text("preset"));
-  }
-  if (view.Has("recipe")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView recipe, view.Field("recipe"));
-    LARARIUM_ASSIGN_OR_RETURN(member.recipe, import::ParseCastRecipe(recipe));
-  }
-  if (view.Has("model")) {
-    LARARIUM_ASSIGN_OR_RETURN(member.model, view.Text("model"));
-  }
-  if (view.Has("bone_map")) {
-    LARARIUM_ASSIGN_OR_RETURN(member.bone_map, view.Text("bone_map"));
-  }
-  if (view.Has("bones")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView bones, view.Field("bones"));
-    LARARIUM_ASSIGN_OR_RETURN(member.bones, import::ParseBoneNames(bones));
-  }
-  if (view.Has("clips")) {
-    LARARIUM_RETURN_IF_ERROR(ParseClips(view, member.clips));
-  }
-  if (view.Has("voice")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView voice, view.Field("voice"));
-    LARARIUM_ASSIGN_OR_RETURN(member.voice, ParseVoice(voice));
-  }
-  LARARIUM_RETURN_IF_ERROR(ParsePlainFigure(view, member));
-  return member;
-}
-
-Json FormatCastMember(const CastDocument& member) {
-  Json json = {{"name", member.name}};
-  if (!member.preset.empty()) {
-    json["preset"] = member.preset;
-  } else if (member.recipe) {
-    json["recipe"] = import::ToJson(*member.recipe);
-  } else if (!member.model.empty()) {
-    json["model"] = member.model;
-  } else {
-    json["height"] = member.height;
-    json["tunic"] = FormatVector(member.tunic);
-  }
-  if (!member.bone_map.empty()) {
-    json["bone_map"] = member.bone_map;
-  }
-  if (!member.bones.empty()) {
-    json["bones"] = member.bones;
-  }
-  for (const ClipDocument& clip : member.clips) {
-    Json entry = {{"name", clip.name}, {"file", clip.file}};
-    if (clip.loops) {
-      entry["loops"] = true;
-    }
-    json["clips"].push_back(std::move(entry));
-  }
-  if (member.voice != bake::VoiceSettings()) {
-    json["voice"] = FormatVoice(member.voice);
-  }
-  return json;
+  fields.Text(Optional("model", has_model), member.model);
+  fields.Text(Optional("bone_map", !member.bone_map.empty()), member.bone_map);
+  import::DescribeBoneNames(fields, Optional("bones", !member.bones.empty()), member.bones);
+  std::set<std::string> names;
+  fields.List(Optional("clips", !member.clips.empty()), member.clips, kMaxClips,
+              [&](Fields& entry, ClipDocument& clip) {
+                DescribeClip(entry, clip);
+                entry.Require(names.insert(clip.name).second,
+                              "the name \"" + clip.name + "\" is used twice", "rename one");
+              });
+  const bool plain = !has_preset && !has_recipe && !has_model;
+  fields.Number(Optional("height", plain), member.height, kMinHeight, kMaxHeight);
+  fields.Numbers(Optional("tunic", plain), std::span(member.tunic.data(), 3));
+  fields.Require(member.tunic.minCoeff() >= 0.0 && member.tunic.maxCoeff() <= 1.0,
+                 "\"tunic\" must hold albedos from 0 to 1");
+  fields.Object(Optional("voice", member.voice != bake::VoiceSettings()), member.voice,
+                DescribeVoice);
 }
 
 }  // namespace lararium::editor

@@ -11,7 +11,7 @@
 #include "editor/bake/speech_synthesis.h"
 #include "editor/import/cast/cast_recipe.h"
 #include "editor/import/model/bone_map.h"
-#include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/status.h"
 
 namespace lararium::editor {
@@ -53,11 +53,7 @@ Result<std::optional<import::CastRecipe>> RecipeOf(const CastDocument& member);
 Result<import::BoneNames> GivenBoneNames(const std::filesystem::path& bone_map,
                                          const import::BoneNames& bones);
 
-// An object {"variant", "pitch", "range", "rate"}; every field is optional.
-Result<bake::VoiceSettings> ParseVoice(const JsonView& view);
-Json FormatVoice(const bake::VoiceSettings& voice);
-
-Result<CastDocument> ParseCastMember(const JsonView& view);
-Json FormatCastMember(const CastDocument& member);
+void DescribeVoice(Fields& fields, bake::VoiceSettings& voice);
+void DescribeFields(Fields& fields, CastDocument& member);
 
 }  // namespace lararium::editor

@@ -1,6 +1,7 @@
 #include "editor/document/document_fields.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lararium::editor {
@@ -16,41 +17,34 @@ bool IsPlainName(std::string_view name) {
          });
 }
 
-Result<Eigen::Vector3d> ParseVector(const JsonView& view, std::string_view key) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> values, view.Numbers(key, 3));
-  for (const double value : values) {
-    if (std::abs(value) > kMaxLength) {
-      return view.Problem("\"" + std::string(key) + "\" lies beyond a million metres");
-    }
-  }
-  return Eigen::Vector3d(values[0], values[1], values[2]);
+void DescribeVector(Fields& fields, const Key& key, Eigen::Vector3d& vector) {
+  fields.Numbers(key, std::span(vector.data(), 3));
+  fields.Require(vector.cwiseAbs().maxCoeff() <= kMaxLength,
+                 "\"" + std::string(key.name) + "\" lies beyond a million metres");
 }
 
-Result<Eigen::Quaterniond> ParseRotation(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> v, view.Numbers("rotation", 4));
-  const Eigen::Quaterniond rotation(v[0], v[1], v[2], v[3]);
-  constexpr double kTolerance = 1e-3;
-  if (std::abs(rotation.norm() - 1.0) > kTolerance) {
-    return view.Problem("\"rotation\" must be a unit quaternion (w, x, y, z)");
+void DescribeRotation(Fields& fields, Eigen::Quaterniond& rotation) {
+  std::array<double, 4> wxyz = {rotation.w(), rotation.x(), rotation.y(), rotation.z()};
+  fields.Numbers("rotation", wxyz);
+  if (fields.reading()) {
+    const Eigen::Quaterniond read(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+    constexpr double kTolerance = 1e-3;
+    fields.Require(std::abs(read.norm() - 1.0) <= kTolerance,
+                   "\"rotation\" must be a unit quaternion (w, x, y, z)");
+    rotation = read.normalized();
   }
-  return rotation.normalized();
 }
 
-Result<Similarity3> ParseSimilarity(const JsonView& view) {
-  Similarity3 similarity;
-  LARARIUM_ASSIGN_OR_RETURN(similarity.translation, ParseVector(view, "translation"));
-  LARARIUM_ASSIGN_OR_RETURN(similarity.rotation, ParseRotation(view));
-  LARARIUM_ASSIGN_OR_RETURN(similarity.scale, view.Number("scale", 1e-6, 1e6));
-  return similarity;
+void DescribeSimilarity(Fields& fields, Similarity3& similarity) {
+  DescribeVector(fields, "translation", similarity.translation);
+  DescribeRotation(fields, similarity.rotation);
+  fields.Number("scale", similarity.scale, 1e-6, 1e6);
 }
 
-Result<std::string> ParsePlainName(const JsonView& view, std::string_view key) {
-  LARARIUM_ASSIGN_OR_RETURN(std::string name, view.Text(key));
-  if (!IsPlainName(name)) {
-    return view.Problem("\"" + std::string(key) + "\" is also a file name",
-                        "use 1 to 64 letters, digits, '_' and '-'");
-  }
-  return name;
+void DescribePlainName(Fields& fields, const Key& key, std::string& name) {
+  fields.Text(key, name);
+  fields.Require(IsPlainName(name), "\"" + std::string(key.name) + "\" is also a file name",
+                 "use 1 to 64 letters, digits, '_' and '-'");
 }
 
 Json FormatVector(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }

@@ -1,15 +1,16 @@
 #pragma once
 
-// Reading with checks, and writing, of fields that several parts of a project's document have.
+// Descriptions of fields that several parts of a project's document have.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <initializer_list>
-#include <span>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
 
@@ -22,10 +23,22 @@ bool IsPlainName(std::string_view name);
 inline constexpr double kMaxLength = 1e6;  // metres
 
 // Each component must be within kMaxLength.
-Result<Eigen::Vector3d> ParseVector(const JsonView& view, std::string_view key);
-Result<Eigen::Quaterniond> ParseRotation(const JsonView& view);
-Result<geometry::Similarity3> ParseSimilarity(const JsonView& view);
-Result<std::string> ParsePlainName(const JsonView& view, std::string_view key);
+void DescribeVector(Fields& fields, const Key& key, Eigen::Vector3d& vector);
+// The field "rotation": a unit quaternion (w, x, y, z).
+void DescribeRotation(Fields& fields, Eigen::Quaterniond& rotation);
+// The fields "translation", "rotation" and "scale".
+void DescribeSimilarity(Fields& fields, geometry::Similarity3& similarity);
+void DescribePlainName(Fields& fields, const Key& key, std::string& name);
+
+// While reading, two entries of the list with the same name are an error.
+template <typename Entry>
+void RequireUniqueNames(Fields& fields, const Key& list, const std::vector<Entry>& entries) {
+  std::set<std::string_view> names;
+  for (const Entry& entry : entries) {
+    fields.RequireAt(list, names.insert(entry.name).second,
+                     "the name \"" + entry.name + "\" is used twice", "rename one");
+  }
+}
 
 Json FormatVector(const Eigen::Vector3d& v);
 Json FormatRotation(const Eigen::Quaterniond& q);

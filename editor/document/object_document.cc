@@ -12,31 +12,15 @@ geometry::Rigid3 StageFromObject(const ObjectDocument& object) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY())), object.position};
 }
 
-Result<ObjectDocument> ParseObject(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"name", "model", "file", "position", "heading"}));
-  ObjectDocument object;
-  LARARIUM_ASSIGN_OR_RETURN(object.name, ParsePlainName(view, "name"));
-  if (view.Has("model") == view.Has("file")) {
-    return view.Problem("must have either a built-in model or a file");
-  }
-  if (view.Has("model")) {
-    LARARIUM_ASSIGN_OR_RETURN(object.model, view.Text("model"));
-  } else {
-    LARARIUM_ASSIGN_OR_RETURN(object.file, view.Text("file"));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(object.position, ParseVector(view, "position"));
-  if (view.Has("heading")) {
-    LARARIUM_ASSIGN_OR_RETURN(object.heading, view.Number("heading", -360.0, 360.0));
-  }
-  return object;
-}
-
-Json FormatObject(const ObjectDocument& object) {
-  Json json = {{"name", object.name},
-               {"position", FormatVector(object.position)},
-               {"heading", object.heading}};
-  json[object.file.empty() ? "model" : "file"] = object.file.empty() ? object.model : object.file;
-  return json;
+void DescribeFields(Fields& fields, ObjectDocument& object) {
+  DescribePlainName(fields, "name", object.name);
+  const bool has_model = fields.Has("model", object.file.empty());
+  const bool has_file = fields.Has("file", !object.file.empty());
+  fields.Require(has_model != has_file, "must have either a built-in model or a file");
+  fields.Text(Optional("model", has_model), object.model);
+  fields.Text(Optional("file", has_file), object.file);
+  DescribeVector(fields, "position", object.position);
+  fields.Number(Optional("heading"), object.heading, -360.0, 360.0);
 }
 
 }  // namespace lararium::editor

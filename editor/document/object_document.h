@@ -5,8 +5,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "shared/core/json.h"
-#include "shared/core/status.h"
+#include "shared/core/json_fields.h"
 #include "shared/geometry/transform.h"
 
 namespace lararium::editor {
@@ -23,7 +22,6 @@ struct ObjectDocument {
 
 geometry::Rigid3 StageFromObject(const ObjectDocument& object);
 
-Result<ObjectDocument> ParseObject(const JsonView& view);
-Json FormatObject(const ObjectDocument& object);
+void DescribeFields(Fields& fields, ObjectDocument& object);
 
 }  // namespace lararium::editor

@@ -245,30 +245,22 @@ std::string DescribeShape(const OccluderShape& shape) {
   return text;
 }
 
-Result<OccluderShape> ParseShape(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string kind, view.Text("kind"));
+void DescribeFields(Fields& fields, OccluderShape& shape) {
+  std::string kind = EntryOf(shape.kind).name;
+  fields.Text("kind", kind);
   const ShapeEntry* entry = FindShapeEntry(kind);
+  fields.Require(entry != nullptr, "\"kind\" is not known",
+                 "use box, plane, cylinder, arch or floor");
   if (entry == nullptr) {
-    return view.Problem("\"kind\" is not known", "use box, plane, cylinder, arch or floor");
+    return;
   }
-  std::vector<std::string_view> known = {"kind"};
-  OccluderShape shape = entry->usual;
+  if (fields.reading()) {
+    shape = entry->usual;
+  }
   for (const ShapeSize& size : entry->sizes) {
-    known.emplace_back(size.name);
-    LARARIUM_ASSIGN_OR_RETURN(shape.*size.value, view.Number(size.name));
+    fields.Number(size.name, shape.*size.value);
   }
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields(known));
-  LARARIUM_RETURN_IF_ERROR(CheckShape(shape, view.place()));
-  return shape;
-}
-
-Json FormatShape(const OccluderShape& shape) {
-  const ShapeEntry& entry = EntryOf(shape.kind);
-  Json json = {{"kind", entry.name}};
-  for (const ShapeSize& size : entry.sizes) {
-    json[size.name] = shape.*size.value;
-  }
-  return json;
+  fields.Check(CheckShape(shape, fields.where()));
 }
 
 Eigen::Vector3d FloorBefore(const std::optional<geometry::Rigid3>& camera_from_stage) {

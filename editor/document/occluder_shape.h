@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
 #include "shared/geometry/triangle_mesh.h"
@@ -79,8 +79,7 @@ geometry::TriangleMesh MakeShapeMesh(const OccluderShape& shape);
 std::string DescribeShape(const OccluderShape& shape);
 
 // Every size of the kind is required; other fields are an error.
-Result<OccluderShape> ParseShape(const JsonView& view);
-Json FormatShape(const OccluderShape& shape);
+void DescribeFields(Fields& fields, OccluderShape& shape);
 
 // Where a new shape is placed, stage axes, metres, rounded to a centimetre: on the stage's floor,
 // where the camera looks, a few metres in front of it. Without a pose: the stage's origin.

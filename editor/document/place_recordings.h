@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "editor/document/project.h"
-#include "shared/core/json.h"
-#include "shared/core/status.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::editor {
 
@@ -24,12 +24,9 @@ PlaceRecordings RecordingsOf(const PlaceDocument& place);
 // Sets the place's recordings, and removes the picks in added sessions beyond them.
 void SetRecordings(const PlaceRecordings& recordings, PlaceDocument& place);
 
-// Reads the fields "training", "intrinsics" and "added" of an object, which may have other fields.
-Result<PlaceRecordings> ParseRecordings(const JsonView& view);
-Json FormatRecordings(const PlaceRecordings& recordings);
-// {"video": PATH} or {"images": PATH}.
-Result<SourceDocument> ParseSource(const JsonView& view);
-Json FormatSource(const SourceDocument& source);
+void DescribeFields(Fields& fields, PlaceRecordings& recordings);
+// An object {"video": PATH} or {"images": PATH}, which is missing if the source is empty.
+void DescribeSource(Fields& fields, std::string_view name, SourceDocument& source);
 
 // Calls visit for every anchor of a place. Place may be const.
 template <typename Place, typename Visit>

@@ -201,7 +201,8 @@ void ForgetSession(PlaceDocument& place, uint32_t session);
 Result<ProjectDocument> ParseProject(const Json& json, const std::string& where);
 Json FormatProject(const ProjectDocument& document);
 Json FormatPicks(const stage::StagePicks& picks);
-Json FormatOccluder(const OccluderDocument& occluder);
+void DescribeFields(Fields& fields, OccluderDocument& occluder);
+void DescribeFields(Fields& fields, ProbeDocument& probe);
 
 Result<ProjectDocument> LoadProject(const ProjectPaths& paths);
 Status SaveProject(const ProjectPaths& paths, const ProjectDocument& document);

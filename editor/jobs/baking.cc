@@ -127,47 +127,21 @@ std::vector<std::byte> BytesOf(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
-std::string FormatLight(const light::ProbeLight& light) {
-  const auto triple = [](const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); };
-  Json json = {{"radiance", Json::array()}};
-  for (const glm::vec3& coefficient : light.sky) {
-    json["radiance"].push_back(triple(coefficient));
+void DescribeBakedLight(Fields& fields, light::ProbeLight& light) {
+  std::vector<glm::vec3> radiance(light.sky.begin(), light.sky.end());
+  fields.List("radiance", radiance, light::kShCount, [&](const Key& key, glm::vec3& coefficient) {
+    fields.Numbers(key, std::span(&coefficient.x, 3));
+  });
+  fields.RequireAt("radiance", radiance.size() == light.sky.size(), "must have 36 coefficients",
+                   "bake the project again");
+  if (fields.reading() && radiance.size() == light.sky.size()) {
+    std::copy(radiance.begin(), radiance.end(), light.sky.begin());
   }
-  if (light.sun) {
-    json["sun"] = {{"direction", triple(light.sun->direction)},
-                   {"irradiance", triple(light.sun->irradiance)},
-                   {"angular_radius", light.sun->angular_radius}};
-  }
-  return json.dump(1) + "\n";
+  fields.Object("sun", light.sun);
 }
 
-Result<glm::vec3> ParseTriple(const JsonView& view, std::string_view key) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> v, view.Numbers(key, 3));
-  return glm::vec3(v[0], v[1], v[2]);
-}
-
-// Reads a baked product. The sun may be missing.
-Result<light::ProbeLight> ParseLight(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("radiance"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(light::kShCount));
-  if (list.size() != light::kShCount) {
-    return field.Problem("must have 36 coefficients", "bake the project again");
-  }
-  light::ProbeLight light;
-  for (size_t i = 0; i < list.size(); ++i) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> rgb, list[i].Numbers(3));
-    light.sky[i] = glm::vec3(rgb[0], rgb[1], rgb[2]);
-  }
-  if (view.Has("sun")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView sun, view.Field("sun"));
-    light.sun.emplace();
-    LARARIUM_ASSIGN_OR_RETURN(light.sun->direction, ParseTriple(sun, "direction"));
-    LARARIUM_ASSIGN_OR_RETURN(light.sun->irradiance, ParseTriple(sun, "irradiance"));
-    LARARIUM_ASSIGN_OR_RETURN(const double radius,
-                              sun.Number("angular_radius", 0.0, light::kMaxSunRadius));
-    light.sun->angular_radius = static_cast<float>(radius);
-  }
-  return light;
+std::string FormatLight(light::ProbeLight light) {
+  return WriteFields([&](Fields& fields) { DescribeBakedLight(fields, light); }).dump(1) + "\n";
 }
 
 Result<std::vector<std::byte>> MakeLight(const std::filesystem::path& file,
@@ -264,8 +238,8 @@ FigureSource PlainFigure(const CastDocument& member) {
 FigureSource FigureOfRecipe(const import::CastRecipe& recipe,
                             const std::filesystem::path& library,
                             const Progress& progress) {
-  return {"recipe " + import::ToJson(recipe).dump() + " " +
-              std::to_string(import::kLevelsOfDetail) + ", bare of covered skin",
+  return {"recipe " + FormatFields(recipe).dump() + " " + std::to_string(import::kLevelsOfDetail) +
+              ", bare of covered skin",
           {},
           [=, &progress](std::vector<std::string>&) -> Result<human::Human> {
             LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,
@@ -670,8 +644,10 @@ Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& path
       continue;
     }
     LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-    LARARIUM_ASSIGN_OR_RETURN(const light::ProbeLight light,
-                              ParseLight(JsonView(json, file.string())));
+    light::ProbeLight light;
+    LARARIUM_RETURN_IF_ERROR(ReadFields(
+        JsonView(json, file.string()), [&](Fields& fields) { DescribeBakedLight(fields, light); },
+        UnknownFields::kIgnore));
     probes.push_back({geometry::ToGlm(probe.position), probe.hour, light});
   }
   return probes;

@@ -57,7 +57,7 @@ std::optional<double> SharpestQuarter(std::span<const cv::Mat> images) {
 Status WriteDevice(const CameraOptions& options, const light::CameraTraits& traits) {
   return options.device_out.empty()
              ? Status()
-             : SaveDeviceField(options.device_out, "look", light::FormatCameraTraits(traits));
+             : SaveDeviceField(options.device_out, "look", FormatFields(traits));
 }
 
 Result<std::unique_ptr<capture::FrameSource>> Recording(const CameraOptions& options,
@@ -109,7 +109,7 @@ Result<light::CameraTraits> MeasureCamera(const ProjectPaths& paths,
 
 Result<light::CameraResponse> LoadCameraResponse(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  return light::ParseCameraResponse(JsonView(json, file.string()));
+  return ParseFields<light::CameraResponse>(JsonView(json, file.string()), UnknownFields::kIgnore);
 }
 
 std::string CameraText(const light::CameraTraits& traits) {
@@ -177,7 +177,7 @@ Result<CommandResult> RunCamera(const CameraOptions& options, Progress& progress
   LARARIUM_RETURN_IF_ERROR(WriteDevice(options, traits));
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
   result.text = CameraText(traits);
-  result.json["camera"] = light::FormatCameraTraits(traits);
+  result.json["camera"] = FormatFields(traits);
   return result;
 }
 

@@ -24,123 +24,61 @@ constexpr size_t kMostAdvice = 1000;
 
 using train::CaptureAdvice;
 
-constexpr std::array<std::pair<CaptureAdvice::Kind, const char*>, 13> kKinds = {{
-    {CaptureAdvice::Kind::kEnough, "enough"},
-    {CaptureAdvice::Kind::kNotLocated, "not_located"},
-    {CaptureAdvice::Kind::kShortGaps, "short_gaps"},
-    {CaptureAdvice::Kind::kOneSide, "one_side"},
-    {CaptureAdvice::Kind::kStepLeft, "step_left"},
-    {CaptureAdvice::Kind::kStepRight, "step_right"},
-    {CaptureAdvice::Kind::kStepNearer, "step_nearer"},
-    {CaptureAdvice::Kind::kStepBack, "step_back"},
-    {CaptureAdvice::Kind::kTurnLeft, "turn_left"},
-    {CaptureAdvice::Kind::kTurnRight, "turn_right"},
-    {CaptureAdvice::Kind::kFocal, "focal"},
-    {CaptureAdvice::Kind::kFewKeyframes, "few_keyframes"},
-    {CaptureAdvice::Kind::kExposure, "exposure"},
-}};
-constexpr std::array<std::pair<CaptureAdvice::End, const char*>, 4> kPathEnds = {{
-    {CaptureAdvice::End::kLeft, "left"},
-    {CaptureAdvice::End::kRight, "right"},
-    {CaptureAdvice::End::kNear, "near"},
-    {CaptureAdvice::End::kFar, "far"},
-}};
-constexpr std::array<std::pair<train::WeakReason, const char*>, 5> kReasons = {{
-    {train::WeakReason::kFewFeatures, "few_features"},
-    {train::WeakReason::kBlur, "blur"},
-    {train::WeakReason::kFastMotion, "fast_motion"},
-    {train::WeakReason::kNotLocated, "not_located"},
-    {train::WeakReason::kFewPoints, "few_points"},
-}};
-
-template <typename Table, typename Value>
-const char* NameIn(const Table& table, Value value) {
-  const auto found = std::ranges::find(table, value, [](const auto& entry) { return entry.first; });
-  return found != table.end() ? found->second : nullptr;
-}
-
-// Keeps value where the field is missing.
-template <typename Table, typename Value>
-Status ParseName(const JsonView& view, const char* key, const Table& table, Value& value) {
-  if (!view.Has(key)) {
-    return Status();
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text(key));
-  const auto found = std::ranges::find_if(table, [&](const auto& e) { return name == e.second; });
-  if (found == table.end()) {
-    return view.Problem(std::string(key) + " has no \"" + name + "\"");
-  }
-  value = found->first;
-  return Status();
-}
-
-Status ParseNumber(const JsonView& view, const char* key, double& value) {
-  if (view.Has(key)) {
-    LARARIUM_ASSIGN_OR_RETURN(value, view.Number(key));
-  }
-  return Status();
-}
-
-Result<CaptureAdvice> ParseAdvice(const JsonView& view) {
-  CaptureAdvice advice{.kind = CaptureAdvice::Kind::kWritten};
-  LARARIUM_ASSIGN_OR_RETURN(const std::string text, view.Text("text"));
-  if (!view.Has("kind")) {
-    advice.text = text;
-    return advice;
-  }
-  LARARIUM_RETURN_IF_ERROR(ParseName(view, "kind", kKinds, advice.kind));
-  LARARIUM_RETURN_IF_ERROR(ParseName(view, "end", kPathEnds, advice.end));
-  LARARIUM_RETURN_IF_ERROR(ParseName(view, "reason", kReasons, advice.reason));
-  if (view.Has("frames")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView frames, view.Field("frames"));
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> names, frames.Array(2));
-    if (names.size() != 2) {
-      return frames.Problem("must be a first and a last frame");
-    }
-    LARARIUM_ASSIGN_OR_RETURN(advice.first, names[0].Text());
-    LARARIUM_ASSIGN_OR_RETURN(advice.last, names[1].Text());
-  }
-  LARARIUM_RETURN_IF_ERROR(ParseNumber(view, "value", advice.value));
-  advice.walk.in_metres = view.Has("walk_m");
-  LARARIUM_RETURN_IF_ERROR(ParseNumber(view, "walk_m", advice.walk.value));
-  LARARIUM_RETURN_IF_ERROR(ParseNumber(view, "walk_share", advice.walk.value));
-  if (view.Has("session")) {
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t session, view.Integer("session", 0, kMostCounted));
-    advice.session = static_cast<int>(session);
-  }
-  return advice;
-}
+// Indexed by CaptureAdvice::Kind; kWritten has no name.
+constexpr std::array<std::string_view, 13> kKinds = {
+    "enough",     "not_located",   "short_gaps", "one_side",  "step_left",
+    "step_right", "step_nearer",   "step_back",  "turn_left", "turn_right",
+    "focal",      "few_keyframes", "exposure"};
+// Indexed by CaptureAdvice::End; kNone is not written.
+constexpr std::array<std::string_view, 5> kPathEnds = {"", "left", "right", "near", "far"};
+constexpr std::array<std::string_view, 5> kReasons = {"few_features", "blur", "fast_motion",
+                                                      "not_located", "few_points"};
 
 bool HasWalk(CaptureAdvice::Kind kind) {
   return kind == CaptureAdvice::Kind::kOneSide ||
          (kind >= CaptureAdvice::Kind::kStepLeft && kind <= CaptureAdvice::Kind::kStepBack);
 }
 
-Json FormatAdvice(const CaptureAdvice& advice) {
-  Json json = {{"text", train::AdviceSentence(advice).English()}};
+// Advice of a kind that has no name, or of numbers that JSON does not have, is only its sentence.
+void DescribeAdvice(Fields& fields, CaptureAdvice& advice) {
+  std::string sentence = fields.reading() ? "" : train::AdviceSentence(advice).English();
+  fields.Text("text", sentence);
+  const auto index = static_cast<size_t>(advice.kind);
   const bool finite = std::isfinite(advice.value) && std::isfinite(advice.walk.value);
-  const char* kind = NameIn(kKinds, advice.kind);
-  if (kind == nullptr || !finite) {  // Such advice keeps only its sentence.
-    return json;
+  std::string kind(!fields.reading() && index < kKinds.size() && finite ? kKinds[index] : "");
+  fields.Text(Optional("kind", !kind.empty()), kind);
+  const auto found = std::ranges::find(kKinds, kind);
+  if (fields.reading()) {
+    advice.kind = static_cast<CaptureAdvice::Kind>(found - kKinds.begin());
   }
-  json["kind"] = kind;
-  json["value"] = advice.value;
-  if (!advice.first.empty()) {
-    json["frames"] = {advice.first, advice.last};
+  if (found == kKinds.end()) {
+    if (fields.reading()) {
+      advice.text = sentence;
+    }
+    return;
   }
-  if (const char* end = NameIn(kPathEnds, advice.end)) {
-    json["end"] = end;
+  fields.Choice(Optional("end", advice.end != CaptureAdvice::End::kNone), advice.end, kPathEnds,
+                "end has no \"{}\"");
+  fields.Choice(Optional("reason", advice.kind == CaptureAdvice::Kind::kNotLocated), advice.reason,
+                kReasons, "reason has no \"{}\"");
+  std::vector<std::string> frames = {advice.first, advice.last};
+  fields.List(Optional("frames", !advice.first.empty()), frames, 2,
+              [&](const Key& key, std::string& frame) { fields.Text(key, frame); });
+  fields.RequireAt("frames", frames.size() == 2, "must be a first and a last frame");
+  if (fields.reading() && frames.size() == 2) {
+    advice.first = frames[0];
+    advice.last = frames[1];
   }
-  if (advice.kind == CaptureAdvice::Kind::kNotLocated) {
-    json["reason"] = NameIn(kReasons, advice.reason);
+  fields.Number(Optional("value"), advice.value);
+  const bool walk = HasWalk(advice.kind);
+  const bool in_metres = fields.Has("walk_m", walk && advice.walk.in_metres);
+  fields.Number(Optional("walk_m", in_metres), advice.walk.value);
+  fields.Number(Optional("walk_share", walk && !in_metres), advice.walk.value);
+  if (fields.reading()) {
+    advice.walk.in_metres = in_metres;
   }
-  if (HasWalk(advice.kind)) {
-    json[advice.walk.in_metres ? "walk_m" : "walk_share"] = advice.walk.value;
-  }
-  if (advice.kind == CaptureAdvice::Kind::kExposure) {
-    json["session"] = advice.session;
-  }
-  return json;
+  fields.Integer(Optional("session", advice.kind == CaptureAdvice::Kind::kExposure), advice.session,
+                 0, kMostCounted);
 }
 
 std::vector<std::string> AdviceTexts(const TrainingReport& report) {
@@ -153,47 +91,25 @@ std::vector<std::string> AdviceTexts(const TrainingReport& report) {
 
 // ------------------------------------------------------------ The report
 
-Status ParseTraining(const JsonView& view, TrainingReport& report) {
-  LARARIUM_ASSIGN_OR_RETURN(report.recording, view.Text("recording"));
-  for (const auto& [key, count] : {std::pair{"frames", &report.frames},
-                                   {"located", &report.located},
-                                   {"keyframes", &report.keyframes},
-                                   {"points", &report.points}}) {
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t value, view.Integer(key, 0, kMostCounted));
-    *count = static_cast<int>(value);
-  }
-  for (const auto& [key, number] : {std::pair{"seconds", &report.seconds},
-                                    {"mean_error_px", &report.mean_error_px},
-                                    {"error_95_px", &report.error_95_px}}) {
-    LARARIUM_ASSIGN_OR_RETURN(*number, view.Number(key, 0.0));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(report.ended,
-                            view.Integer("ended", 0, std::numeric_limits<int64_t>::max()));
-  if (view.Has("focal_deviation_px")) {
-    LARARIUM_ASSIGN_OR_RETURN(report.focal_deviation_px, view.Number("focal_deviation_px", 0.0));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView advice, view.Field("advice"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, advice.Array(kMostAdvice));
-  for (const JsonView& entry : list) {
-    LARARIUM_ASSIGN_OR_RETURN(report.advice.emplace_back(), ParseAdvice(entry));
-  }
-  return Status();
+void DescribeLastTraining(Fields& fields, TrainingReport& report) {
+  fields.Text("recording", report.recording);
+  fields.Integer("frames", report.frames, 0, kMostCounted);
+  fields.Integer("located", report.located, 0, kMostCounted);
+  fields.Integer("keyframes", report.keyframes, 0, kMostCounted);
+  fields.Integer("points", report.points, 0, kMostCounted);
+  fields.Number("seconds", report.seconds, 0.0);
+  fields.Number("mean_error_px", report.mean_error_px, 0.0);
+  fields.Number("error_95_px", report.error_95_px, 0.0);
+  fields.Integer("ended", report.ended, 0, std::numeric_limits<int64_t>::max());
+  fields.Number("focal_deviation_px", report.focal_deviation_px, 0.0);
+  fields.List("advice", report.advice, kMostAdvice, DescribeAdvice);
 }
 
-Json FormatTraining(const TrainingReport& report) {
-  Json advice = Json::array();
-  for (const CaptureAdvice& one : report.advice) {
-    advice.push_back(FormatAdvice(one));
-  }
-  Json json = {{"recording", report.recording},     {"frames", report.frames},
-               {"located", report.located},         {"keyframes", report.keyframes},
-               {"points", report.points},           {"ended", report.ended},
-               {"seconds", report.seconds},         {"mean_error_px", report.mean_error_px},
-               {"error_95_px", report.error_95_px}, {"advice", std::move(advice)}};
-  if (report.focal_deviation_px) {
-    json["focal_deviation_px"] = *report.focal_deviation_px;
-  }
-  return json;
+void DescribeReport(Fields& fields, TrainingReport& report) {
+  fields.Schema(kSchema);
+  fields.Object("recordings", report.recordings);
+  fields.Object(Optional("training", !report.recording.empty()), report, DescribeLastTraining);
+  fields.RefuseUnknown();
 }
 
 }  // namespace
@@ -244,25 +160,16 @@ Json TrainingJson(const TrainingReport& report) {
 
 Result<TrainingReport> LoadTrainingReport(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  const JsonView view(json, file.string());
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"schema", "recordings", "training"}));
-  LARARIUM_RETURN_IF_ERROR(view.Integer("schema", kSchema, kSchema).status());
   TrainingReport report;
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView recordings, view.Field("recordings"));
-  LARARIUM_ASSIGN_OR_RETURN(report.recordings, ParseRecordings(recordings));
-  if (view.Has("training")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView training, view.Field("training"));
-    LARARIUM_RETURN_IF_ERROR(ParseTraining(training, report));
-  }
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      JsonView(json, file.string()), [&](Fields& fields) { DescribeReport(fields, report); },
+      UnknownFields::kIgnore));
   return report;
 }
 
 Status SaveTrainingReport(const std::filesystem::path& file, const TrainingReport& report) {
-  Json json = {{"schema", kSchema}, {"recordings", FormatRecordings(report.recordings)}};
-  if (!report.recording.empty()) {
-    json["training"] = FormatTraining(report);
-  }
-  return SaveJson(file, json);
+  TrainingReport written = report;
+  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeReport(fields, written); }));
 }
 
 }  // namespace lararium::editor

@@ -52,7 +52,7 @@ std::string TrainingText(const std::string& place, const TrainingReport& report)
 // in English sentences.
 Json TrainingJson(const TrainingReport& report);
 
-// Advice whose numbers were not finite is read back as its sentence alone.
+// Keeps advice of an unknown kind, from a later version, as the sentence that was written.
 Result<TrainingReport> LoadTrainingReport(const std::filesystem::path& file);
 Status SaveTrainingReport(const std::filesystem::path& file, const TrainingReport& report);
 

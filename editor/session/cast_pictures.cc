@@ -162,7 +162,7 @@ CastPictures::~CastPictures() = default;
 std::string CastPictures::KeyOf(const CastDocument& member) const {
   CastDocument seen = member;
   seen.voice = {};
-  std::string key = FormatCastMember(seen).dump();
+  std::string key = FormatFields(seen).dump();
   for (const std::string& file : {member.model, member.bone_map}) {
     key += file.empty() ? "" : StampOf(project_.Resolve(file));
   }

@@ -7,6 +7,7 @@
 #include "editor/document/user_folders.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::editor {
 
@@ -20,31 +21,27 @@ constexpr size_t kMaxTitleBytes = 1024;
 constexpr size_t kMaxPathBytes = 4096;
 constexpr int64_t kLatest = int64_t{1} << 40;  // Far beyond any real time.
 
-Result<RecentProject> ParseEntry(const JsonView& view) {
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"folder", "title", "opened"}));
-  RecentProject project;
-  LARARIUM_ASSIGN_OR_RETURN(const std::string folder, view.Text("folder", kMaxPathBytes));
-  project.folder = folder;
-  if (!project.folder.is_absolute()) {
-    return view.Problem("\"folder\" must be an absolute path");
+void DescribeEntry(Fields& fields, RecentProject& project) {
+  std::string folder = project.folder.string();
+  fields.Text("folder", folder, kMaxPathBytes);
+  if (fields.reading()) {
+    project.folder = folder;
+    fields.Require(project.folder.is_absolute(), "\"folder\" must be an absolute path");
   }
-  LARARIUM_ASSIGN_OR_RETURN(project.title, view.Text("title", kMaxTitleBytes));
-  LARARIUM_ASSIGN_OR_RETURN(project.opened, view.Integer("opened", 0, kLatest));
-  return project;
+  fields.Text("title", project.title, kMaxTitleBytes);
+  fields.Integer("opened", project.opened, 0, kLatest);
+}
+
+void DescribeList(Fields& fields, std::vector<RecentProject>& recent) {
+  fields.Schema(kRecentSchema);
+  fields.List("recent", recent, RecentProjects::kMost, DescribeEntry);
 }
 
 Result<std::vector<RecentProject>> Load(const fs::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxFileBytes));
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, file.string()));
-  const JsonView view(json, file.string());
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"schema", "recent"}));
-  LARARIUM_RETURN_IF_ERROR(view.Integer("schema", kRecentSchema, kRecentSchema).status());
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView recent, view.Field("recent"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, recent.Array(RecentProjects::kMost));
   std::vector<RecentProject> entries;
-  for (const JsonView& entry : list) {
-    LARARIUM_ASSIGN_OR_RETURN(entries.emplace_back(), ParseEntry(entry));
-  }
+  LARARIUM_RETURN_IF_ERROR(
+      ReadFields(text, file.string(), [&](Fields& fields) { DescribeList(fields, entries); }));
   return entries;
 }
 
@@ -70,15 +67,10 @@ Status RecentProjects::Reload() {
 }
 
 Status RecentProjects::Save() const {
-  Json recent = Json::array();
-  for (const RecentProject& project : entries_) {
-    recent.push_back({{"folder", project.folder.string()},
-                      {"title", project.title},
-                      {"opened", project.opened}});
-  }
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
-  return SaveJson(file_, {{"schema", kRecentSchema}, {"recent", recent}});
+  std::vector<RecentProject> recent = entries_;
+  return SaveJson(file_, WriteFields([&](Fields& fields) { DescribeList(fields, recent); }));
 }
 
 Status RecentProjects::NoteOpened(const RecentProject& project) {

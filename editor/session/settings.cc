@@ -1,11 +1,13 @@
 #include "editor/session/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "editor/document/user_folders.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::editor {
 
@@ -14,25 +16,23 @@ namespace {
 constexpr int kSettingsSchema = 1;
 constexpr size_t kMaxSettingsBytes = size_t{1} << 16;
 
-Result<Settings> Parse(const std::string& text, const std::string& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView view(json, place);
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"schema", "theme", "scale", "language"}));
-  LARARIUM_RETURN_IF_ERROR(view.Integer("schema", kSettingsSchema, kSettingsSchema).status());
+void DescribeSettings(Fields& fields, Settings& settings) {
+  constexpr std::array<std::string_view, 2> kThemes = {"dark", "light"};
+  fields.Schema(kSettingsSchema);
+  fields.Choice("theme", settings.theme, kThemes, "\"theme\" must be \"dark\" or \"light\"");
+  fields.Number("scale", settings.scale);
+  fields.Require(std::find(kScales.begin(), kScales.end(), settings.scale) != kScales.end(),
+                 "\"scale\" must be 1, 1.25, 1.5 or 2");
+  fields.Text("language", settings.language);
+  fields.Require(
+      std::find(kLanguages.begin(), kLanguages.end(), settings.language) != kLanguages.end(),
+      "\"language\" must be \"\", \"en\" or \"it\"");
+}
+
+Result<Settings> Parse(const std::string& text, const std::string& where) {
   Settings settings;
-  LARARIUM_ASSIGN_OR_RETURN(const std::string theme, view.Text("theme"));
-  if (theme != "dark" && theme != "light") {
-    return view.Problem("\"theme\" must be \"dark\" or \"light\"");
-  }
-  settings.theme = theme == "light" ? Theme::kLight : Theme::kDark;
-  LARARIUM_ASSIGN_OR_RETURN(settings.scale, view.Number("scale"));
-  if (std::find(kScales.begin(), kScales.end(), settings.scale) == kScales.end()) {
-    return view.Problem("\"scale\" must be 1, 1.25, 1.5 or 2");
-  }
-  LARARIUM_ASSIGN_OR_RETURN(settings.language, view.Text("language"));
-  if (std::find(kLanguages.begin(), kLanguages.end(), settings.language) == kLanguages.end()) {
-    return view.Problem("\"language\" must be \"\", \"en\" or \"it\"");
-  }
+  LARARIUM_RETURN_IF_ERROR(
+      ReadFields(text, where, [&](Fields& fields) { DescribeSettings(fields, settings); }));
   return settings;
 }
 
@@ -54,10 +54,8 @@ Result<Settings> LoadSettings(const std::filesystem::path& file) {
 Status SaveSettings(const std::filesystem::path& file, const Settings& settings) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  return SaveJson(file, {{"schema", kSettingsSchema},
-                         {"theme", settings.theme == Theme::kLight ? "light" : "dark"},
-                         {"scale", settings.scale},
-                         {"language", settings.language}});
+  Settings written = settings;
+  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeSettings(fields, written); }));
 }
 
 }  // namespace lararium::editor

@@ -292,7 +292,7 @@ const Workspace::Refinement* Workspace::refinement(const OccluderDocument& occlu
 void Workspace::NameRecordings(const std::string& name, const PlaceRecordings& recordings) {
   map_stale_ |= name == place_name_;
   const PlaceDocument* now = document().FindPlace(name);
-  if (now != nullptr && FormatRecordings(RecordingsOf(*now)) == FormatRecordings(recordings)) {
+  if (now != nullptr && FormatFields(RecordingsOf(*now)) == FormatFields(recordings)) {
     return;
   }
   commands_.Rewrite([&](ProjectDocument& document) {

@@ -35,7 +35,7 @@ std::string Workspace::PreviewKey() const {
     if (occluder.drawn()) {
       // The depth is in metres, the map is not.
       const double scale = loaded_.picks.map_from_picked.scale * at.picked_from_stage.scale;
-      entry.push_back({FormatOccluder(occluder)["corners"], occluder.depth * scale, occluder.flat});
+      entry.push_back({FormatFields(occluder)["corners"], occluder.depth * scale, occluder.flat});
     }
   }
   for (const ProbeDocument& probe : at.probes) {
@@ -43,7 +43,7 @@ std::string Workspace::PreviewKey() const {
     key["probes"].push_back({probe.name, probe.file, FileStamp(paths_.Resolve(probe.file))});
   }
   for (const CastDocument& member : document().cast) {
-    key["cast"].push_back(FormatCastMember(member));
+    key["cast"].push_back(FormatFields(member));
   }
   for (const ObjectDocument& object : document().objects) {
     // The pose can change without opening the preview again.

@@ -149,7 +149,7 @@ const CastCatalogue* Workspace::catalogue() {
 const BoneReview* Workspace::bone_review(const CastDocument& member) {
   CastDocument figure = member;
   figure.voice = {};  // The voice does not change the bones.
-  std::string key = FormatCastMember(figure).dump() + FileStamp(paths_.Resolve(member.model)) +
+  std::string key = FormatFields(figure).dump() + FileStamp(paths_.Resolve(member.model)) +
                     FileStamp(paths_.Resolve(member.bone_map));
   if (key != review_key_) {
     const auto review = std::make_shared<BoneReview>();

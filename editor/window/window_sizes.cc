@@ -1,11 +1,13 @@
 #include "editor/window/window_sizes.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "editor/document/user_folders.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::editor {
 
@@ -15,33 +17,30 @@ constexpr int kSizesSchema = 1;
 constexpr size_t kMaxFileBytes = size_t{1} << 16;
 constexpr double kLargest = 1 << 15;  // Largest size of a window or panel.
 
-Result<WindowSizes> Parse(const std::string& text, const std::string& place) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, place));
-  const JsonView view(json, place);
-  LARARIUM_RETURN_IF_ERROR(
-      view.CheckFields({"schema", "window", "maximized", "outliner", "inspector", "bottom"}));
-  LARARIUM_RETURN_IF_ERROR(view.Integer("schema", kSizesSchema, kSizesSchema).status());
+void DescribeSizes(Fields& fields, WindowSizes& sizes) {
+  fields.Schema(kSizesSchema);
+  fields.Object("window", sizes, [](Fields& window, WindowSizes& size) {
+    const auto largest = static_cast<int64_t>(kLargest);
+    window.Integer("width", size.width, 1, largest);
+    window.Integer("height", size.height, 1, largest);
+  });
+  fields.Flag("maximized", sizes.maximized);
+  fields.Number("outliner", sizes.panels.outliner, 1.0, kLargest);
+  fields.Number("inspector", sizes.panels.inspector, 1.0, kLargest);
+  auto& bottom = sizes.panels.bottom;
+  std::vector heights(bottom.begin(), bottom.end());
+  fields.List("bottom", heights, bottom.size(),
+              [&](const Key& key, auto& height) { fields.Number(key, height, 1.0, kLargest); });
+  fields.RequireAt("bottom", heights.size() == bottom.size(), "must have a height for each tab");
+  if (fields.reading() && heights.size() == bottom.size()) {
+    std::copy(heights.begin(), heights.end(), bottom.begin());
+  }
+}
+
+Result<WindowSizes> Parse(const std::string& text, const std::string& where) {
   WindowSizes sizes;
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView window, view.Field("window"));
-  LARARIUM_RETURN_IF_ERROR(window.CheckFields({"width", "height"}));
-  const auto largest = static_cast<int64_t>(kLargest);
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t width, window.Integer("width", 1, largest));
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t height, window.Integer("height", 1, largest));
-  sizes.width = static_cast<int>(width);
-  sizes.height = static_cast<int>(height);
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView maximized, view.Field("maximized"));
-  LARARIUM_ASSIGN_OR_RETURN(sizes.maximized, maximized.Boolean());
-  LARARIUM_ASSIGN_OR_RETURN(sizes.panels.outliner, view.Number("outliner", 1.0, kLargest));
-  LARARIUM_ASSIGN_OR_RETURN(sizes.panels.inspector, view.Number("inspector", 1.0, kLargest));
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView bottom, view.Field("bottom"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> heights,
-                            bottom.Array(sizes.panels.bottom.size()));
-  if (heights.size() != sizes.panels.bottom.size()) {
-    return bottom.Problem("must have a height for each tab");
-  }
-  for (size_t i = 0; i < heights.size(); ++i) {
-    LARARIUM_ASSIGN_OR_RETURN(sizes.panels.bottom[i], heights[i].Number(1.0, kLargest));
-  }
+  LARARIUM_RETURN_IF_ERROR(
+      ReadFields(text, where, [&](Fields& fields) { DescribeSizes(fields, sizes); }));
   return sizes;
 }
 
@@ -63,12 +62,8 @@ Result<WindowSizes> LoadWindowSizes(const std::filesystem::path& file) {
 Status SaveWindowSizes(const std::filesystem::path& file, const WindowSizes& sizes) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  return SaveJson(file, {{"schema", kSizesSchema},
-                         {"window", {{"width", sizes.width}, {"height", sizes.height}}},
-                         {"maximized", sizes.maximized},
-                         {"outliner", sizes.panels.outliner},
-                         {"inspector", sizes.panels.inspector},
-                         {"bottom", sizes.panels.bottom}});
+  WindowSizes written = sizes;
+  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeSizes(fields, written); }));
 }
 
 }  // namespace lararium::editor

@@ -87,7 +87,8 @@ Result<Device> ParseDevice(std::string_view text, const std::string& where) {
   }
   if (view.Has("look")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView look, view.Field("look"));
-    LARARIUM_ASSIGN_OR_RETURN(device.look, light::ParseCameraTraits(look));
+    LARARIUM_ASSIGN_OR_RETURN(device.look,
+                              ParseFields<light::CameraTraits>(look, UnknownFields::kIgnore));
   }
   if (view.Has("capture")) {
     LARARIUM_ASSIGN_OR_RETURN(const JsonView capture, view.Field("capture"));

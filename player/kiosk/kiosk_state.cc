@@ -1,11 +1,10 @@
 #include "player/kiosk/kiosk_state.h"
 
-#include <array>
-#include <optional>
 #include <system_error>
 
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::player {
 namespace {
@@ -19,48 +18,25 @@ std::filesystem::path StateFile(const std::filesystem::path& folder) {
   return folder / "state.json";
 }
 
-// Reads a choice by its name.
-template <typename Choice, size_t n>
-Status ReadChoice(const JsonView& view,
-                  const char* key,
-                  const std::array<std::string_view, n>& names,
-                  Choice& choice) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text(key, kMaxText));
-  const std::optional<Choice> found = render::ChoiceOf<Choice>(names, name);
-  if (!found) {
-    return view.Problem(std::string(key) + " cannot be \"" + name + "\"", "remove it");
-  }
-  choice = *found;
-  return Status();
-}
-
-Status ReadSwitch(const JsonView& view, const char* key, bool& on) {
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
-  LARARIUM_ASSIGN_OR_RETURN(on, field.Boolean());
-  return Status();
-}
-
-Status ReadChoices(const JsonView& view, Choices& choices) {
-  LARARIUM_ASSIGN_OR_RETURN(choices.language, view.Text("language", kMaxText));
-  LARARIUM_ASSIGN_OR_RETURN(choices.captions, view.Text("captions", kMaxText));
-  LARARIUM_ASSIGN_OR_RETURN(choices.volume, view.Number("volume", 0.0, 1.0));
+void DescribeChoices(Fields& fields, Choices& choices) {
+  fields.Text("language", choices.language, kMaxText);
+  fields.Text("captions", choices.captions, kMaxText);
+  fields.Number("volume", choices.volume, 0.0, 1.0);
   render::CaptionStyle& style = choices.caption_style;
-  LARARIUM_RETURN_IF_ERROR(ReadChoice(view, "caption_size", render::kCaptionSizes, style.size));
-  LARARIUM_RETURN_IF_ERROR(
-      ReadChoice(view, "caption_contrast", render::kCaptionContrasts, style.contrast));
-  LARARIUM_RETURN_IF_ERROR(ReadSwitch(view, "descriptions", choices.descriptions));
-  return ReadSwitch(view, "reduced_motion", choices.reduced_motion);
+  fields.Choice("caption_size", style.size, render::kCaptionSizes, "caption_size cannot be \"{}\"",
+                "remove it");
+  fields.Choice("caption_contrast", style.contrast, render::kCaptionContrasts,
+                "caption_contrast cannot be \"{}\"", "remove it");
+  fields.Flag("descriptions", choices.descriptions);
+  fields.Flag("reduced_motion", choices.reduced_motion);
 }
 
-Json ToJson(const Choices& choices) {
-  const render::CaptionStyle& style = choices.caption_style;
-  return {{"language", choices.language},
-          {"captions", choices.captions},
-          {"caption_size", NameOf(render::kCaptionSizes, style.size)},
-          {"caption_contrast", NameOf(render::kCaptionContrasts, style.contrast)},
-          {"descriptions", choices.descriptions},
-          {"reduced_motion", choices.reduced_motion},
-          {"volume", choices.volume}};
+void DescribeState(Fields& fields, KioskState& state) {
+  fields.Schema(kSchema, "was written by a newer player", "remove it");
+  fields.Text("title", state.title, kMaxText);
+  fields.Number("seconds", state.seconds, 0.0, kMaxSeconds);
+  DescribeChoices(fields, state.choices);
+  fields.Object("house", state.house, DescribeChoices);
 }
 
 }  // namespace
@@ -77,17 +53,8 @@ Result<KioskState> LoadKioskState(const std::filesystem::path& folder) {
 
 Result<KioskState> ParseKioskState(std::string_view text, const std::string& where) {
   KioskState state;
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
-  const JsonView view(json, where);
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
-  if (schema != kSchema) {
-    return view.Problem("was written by a newer player", "remove it");
-  }
-  LARARIUM_ASSIGN_OR_RETURN(state.title, view.Text("title", kMaxText));
-  LARARIUM_ASSIGN_OR_RETURN(state.seconds, view.Number("seconds", 0.0, kMaxSeconds));
-  LARARIUM_RETURN_IF_ERROR(ReadChoices(view, state.choices));
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView house, view.Field("house"));
-  LARARIUM_RETURN_IF_ERROR(ReadChoices(house, state.house));
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      text, where, [&](Fields& fields) { DescribeState(fields, state); }, UnknownFields::kIgnore));
   return state;
 }
 
@@ -98,12 +65,9 @@ Status SaveKioskState(const std::filesystem::path& folder, const KioskState& sta
     return Status::Error(folder.string(), "cannot be created: " + error.message(),
                          "name another folder with --state");
   }
-  Json json = ToJson(state.choices);
-  json["schema"] = kSchema;
-  json["title"] = state.title;
-  json["seconds"] = state.seconds;
-  json["house"] = ToJson(state.house);
-  return SaveJson(StateFile(folder), json);
+  KioskState written = state;
+  return SaveJson(StateFile(folder),
+                  WriteFields([&](Fields& fields) { DescribeState(fields, written); }));
 }
 
 }  // namespace lararium::player

@@ -9,6 +9,7 @@
 
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::player {
 namespace {
@@ -36,35 +37,30 @@ bool IsDay(std::string_view text) {
          month >= 1 && month <= 12 && day >= 1 && day <= 31;
 }
 
-Result<DayCounts> ParseDay(const JsonView& view) {
-  DayCounts day;
-  LARARIUM_ASSIGN_OR_RETURN(day.day, view.Text("day", 10));
-  if (!IsDay(day.day)) {
-    return view.Problem("\"day\" must be a date as 2026-11-23");
+// Seconds are written without a fraction.
+void DescribeSeconds(Fields& fields, std::string_view name, double& value) {
+  double seconds = std::round(std::min(value, kMostSeconds));
+  fields.Number(name, seconds, 0.0, kMostSeconds);
+  if (fields.reading()) {
+    value = seconds;
   }
-  for (const auto& [name, count] :
-       {std::pair("visitors", &day.visitors), std::pair("completed", &day.completed),
-        std::pair("losses", &day.losses), std::pair("restarts", &day.restarts)}) {
-    LARARIUM_ASSIGN_OR_RETURN(*count, view.Integer(name, 0, kMostCount));
-  }
-  for (const auto& [name, seconds] : {std::pair("played_seconds", &day.played_seconds),
-                                      std::pair("seen_seconds", &day.seen_seconds),
-                                      std::pair("tracked_seconds", &day.tracked_seconds)}) {
-    LARARIUM_ASSIGN_OR_RETURN(*seconds, view.Number(name, 0.0, kMostSeconds));
-  }
-  return day;
 }
 
-Json JsonOf(const DayCounts& day) {
-  const auto seconds = [](double value) { return std::round(std::min(value, kMostSeconds)); };
-  return {{"day", day.day},
-          {"visitors", day.visitors},
-          {"played_seconds", seconds(day.played_seconds)},
-          {"completed", day.completed},
-          {"seen_seconds", seconds(day.seen_seconds)},
-          {"tracked_seconds", seconds(day.tracked_seconds)},
-          {"losses", day.losses},
-          {"restarts", day.restarts}};
+void DescribeDay(Fields& fields, DayCounts& day) {
+  fields.Text("day", day.day, 10);
+  fields.Require(IsDay(day.day), "\"day\" must be a date as 2026-11-23");
+  fields.Integer("visitors", day.visitors, 0, kMostCount);
+  fields.Integer("completed", day.completed, 0, kMostCount);
+  fields.Integer("losses", day.losses, 0, kMostCount);
+  fields.Integer("restarts", day.restarts, 0, kMostCount);
+  DescribeSeconds(fields, "played_seconds", day.played_seconds);
+  DescribeSeconds(fields, "seen_seconds", day.seen_seconds);
+  DescribeSeconds(fields, "tracked_seconds", day.tracked_seconds);
+}
+
+void DescribeDays(Fields& fields, std::vector<DayCounts>& days) {
+  fields.Schema(kSchema, "was written by a newer player", "update this one");
+  fields.List("days", days, VisitStatistics::kMostDays, DescribeDay);
 }
 
 void SetAside(const std::filesystem::path& path, const Status& why, Log& log) {
@@ -142,18 +138,11 @@ VisitStatistics LoadVisitStatistics(const std::filesystem::path& folder, Log& lo
 }
 
 Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::string& where) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
-  const JsonView view(json, where);
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
-  if (schema != kSchema) {
-    return view.Problem("was written by a newer player", "update this one");
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("days"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> entries,
-                            list.Array(VisitStatistics::kMostDays));
+  std::vector<DayCounts> days;
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      text, where, [&](Fields& fields) { DescribeDays(fields, days); }, UnknownFields::kIgnore));
   VisitStatistics statistics;
-  for (const JsonView& entry : entries) {
-    LARARIUM_ASSIGN_OR_RETURN(const DayCounts day, ParseDay(entry));
+  for (const DayCounts& day : days) {
     statistics.Day(day.day) = day;
   }
   return statistics;
@@ -166,11 +155,9 @@ Status SaveVisitStatistics(const std::filesystem::path& folder, const VisitStati
     return Status::Error(folder.string(), "cannot be created: " + error.message(),
                          "name another folder with --state");
   }
-  Json days = Json::array();
-  for (const DayCounts& day : statistics.days()) {
-    days.push_back(JsonOf(day));
-  }
-  return SaveJson(StatisticsFile(folder), {{"schema", kSchema}, {"days", std::move(days)}});
+  std::vector<DayCounts> days = statistics.days();
+  return SaveJson(StatisticsFile(folder),
+                  WriteFields([&](Fields& fields) { DescribeDays(fields, days); }));
 }
 
 void VisitCounter::Count(const Moment& moment, DayCounts& day) {

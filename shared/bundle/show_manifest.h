@@ -30,7 +30,7 @@ struct OccluderEntry {
   std::string name;
   std::string mesh;  // member, .larmesh
   geometry::Similarity3 stage_from_mesh;
-  // The following three fields are those of stage::Occluder. Bundles may lack them.
+  // The following three fields are those of stage::Occluder.
   bool blocks_sound = true;
   bool blocks_walking = true;
   bool receives_shadow = true;
@@ -43,7 +43,7 @@ struct PlaceEntry {
   Eigen::Vector3d camera_nudge = Eigen::Vector3d::Zero();  // metres along camera axes
   std::vector<OccluderEntry> occluders;
   std::vector<light::PlacedProbe> probes;                    // light in stage axes
-  std::optional<light::CameraTraits> camera = std::nullopt;  // Bundles may lack the field.
+  std::optional<light::CameraTraits> camera = std::nullopt;  // Not set: not measured.
   std::vector<std::string> glossy = {};  // Member for each probe, .gloss; empty: none.
   stage::Acoustics acoustics = {};
 };
@@ -103,8 +103,8 @@ struct ShowManifest {
   std::string drama;                   // member, Lua source
   std::vector<PlaceEntry> places;      // not empty; names are unique
   std::vector<CastEntry> cast;         // names are unique
-  std::vector<ObjectEntry> objects;    // Names are unique; bundles may lack the field.
-  std::vector<LineEntry> lines;        // Names are unique; bundles may lack the field.
+  std::vector<ObjectEntry> objects;    // Names are unique.
+  std::vector<LineEntry> lines;        // Names are unique.
   std::vector<SpokenLanguage> spoken;  // The first is used unless another is requested.
   // Languages of captions; the first is used unless another is requested.
   std::vector<std::string> captions;

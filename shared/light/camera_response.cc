@@ -106,24 +106,11 @@ FittedKnee FitKnee(const CameraResponse& response) {
   return best;
 }
 
-Json FormatCameraResponse(const CameraResponse& response) {
-  Json json = Json::object();
+void DescribeFields(Fields& fields, CameraResponse& response) {
   for (size_t c = 0; c < 3; ++c) {
-    json[kChannels[c]] = response.linear[c];
+    fields.Numbers(kChannels[c], response.linear[c]);
   }
-  return json;
-}
-
-Result<CameraResponse> ParseCameraResponse(const JsonView& view) {
-  CameraResponse response;
-  for (size_t c = 0; c < 3; ++c) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> values, view.Numbers(kChannels[c], 256));
-    for (size_t i = 0; i < values.size(); ++i) {
-      response.linear[c][i] = static_cast<float>(values[i]);
-    }
-  }
-  LARARIUM_RETURN_IF_ERROR(response.Validate(view.place()));
-  return response;
+  fields.Check(response.Validate(fields.where()));
 }
 
 CameraResponse::Curve Monotone(const CameraResponse::Curve& curve) {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 
-#include "shared/core/json_fwd.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/status.h"
 
 namespace lararium::light {
@@ -55,8 +55,7 @@ struct FittedKnee {
 FittedKnee FitKnee(const CameraResponse& response);
 
 // JSON format in project.json, in a device file or in a file of its own: {"r": [256], "g", "b"}.
-Json FormatCameraResponse(const CameraResponse& response);
-Result<CameraResponse> ParseCameraResponse(const JsonView& view);
+void DescribeFields(Fields& fields, CameraResponse& response);
 
 // Returns the closest non-decreasing curve in least squares (pool adjacent violators: Barlow et al.
 // 1972), starting at 0, in the unit above.

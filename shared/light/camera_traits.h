@@ -6,8 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "shared/core/json_fwd.h"
-#include "shared/core/status.h"
+#include "shared/core/json_fields.h"
 #include "shared/light/camera_response.h"
 
 namespace lararium::light {
@@ -35,7 +34,6 @@ inline constexpr float kMaxBlurPx = 16.0f;  // A larger blur means a wrong focus
 
 // JSON format in project.json, in a bundle's manifest or in a device file: {"width", "noise":
 // [floor, slope], "blur_px", "knee", "shutter", "response"}. The last two are optional.
-Json FormatCameraTraits(const CameraTraits& traits);
-Result<CameraTraits> ParseCameraTraits(const JsonView& view);
+void DescribeFields(Fields& fields, CameraTraits& traits);
 
 }  // namespace lararium::light

@@ -5,6 +5,10 @@
 
 #include <glm/vec3.hpp>
 
+namespace lararium {
+class Fields;
+}
+
 namespace lararium::light {
 
 struct Sun {
@@ -15,5 +19,8 @@ struct Sun {
 
 // Sources with a larger angular radius are no suns: harmonics represent them well.
 inline constexpr float kMaxSunRadius = 0.0873f;  // radians, 5 degrees
+
+// JSON format in manifests and baked files: {"direction", "irradiance", "angular_radius"}.
+void DescribeFields(Fields& fields, Sun& sun);
 
 }  // namespace lararium::light

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
+#include <span>
 
 #include "shared/core/json.h"
 
@@ -20,74 +20,29 @@ constexpr std::array<std::string_view, 9> kReverbs = {"none",       "small_room"
                                                       "stone_room", "corridor",   "hall",
                                                       "vault",      "courtyard",  "street"};
 
-// Gain in dB; 0 if the field is missing.
-Result<float> ParseDb(const JsonView& json, std::string_view key) {
-  if (!json.Has(key)) {
-    return 0.0f;
+void DescribeAmbience(Fields& fields, Ambience& ambience) {
+  fields.Text("sound", ambience.sound, kMaxMaterialName);
+  fields.Number(Optional("gain_db"), ambience.gain_db, kMinDb, kMaxDb);
+  if (fields.Has("at", ambience.position.has_value())) {
+    glm::vec3 at = ambience.position.value_or(glm::vec3(0.0f));
+    fields.Numbers("at", std::span(&at.x, 3));
+    fields.Require(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= kMaxMetres,
+                   "\"at\" lies too far away", "use coordinates of at most 10000 metres");
+    ambience.position = at;
   }
-  LARARIUM_ASSIGN_OR_RETURN(const double db, json.Number(key, kMinDb, kMaxDb));
-  return static_cast<float>(db);
-}
-
-Result<Ambience> ParseAmbience(const JsonView& json) {
-  LARARIUM_RETURN_IF_ERROR(json.CheckFields({"sound", "gain_db", "at"}));
-  Ambience ambience;
-  LARARIUM_ASSIGN_OR_RETURN(ambience.sound, json.Text("sound", kMaxAcousticsText));
-  LARARIUM_ASSIGN_OR_RETURN(ambience.gain_db, ParseDb(json, "gain_db"));
-  if (json.Has("at")) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> at, json.Numbers("at", 3));
-    if (std::any_of(at.begin(), at.end(), [](double c) { return std::abs(c) > kMaxMetres; })) {
-      return json.Problem("\"at\" lies too far away", "use coordinates of at most 10000 metres");
-    }
-    ambience.position = glm::vec3(at[0], at[1], at[2]);
-  }
-  return ambience;
-}
-
-Result<Reverb> ParseReverb(const JsonView& json) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, json.Text("reverb", kMaxAcousticsText));
-  const auto found = std::find(kReverbs.begin(), kReverbs.end(), name);
-  if (found != kReverbs.end()) {
-    return static_cast<Reverb>(found - kReverbs.begin());
-  }
-  std::string known;
-  for (const std::string_view reverb : kReverbs) {
-    known += (known.empty() ? "" : ", ") + std::string(reverb);
-  }
-  return json.Problem("there is no reverb '" + name + "'", "choose one of " + known);
 }
 
 }  // namespace
 
 std::string_view ReverbName(Reverb reverb) { return kReverbs[static_cast<size_t>(reverb)]; }
 
-Result<Acoustics> ParseAcoustics(const JsonView& json) {
-  LARARIUM_RETURN_IF_ERROR(json.CheckFields({"reverb", "reverb_db", "ambience"}));
-  Acoustics acoustics;
-  if (json.Has("reverb")) {
-    LARARIUM_ASSIGN_OR_RETURN(acoustics.reverb, ParseReverb(json));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(acoustics.reverb_db, ParseDb(json, "reverb_db"));
-  if (json.Has("ambience")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, json.Field("ambience"));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, field.Array(Acoustics::kMaxAmbience));
-    for (const JsonView& item : items) {
-      LARARIUM_ASSIGN_OR_RETURN(acoustics.ambience.emplace_back(), ParseAmbience(item));
-    }
-  }
-  return acoustics;
-}
-
-Json FormatAcoustics(const Acoustics& acoustics) {
-  Json json = {{"reverb", ReverbName(acoustics.reverb)}, {"reverb_db", acoustics.reverb_db}};
-  for (const Ambience& ambience : acoustics.ambience) {
-    Json entry = {{"sound", ambience.sound}, {"gain_db", ambience.gain_db}};
-    if (ambience.position) {
-      entry["at"] = {ambience.position->x, ambience.position->y, ambience.position->z};
-    }
-    json["ambience"].push_back(std::move(entry));
-  }
-  return json;
+void DescribeFields(Fields& fields, Acoustics& acoustics) {
+  fields.RefuseUnknown();
+  fields.Choice(Optional("reverb"), acoustics.reverb, kReverbs, "there is no reverb '{}'",
+                "choose one of {}");
+  fields.Number(Optional("reverb_db"), acoustics.reverb_db, kMinDb, kMaxDb);
+  fields.List(Optional("ambience", !acoustics.ambience.empty()), acoustics.ambience,
+              Acoustics::kMaxAmbience, DescribeAmbience);
 }
 
 }  // namespace lararium::stage

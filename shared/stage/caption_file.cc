@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::stage {
 namespace {
@@ -15,50 +16,39 @@ constexpr size_t kMaxName = 200;
 constexpr size_t kMaxIds = 100'000;
 constexpr size_t kMaxBytes = size_t{64} << 20;
 
-Result<CaptionCue> ReadCue(const JsonView& view) {
-  CaptionCue cue;
-  LARARIUM_ASSIGN_OR_RETURN(cue.begin, view.Number("begin", 0.0, kMaxSeconds));
-  LARARIUM_ASSIGN_OR_RETURN(cue.end, view.Number("end", 0.0, kMaxSeconds));
-  LARARIUM_ASSIGN_OR_RETURN(cue.text, view.Text("text", kMaxText));
-  return cue;
+void DescribeCue(Fields& fields, CaptionCue& cue) {
+  fields.Number("begin", cue.begin, 0.0, kMaxSeconds);
+  fields.Number("end", cue.end, 0.0, kMaxSeconds);
+  fields.Text("text", cue.text, kMaxText);
 }
 
-Result<std::vector<CaptionCue>> ReadCues(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, view.Array(kMaxCues));
-  std::vector<CaptionCue> cues;
-  for (const JsonView& item : list) {
-    LARARIUM_ASSIGN_OR_RETURN(cues.emplace_back(), ReadCue(item));
-  }
-  LARARIUM_RETURN_IF_ERROR(CheckCues(cues, view.place()));
-  return cues;
+// Describes {"id": {"language": value}}, where describe(key, value) describes a value.
+template <typename T, typename Describe>
+void DescribeByLanguage(Fields& fields,
+                        std::string_view name,
+                        CaptionBook::ById<CaptionBook::ByLanguage<T>>& ids,
+                        Describe describe) {
+  constexpr std::string_view kNoObject = "must be an object";
+  fields.Entries(
+      name, ids, kMaxIds, kNoObject, [&](const Key& id, CaptionBook::ByLanguage<T>& languages) {
+        fields.Entries(id, languages, kMaxIds, kNoObject, [&](const Key& language, T& value) {
+          fields.Require(IsLanguageTag(language.name),
+                         "\"" + std::string(language.name) + "\" is not a valid language tag",
+                         "use one such as \"it\" or \"en-GB\"");
+          describe(language, value);
+        });
+      });
 }
 
-Result<std::string> ReadName(const JsonView& view) { return view.Text(kMaxName); }
-
-// Reads {"id": {"language": value}} from the field `key`.
-template <typename T>
-Result<CaptionBook::ById<CaptionBook::ByLanguage<T>>> ReadByLanguage(
-    const JsonView& root, std::string_view key, Result<T> (*read)(const JsonView&)) {
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, root.Field(key));
-  if (!field.json().is_object() || field.json().size() > kMaxIds) {
-    return field.Problem("must be an object");
-  }
-  CaptionBook::ById<CaptionBook::ByLanguage<T>> ids;
-  for (const auto& [id, ignored] : field.json().items()) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView languages, field.Field(id));
-    if (!languages.json().is_object()) {
-      return languages.Problem("must be an object");
-    }
-    for (const auto& [language, ignored_too] : languages.json().items()) {
-      if (!IsLanguageTag(language)) {
-        return languages.Problem("\"" + language + "\" is not a valid language tag",
-                                 "use one such as \"it\" or \"en-GB\"");
-      }
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView value, languages.Field(language));
-      LARARIUM_ASSIGN_OR_RETURN(ids[id][language], read(value));
-    }
-  }
-  return ids;
+void DescribeBook(Fields& fields, CaptionBook& book) {
+  fields.Schema(1);
+  DescribeByLanguage(fields, "names", book.names,
+                     [&](const Key& key, std::string& name) { fields.Text(key, name, kMaxName); });
+  DescribeByLanguage(fields, "lines", book.lines,
+                     [&](const Key& key, std::vector<CaptionCue>& cues) {
+                       fields.List(key, cues, kMaxCues, DescribeCue);
+                       fields.Check(CheckCues(cues, fields.where(key)));
+                     });
 }
 
 }  // namespace
@@ -91,30 +81,15 @@ Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& wher
   if (text.size() > kMaxBytes) {
     return Status::Error(where, "is longer than 64 MiB");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
-  const JsonView root(json, where);
-  LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   CaptionBook book;
-  LARARIUM_ASSIGN_OR_RETURN(book.names, ReadByLanguage(root, "names", ReadName));
-  LARARIUM_ASSIGN_OR_RETURN(book.lines, ReadByLanguage(root, "lines", ReadCues));
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      text, where, [&](Fields& fields) { DescribeBook(fields, book); }, UnknownFields::kIgnore));
   return book;
 }
 
 std::string FormatCaptions(const CaptionBook& book) {
-  Json json = {{"schema", 1}, {"names", Json::object()}, {"lines", Json::object()}};
-  for (const auto& [id, languages] : book.names) {
-    for (const auto& [language, name] : languages) {
-      json["names"][id][language] = name;
-    }
-  }
-  for (const auto& [id, languages] : book.lines) {
-    for (const auto& [language, cues] : languages) {
-      Json& list = json["lines"][id][language] = Json::array();
-      for (const CaptionCue& cue : cues) {
-        list.push_back({{"begin", cue.begin}, {"end", cue.end}, {"text", cue.text}});
-      }
-    }
-  }
+  CaptionBook written = book;
+  const Json json = WriteFields([&](Fields& fields) { DescribeBook(fields, written); });
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

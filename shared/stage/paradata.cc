@@ -1,10 +1,11 @@
 #include "shared/stage/paradata.h"
 
 #include <algorithm>
-#include <initializer_list>
+#include <functional>
 #include <utility>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/stage/caption_file.h"
 
 namespace lararium::stage {
@@ -23,117 +24,98 @@ constexpr std::array<std::string_view, kSubjectCount> kSubjects = {
     "people", "garments", "clips",     "objects", "sounds",
     "lines",  "places",   "occluders", "probes",  "scenes"};
 
-// Reads a text without control characters. Names and references have one line; texts for visitors
-// may have several.
-Result<std::string> PlainText(const JsonView& view, bool one_line) {
-  LARARIUM_ASSIGN_OR_RETURN(std::string text, view.Text(kMaxClaimText));
+// A text without control characters. Names and references have one line; texts for visitors may
+// have several.
+void RequirePlain(Fields& fields, const Key& key, std::string_view text, bool one_line) {
   const bool plain = std::all_of(text.begin(), text.end(), [one_line](char c) {
     return (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || (c == '\n' && !one_line);
   });
-  if (!plain) {
-    return view.Problem("holds control characters", "remove them");
-  }
-  return text;
+  fields.RequireAt(key, plain, "holds control characters", "remove them");
 }
 
-Status ParseOptionalText(const JsonView& view, std::string_view key, std::string& text) {
-  if (view.Has(key)) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
-    LARARIUM_ASSIGN_OR_RETURN(text, PlainText(field, true));
-  }
-  return Status();
+void DescribePlainText(Fields& fields, const Key& key, std::string& text, bool one_line = true) {
+  fields.Text(key, text, kMaxClaimText);
+  RequirePlain(fields, key, text, one_line);
 }
 
-// Calls parse(name, member) for each member of an object.
-template <typename Parse>
-Status ParseMembers(const JsonView& view, size_t max_count, Parse parse) {
-  if (!view.json().is_object() || view.json().size() > max_count) {
-    return view.Problem("must be an object of at most " + std::to_string(max_count) + " entries");
-  }
-  for (const auto& [name, ignored] : view.json().items()) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView member, view.Field(name));
-    const Json name_json = name;
-    const Result<std::string> plain = PlainText(JsonView(name_json, member.place()), true);
-    LARARIUM_RETURN_IF_ERROR(plain.status());
-    if (name.empty() || name.size() > kMaxParadataName) {
-      return view.Problem("has a name that is empty or longer than " +
-                          std::to_string(kMaxParadataName) + " bytes");
+void DescribeOptionalText(Fields& fields, std::string_view name, std::string& text) {
+  DescribePlainText(fields, Optional(name, !text.empty()), text);
+}
+
+// Describes an object whose members have names of the author's choice.
+template <typename Map, typename Describe>
+void DescribeNamed(Fields& fields, const Key& key, Map& map, size_t max_count, Describe describe) {
+  fields.Entries(key, map, max_count,
+                 "must be an object of at most " + std::to_string(max_count) + " entries",
+                 [&](const Key& name, auto& value) {
+                   RequirePlain(fields, name, name.name, true);
+                   fields.Require(!name.name.empty() && name.name.size() <= kMaxAuthorName,
+                                  "has a name that is empty or longer than " +
+                                      std::to_string(kMaxAuthorName) + " bytes");
+                   describe(name, value);
+                 });
+}
+
+void DescribeClaim(Fields& fields, const Paradata& paradata, Claim& claim) {
+  fields.Choice(Optional("certainty", claim.certainty != Certainty::kUnsaid), claim.certainty,
+                kCertainties, "\"certainty\" is '{}'",
+                "choose attested, inferred or imagined, or leave it out");
+  fields.List(Optional("source", !claim.sources.empty()), claim.sources, kMaxSources,
+              [&](const Key& key, std::string& source) {
+                fields.Text(key, source, kMaxAuthorName);
+                fields.RequireAt(key, paradata.sources.contains(source),
+                                 "there is no source '" + source + "'", "list it in \"sources\"");
+              });
+  DescribeOptionalText(fields, "author", claim.author);
+  DescribeOptionalText(fields, "licence", claim.licence);
+  DescribeNamed(fields, Optional("text", !claim.text.empty()), claim.text, kMaxLanguages,
+                [&](const Key& language, std::string& text) {
+                  fields.RequireAt(
+                      language, IsLanguageTag(language.name),
+                      "'" + std::string(language.name) + "' is not a valid language tag",
+                      "use one such as la, it or en");
+                  DescribePlainText(fields, language, text, false);
+                });
+}
+
+// The claims in the order of their subjects' names, as in a file. While writing, only subjects with
+// claims.
+void DescribeClaims(Fields& fields, Paradata& paradata) {
+  std::map<std::string, Paradata::Claims, std::less<>> by_subject;
+  for (size_t i = 0; i < kSubjectCount; ++i) {
+    if (!paradata.claims[i].empty()) {
+      by_subject[std::string(kSubjects[i])] = paradata.claims[i];
     }
-    LARARIUM_RETURN_IF_ERROR(parse(name, member));
   }
-  return Status();
+  DescribeNamed(fields, Optional("claims"), by_subject, kSubjectCount,
+                [&](const Key& subject, Paradata::Claims& claims) {
+                  const auto found = std::find(kSubjects.begin(), kSubjects.end(), subject.name);
+                  fields.RequireAt(subject, found != kSubjects.end(),
+                                   "there are no claims about '" + std::string(subject.name) + "'",
+                                   "use people, objects, lines, ... (docs/file-formats.md)");
+                  DescribeNamed(fields, subject, claims, kMaxClaims,
+                                [&](const Key& name, Claim& claim) {
+                                  fields.Object(name, claim, [&](Fields& object, Claim& value) {
+                                    DescribeClaim(object, paradata, value);
+                                  });
+                                });
+                  if (fields.reading() && found != kSubjects.end()) {
+                    paradata.claims[static_cast<size_t>(found - kSubjects.begin())] = claims;
+                  }
+                });
 }
 
-Status ParseCertainty(const JsonView& view, Claim& claim) {
-  if (!view.Has("certainty")) {
-    return Status();
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("certainty", kMaxParadataName));
-  const auto found = std::find(kCertainties.begin() + 1, kCertainties.end(), name);
-  if (found == kCertainties.end()) {
-    return view.Problem("\"certainty\" is '" + name + "'",
-                        "choose attested, inferred or imagined, or leave it out");
-  }
-  claim.certainty = static_cast<Certainty>(found - kCertainties.begin());
-  return Status();
-}
-
-Status ParseSourcesOf(const JsonView& view, const Paradata& paradata, Claim& claim) {
-  if (!view.Has("source")) {
-    return Status();
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("source"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> keys, field.Array(kMaxSources));
-  for (const JsonView& key : keys) {
-    LARARIUM_ASSIGN_OR_RETURN(std::string name, key.Text(kMaxParadataName));
-    if (!paradata.sources.contains(name)) {
-      return key.Problem("there is no source '" + name + "'", "list it in \"sources\"");
-    }
-    claim.sources.push_back(std::move(name));
-  }
-  return Status();
-}
-
-Result<Claim> ParseClaim(const JsonView& view, const Paradata& paradata) {
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"certainty", "source", "author", "licence", "text"}));
-  Claim claim;
-  LARARIUM_RETURN_IF_ERROR(ParseCertainty(view, claim));
-  LARARIUM_RETURN_IF_ERROR(ParseSourcesOf(view, paradata, claim));
-  LARARIUM_RETURN_IF_ERROR(ParseOptionalText(view, "author", claim.author));
-  LARARIUM_RETURN_IF_ERROR(ParseOptionalText(view, "licence", claim.licence));
-  if (view.Has("text")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView text, view.Field("text"));
-    LARARIUM_RETURN_IF_ERROR(ParseMembers(
-        text, kMaxLanguages, [&](const std::string& language, const JsonView& member) -> Status {
-          if (!IsLanguageTag(language)) {
-            return member.Problem("'" + language + "' is not a valid language tag",
-                                  "use one such as la, it or en");
-          }
-          LARARIUM_ASSIGN_OR_RETURN(claim.text[language], PlainText(member, false));
-          return Status();
-        }));
-  }
-  return claim;
-}
-
-Json FormatClaim(const Claim& claim) {
-  Json json = Json::object();
-  if (claim.certainty != Certainty::kUnsaid) {
-    json["certainty"] = NameOf(claim.certainty);
-  }
-  if (!claim.sources.empty()) {
-    json["source"] = claim.sources;
-  }
-  if (!claim.author.empty()) {
-    json["author"] = claim.author;
-  }
-  if (!claim.licence.empty()) {
-    json["licence"] = claim.licence;
-  }
-  for (const auto& [language, text] : claim.text) {
-    json["text"][language] = text;
-  }
-  return json;
+void DescribeParadata(Fields& fields, Paradata& paradata) {
+  fields.Schema(kSchema,
+                "was written by a newer Lararium (schema {}, this one reads up to " +
+                    std::to_string(kSchema) + ")",
+                "open it with that version");
+  DescribeNamed(
+      fields, Optional("sources"), paradata.sources, kMaxSources,
+      [&](const Key& key, std::string& reference) { DescribePlainText(fields, key, reference); });
+  DescribeOptionalText(fields, "author", paradata.author);
+  DescribeOptionalText(fields, "licence", paradata.licence);
+  DescribeClaims(fields, paradata);
 }
 
 }  // namespace
@@ -164,64 +146,15 @@ const Claim* Paradata::Find(Subject subject, std::string_view name) const {
 }
 
 Result<Paradata> ParseParadata(std::string_view text, const std::string& where) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json root, ParseJson(text, where));
-  const JsonView view(root, where);
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
-  if (schema > kSchema) {
-    return view.Problem("was written by a newer Lararium (schema " + std::to_string(schema) +
-                            ", this one reads up to " + std::to_string(kSchema) + ")",
-                        "open it with that version");
-  }
-  LARARIUM_RETURN_IF_ERROR(view.CheckFields({"schema", "sources", "author", "licence", "claims"}));
   Paradata paradata;
-  LARARIUM_RETURN_IF_ERROR(ParseOptionalText(view, "author", paradata.author));
-  LARARIUM_RETURN_IF_ERROR(ParseOptionalText(view, "licence", paradata.licence));
-  if (view.Has("sources")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView sources, view.Field("sources"));
-    LARARIUM_RETURN_IF_ERROR(ParseMembers(
-        sources, kMaxSources, [&](const std::string& key, const JsonView& member) -> Status {
-          LARARIUM_ASSIGN_OR_RETURN(paradata.sources[key], PlainText(member, true));
-          return Status();
-        }));
-  }
-  if (view.Has("claims")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView claims, view.Field("claims"));
-    LARARIUM_RETURN_IF_ERROR(ParseMembers(
-        claims, kSubjectCount, [&](const std::string& kind, const JsonView& member) -> Status {
-          const auto found = std::find(kSubjects.begin(), kSubjects.end(), kind);
-          if (found == kSubjects.end()) {
-            return member.Problem("there are no claims about '" + kind + "'",
-                                  "use people, objects, lines, ... (docs/file-formats.md)");
-          }
-          Paradata::Claims& of_kind =
-              paradata.claims[static_cast<size_t>(found - kSubjects.begin())];
-          return ParseMembers(
-              member, kMaxClaims, [&](const std::string& name, const JsonView& claim) -> Status {
-                LARARIUM_ASSIGN_OR_RETURN(of_kind[name], ParseClaim(claim, paradata));
-                return Status();
-              });
-        }));
-  }
+  LARARIUM_RETURN_IF_ERROR(
+      ReadFields(text, where, [&](Fields& fields) { DescribeParadata(fields, paradata); }));
   return paradata;
 }
 
 std::string FormatParadata(const Paradata& paradata) {
-  Json json = {{"schema", kSchema}, {"sources", Json::object()}, {"claims", Json::object()}};
-  for (const auto& [key, reference] : paradata.sources) {
-    json["sources"][key] = reference;
-  }
-  if (!paradata.author.empty()) {
-    json["author"] = paradata.author;
-  }
-  if (!paradata.licence.empty()) {
-    json["licence"] = paradata.licence;
-  }
-  for (size_t kind = 0; kind < kSubjectCount; ++kind) {
-    for (const auto& [name, claim] : paradata.claims[kind]) {
-      json["claims"][std::string(kSubjects[kind])][name] = FormatClaim(claim);
-    }
-  }
-  return json.dump(1) + "\n";
+  Paradata written = paradata;
+  return WriteFields([&](Fields& fields) { DescribeParadata(fields, written); }).dump(1) + "\n";
 }
 
 }  // namespace lararium::stage

@@ -33,7 +33,7 @@ class CastCommands : public testing::Test {
     return RunCast(options);
   }
   std::string Problem(CastOptions options) { return Run(std::move(options)).status().message(); }
-  Json Saved(size_t index) { return FormatCastMember(LoadProject(paths_)->cast.at(index)); }
+  Json Saved(size_t index) { return FormatFields(LoadProject(paths_)->cast.at(index)); }
 
   const test::TemporaryFolder folder_;
   const ProjectPaths paths_{folder_ / "tavern.lararium"};

@@ -18,15 +18,15 @@ TEST(CastDocument, KeepsBonesNamedByHand) {
   member.name = "guest";
   member.model = "guest.glb";
   member.bones = {{"l_hip", "Bone.1"}, {"r_thumb1", ""}};
-  const Json json = FormatCastMember(member);
-  const Result<CastDocument> read = ParseCastMember(JsonView(json, "project.json"));
+  const Json json = FormatFields(member);
+  const Result<CastDocument> read = ParseFields<CastDocument>(JsonView(json, "project.json"));
   ASSERT_TRUE(read.ok()) << read.message();
   EXPECT_EQ(read->bones, member.bones);
 }
 
 TEST(CastDocument, RefusesJointsThatPeopleHaveNot) {
   const Json json = {{"name", "guest"}, {"model", "guest.glb"}, {"bones", {{"l_wing", "Bone"}}}};
-  const Result<CastDocument> read = ParseCastMember(JsonView(json, "project.json"));
+  const Result<CastDocument> read = ParseFields<CastDocument>(JsonView(json, "project.json"));
   ASSERT_FALSE(read.ok());
   EXPECT_THAT(read.message(), HasSubstr("l_wing"));
 }

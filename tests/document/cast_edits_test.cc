@@ -17,7 +17,7 @@ CastDocument Ada() {
   return ada;
 }
 
-Json Clips(const CastDocument& member) { return FormatCastMember(member)["clips"]; }
+Json Clips(const CastDocument& member) { return FormatFields(member)["clips"]; }
 
 TEST(CastEdits, AClipIsRenamedInItsPlaceAndKeepsTheRest) {
   CastDocument ada = Ada();

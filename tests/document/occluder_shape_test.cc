@@ -237,23 +237,24 @@ TEST(OccluderShape, IsWrittenWithTheSizesOfItsKindAlone) {
   for (const ShapeEntry& entry : ShapeEntries()) {
     OccluderShape shape = entry.usual;
     shape.height = 4.25;
-    const Json json = FormatShape(shape);
+    const Json json = FormatFields(shape);
     EXPECT_EQ(json.size(), entry.sizes.size() + 1);
-    const auto read = ParseShape(JsonView(json, "shape"));
+    const auto read = ParseFields<OccluderShape>(JsonView(json, "shape"));
     ASSERT_TRUE(read.ok()) << read.message();
     EXPECT_EQ(read->kind, shape.kind);
     for (const ShapeSize& size : entry.sizes) {
       EXPECT_EQ((*read).*size.value, shape.*size.value) << entry.name << " " << size.name;
       Json without = json;
       without.erase(size.name);
-      EXPECT_THAT(ParseShape(JsonView(without, "shape")).message(), HasSubstr(size.name));
+      EXPECT_THAT(ParseFields<OccluderShape>(JsonView(without, "shape")).message(),
+                  HasSubstr(size.name));
     }
     Json more = json;
     more["girth"] = 1.0;
-    EXPECT_THAT(ParseShape(JsonView(more, "shape")).message(), HasSubstr("girth"));
+    EXPECT_THAT(ParseFields<OccluderShape>(JsonView(more, "shape")).message(), HasSubstr("girth"));
   }
   const Json cone = {{"kind", "cone"}, {"height", 1}};
-  EXPECT_THAT(ParseShape(JsonView(cone, "shape")).message(), HasSubstr("use box"));
+  EXPECT_THAT(ParseFields<OccluderShape>(JsonView(cone, "shape")).message(), HasSubstr("use box"));
 }
 
 TEST(FloorBefore, IsWhereTheCameraLooksButNeitherTooNearNorTooFar) {

@@ -170,20 +170,6 @@ TEST(Project, SaysHowToMakeOneWhereThereIsNone) {
   EXPECT_THAT(LoadProject({folder.path()}).message(), HasSubstr("lararium-editor new"));
 }
 
-TEST(Project, TheOneProbeOfOlderProjectsIsAListOfOne) {
-  Json json = FormatProject(FullDocument());
-  Json& place = json["places"][0];
-  place["probe"] = {{"file", "old.exr"}, {"rotation", {1, 0, 0, 0}}, {"scale", 0.7}};
-  EXPECT_THAT(ParseError(json).message(), HasSubstr("together with \"probes\""));
-  place.erase("probes");
-  const Result<ProjectDocument> read = ParseProject(json, "project.json");
-  ASSERT_TRUE(read.ok()) << read.message();
-  ASSERT_EQ(read->places[0].probes.size(), 1u);
-  EXPECT_EQ(read->places[0].probes[0].name, "probe");
-  EXPECT_EQ(read->places[0].probes[0].file, "old.exr");
-  EXPECT_EQ(read->places[0].probes[0].scale, 0.7);
-}
-
 TEST(Project, RefusesWhatANewerVersionWrote) {
   Json json = FormatProject(FullDocument());
   json["schema"] = kProjectSchema + 1;

@@ -17,19 +17,19 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (!json.ok()) {
     return 0;
   }
-  const auto response = ParseCameraResponse(JsonView(*json, "fuzz.json"));
+  const auto response = ParseFields<CameraResponse>(JsonView(*json, "fuzz.json"));
   if (response.ok()) {
     CHECK(response->Validate("fuzz.json").ok());
     const FittedKnee knee = FitKnee(*response);
     CHECK(knee.knee > 0.0f && knee.knee <= 1.0f && std::isfinite(knee.residual));
-    const Json again = FormatCameraResponse(*response);
-    CHECK(ParseCameraResponse(JsonView(again, "fuzz.json")).ok());
+    const Json again = FormatFields(*response);
+    CHECK(ParseFields<CameraResponse>(JsonView(again, "fuzz.json")).ok());
   }
-  const auto traits = ParseCameraTraits(JsonView(*json, "fuzz.json"));
+  const auto traits = ParseFields<CameraTraits>(JsonView(*json, "fuzz.json"));
   if (traits.ok()) {
     CHECK(traits->width > 0 && std::isfinite(traits->blur_px));
-    const Json again = FormatCameraTraits(*traits);
-    CHECK(ParseCameraTraits(JsonView(again, "fuzz.json")).value() == *traits);
+    const Json again = FormatFields(*traits);
+    CHECK(ParseFields<CameraTraits>(JsonView(again, "fuzz.json")).value() == *traits);
   }
   return 0;
 }

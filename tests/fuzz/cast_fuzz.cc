@@ -23,9 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       }
     }
   }
-  if (const auto recipe = import::ParseCastRecipe(root); recipe.ok()) {
-    const Json written = import::ToJson(*recipe);
-    CHECK(import::ParseCastRecipe(JsonView(written, "again")).ok());
+  if (const auto recipe = ParseFields<import::CastRecipe>(root); recipe.ok()) {
+    const Json written = FormatFields(*recipe);
+    CHECK(ParseFields<import::CastRecipe>(JsonView(written, "again")).ok());
   }
   return 0;
 }

@@ -8,7 +8,7 @@ namespace {
 Result<CastRecipe> Parse(const std::string& text) {
   const auto json = ParseJson(text, "person.json");
   EXPECT_TRUE(json.ok());
-  return ParseCastRecipe(JsonView(*json, "person.json"));
+  return ParseFields<CastRecipe>(JsonView(*json, "person.json"));
 }
 
 TEST(CastRecipe, ReadsWhatPeopleWrite) {
@@ -34,10 +34,10 @@ TEST(CastRecipe, ComesBackAsItWasWritten) {
       "modifiers": {"head-round": 0.5}, "skin": {"name": "young_caucasian_female"},
       "hair": {"name": "ponytail01", "colour": "#4b3018"}, "garments": [{"name": "tunic"}]})");
   ASSERT_TRUE(recipe.ok()) << recipe.message();
-  const Json written = ToJson(*recipe);
-  const auto again = ParseCastRecipe(JsonView(written, "again.json"));
+  const Json written = FormatFields(*recipe);
+  const auto again = ParseFields<CastRecipe>(JsonView(written, "again.json"));
   ASSERT_TRUE(again.ok()) << again.message();
-  EXPECT_EQ(ToJson(*again), written);
+  EXPECT_EQ(FormatFields(*again), written);
   EXPECT_EQ(again->modifiers, recipe->modifiers);
   EXPECT_EQ(again->hair->colour, recipe->hair->colour);
 }

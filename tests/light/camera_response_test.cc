@@ -30,8 +30,8 @@ TEST(CameraResponse, AShoulderIsFittedAgain) {
 
 TEST(CameraResponse, SurvivesBeingWritten) {
   const CameraResponse response = ShoulderResponse(0.5f);
-  const Json json = Json::parse(FormatCameraResponse(response).dump());
-  const auto parsed = ParseCameraResponse(JsonView(json, "camera"));
+  const Json json = Json::parse(FormatFields(response).dump());
+  const auto parsed = ParseFields<CameraResponse>(JsonView(json, "camera"));
   ASSERT_TRUE(parsed.ok()) << parsed.message();
   EXPECT_EQ(parsed->linear, response.linear);
 }
@@ -40,11 +40,11 @@ TEST(CameraResponse, RefusesCurvesThatFallAndWrongSizes) {
   CameraResponse response = SrgbResponse();
   response.linear[1][100] = 2.0f;
   EXPECT_FALSE(response.Validate("camera").ok());
-  Json json = FormatCameraResponse(response);
-  EXPECT_FALSE(ParseCameraResponse(JsonView(json, "camera")).ok());
-  json = FormatCameraResponse(SrgbResponse());
+  Json json = FormatFields(response);
+  EXPECT_FALSE(ParseFields<CameraResponse>(JsonView(json, "camera")).ok());
+  json = FormatFields(SrgbResponse());
   json["g"].erase(0);
-  EXPECT_FALSE(ParseCameraResponse(JsonView(json, "camera")).ok());
+  EXPECT_FALSE(ParseFields<CameraResponse>(JsonView(json, "camera")).ok());
   EXPECT_FALSE(CameraResponse().Validate("camera").ok());
 }
 

@@ -12,25 +12,25 @@ namespace {
 const CameraTraits kTraits = {640, 0.01f, 0.0005f, 0.75f, 0.625f, 0.5f};
 
 std::string Error(const Json& json) {
-  return ParseCameraTraits(JsonView(json, "device.json", "look")).status().message();
+  return ParseFields<CameraTraits>(JsonView(json, "device.json", "look")).status().message();
 }
 
 TEST(CameraTraits, SurviveWritingAndReading) {
-  const Json json = FormatCameraTraits(kTraits);
-  EXPECT_EQ(ParseCameraTraits(JsonView(json, "test")).value(), kTraits);
+  const Json json = FormatFields(kTraits);
+  EXPECT_EQ(ParseFields<CameraTraits>(JsonView(json, "test")).value(), kTraits);
   CameraTraits learns = kTraits;
   learns.shutter.reset();
-  const Json shorter = FormatCameraTraits(learns);
-  EXPECT_EQ(ParseCameraTraits(JsonView(shorter, "test")).value(), learns);
+  const Json shorter = FormatFields(learns);
+  EXPECT_EQ(ParseFields<CameraTraits>(JsonView(shorter, "test")).value(), learns);
   CameraTraits measured = kTraits;
   measured.response = ShoulderResponse(0.7f);
-  const Json longer = Json::parse(FormatCameraTraits(measured).dump());
-  EXPECT_EQ(ParseCameraTraits(JsonView(longer, "test")).value(), measured);
+  const Json longer = Json::parse(FormatFields(measured).dump());
+  EXPECT_EQ(ParseFields<CameraTraits>(JsonView(longer, "test")).value(), measured);
 }
 
 TEST(CameraTraits, WhatIsImpossibleIsNamed) {
   const auto with = [](const char* key, const Json& value) {
-    Json json = FormatCameraTraits(kTraits);
+    Json json = FormatFields(kTraits);
     json[key] = value;
     return json;
   };
@@ -40,7 +40,7 @@ TEST(CameraTraits, WhatIsImpossibleIsNamed) {
   EXPECT_NE(Error(with("blur_px", 1e9)).find("blur_px"), std::string::npos);
   EXPECT_NE(Error(with("knee", 0.0)).find("knee"), std::string::npos);
   EXPECT_NE(Error(with("shutter", 2.0)).find("shutter"), std::string::npos);
-  Json falls = FormatCameraResponse(SrgbResponse());
+  Json falls = FormatFields(SrgbResponse());
   falls["g"][100] = 2.0;
   EXPECT_NE(Error(with("response", falls)).find("falls"), std::string::npos);
   EXPECT_NE(Error(with("response", falls)).find("device.json: look.response"), std::string::npos);

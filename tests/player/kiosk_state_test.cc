@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "shared/core/json.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::player {
@@ -24,16 +25,26 @@ TEST(KioskState, ComesBackAsItWasSaved) {
 
 TEST(KioskState, WhatIsNoStateIsAnErrorThatSaysWhere) {
   const test::TemporaryFolder folder;
-  for (
-      const char* text :
-      {"", "{", "[]", "{\"schema\": 1}", "{\"schema\": 99}",
-       R"({"schema":1,"title":"","seconds":-1,"language":"","captions":"","volume":1})",
-       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":7})",
-       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"caption_size":"huge"})",
-       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"caption_contrast":1})",
-       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"descriptions":"on"})",
-       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"house":1})",
-       R"({"schema":1,"title":"","seconds":1,"language":"","captions":"","volume":1,"house":{}})"}) {
+  ASSERT_TRUE(SaveKioskState(folder.path(), {}).ok());
+  const Json saved = *LoadJson(folder / "state.json");
+  std::vector<std::string> texts = {"", "{", "[]", "{\"schema\": 1}", "{\"schema\": 99}"};
+  for (const auto& [name, wrong] : {std::pair<const char*, Json>{"seconds", -1},
+                                    {"volume", 7},
+                                    {"caption_size", "huge"},
+                                    {"caption_contrast", 1},
+                                    {"descriptions", "on"},
+                                    {"house", 1},
+                                    {"house", Json::object()}}) {
+    Json json = saved;
+    json[name] = wrong;
+    texts.push_back(json.dump());
+  }
+  for (const auto& [name, value] : saved.items()) {
+    Json json = saved;
+    json.erase(name);
+    texts.push_back(json.dump());
+  }
+  for (const std::string& text : texts) {
     std::ofstream(folder / "state.json", std::ios::trunc) << text;
     const auto state = LoadKioskState(folder.path());
     EXPECT_FALSE(state.ok()) << text;

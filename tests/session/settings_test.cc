@@ -55,16 +55,18 @@ TEST_P(DamagedSettings, AreToldOfOnceAndMovedAside) {
 INSTANTIATE_TEST_SUITE_P(
     Files,
     DamagedSettings,
-    testing::Values("",
-                    "7",
-                    R"({"schema": 2, "theme": "dark", "scale": 1})",
-                    R"({"schema": 1, "theme": "pink", "scale": 1})",
-                    R"({"schema": 1, "theme": "dark", "scale": 40})",
-                    R"({"schema": 1, "theme": "dark", "scale": "1"})",
-                    R"({"schema": 1, "theme": "dark", "scale": 1, "language": "xx"})",
-                    R"({"schema": 1, "theme": "dark", "scale": 1, "language": 7})",
-                    R"({"schema": 1, "theme": "dark"})",
-                    R"({"schema": 1, "theme": "dark", "scale": 1, "sound": true})"));
+    testing::Values(
+        "",
+        "7",
+        R"({"schema": 2, "theme": "dark", "scale": 1, "language": ""})",
+        R"({"schema": 1, "theme": "pink", "scale": 1, "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": 40, "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": "1", "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": 1, "language": "xx"})",
+        R"({"schema": 1, "theme": "dark", "scale": 1, "language": 7})",
+        R"({"schema": 1, "theme": "dark", "language": ""})",
+        R"({"schema": 1, "theme": "dark", "scale": 1})",
+        R"({"schema": 1, "theme": "dark", "scale": 1, "language": "", "sound": true})"));
 
 }  // namespace
 }  // namespace lararium::editor

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 Result<Acoustics> Parse(const char* text) {
   const Json json = Json::parse(text);
-  return ParseAcoustics(JsonView(json, "place"));
+  return ParseFields<Acoustics>(JsonView(json, "place"));
 }
 
 TEST(Acoustics, SurvivesARoundTrip) {
@@ -20,10 +20,10 @@ TEST(Acoustics, SurvivesARoundTrip) {
   acoustics.reverb = Reverb::kStoneRoom;
   acoustics.reverb_db = -3.0f;
   acoustics.ambience = {{"street", -6.0f, std::nullopt}, {"fountain", 2.0f, glm::vec3(1, 2, 3)}};
-  const Json json = FormatAcoustics(acoustics);
-  const auto parsed = ParseAcoustics(JsonView(json, "place"));
+  const Json json = FormatFields(acoustics);
+  const auto parsed = ParseFields<Acoustics>(JsonView(json, "place"));
   ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_EQ(FormatAcoustics(*parsed), json);
+  EXPECT_EQ(FormatFields(*parsed), json);
   EXPECT_EQ(parsed->ambience[1].position, glm::vec3(1, 2, 3));
   EXPECT_FALSE(parsed->ambience[0].position.has_value());
 }

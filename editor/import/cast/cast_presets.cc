@@ -23,7 +23,7 @@ Result<CastRecipe> LoadCastPreset(std::string_view name) {
     if (NameOf(text) == name) {
       const std::string place = "preset " + std::string(name);
       LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text.text, place));
-      return ParseCastRecipe(JsonView(json, place));
+      return ParseFields<CastRecipe>(JsonView(json, place));
     }
     known += (known.empty() ? "" : ", ") + std::string(NameOf(text));
   }

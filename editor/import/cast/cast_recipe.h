@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {
@@ -67,8 +68,7 @@ struct CastRecipe {
   uint64_t seed = 1;
 };
 
-Result<CastRecipe> ParseCastRecipe(const JsonView& root);
+void DescribeFields(Fields& fields, CastRecipe& recipe);
 Result<CastRecipe> LoadCastRecipe(const std::filesystem::path& file);
-Json ToJson(const CastRecipe& recipe);
 
 }  // namespace lararium::import

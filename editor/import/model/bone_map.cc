@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -452,33 +453,36 @@ std::string Preview(const Rig& rig, const BoneMap& map) {
   return text.str();
 }
 
-Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json parsed, ParseJson(json, where));
-  const JsonView root(parsed, std::string(where));
-  LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView bones, root.Field("bones"));
-  return ParseBoneNames(bones);
+namespace {
+
+void DescribeMapFile(Fields& fields, BoneNames& names) {
+  fields.Schema(1);
+  DescribeBoneNames(fields, "bones", names);
 }
 
-Result<BoneNames> ParseBoneNames(const JsonView& bones) {
-  if (!bones.json().is_object()) {
-    return bones.Problem("must be an object of joints and their bones");
-  }
+}  // namespace
+
+Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where) {
   BoneNames names;
-  std::set<std::string> seen;
-  for (const auto& [joint, bone] : bones.json().items()) {
-    if (!KnownJoints().contains(joint)) {
-      return bones.Problem(
-          "'" + joint.substr(0, 64) + "' is not a joint of H-Anim that people have",
-          "see the table that the import prints");
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const std::string name, bones.Text(joint, 1024));
-    if (!name.empty() && !seen.insert(name).second) {
-      return bones.Problem("bone '" + name + "' is given to two joints");
-    }
-    names[joint] = name;
-  }
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      json, where, [&](Fields& fields) { DescribeMapFile(fields, names); },
+      UnknownFields::kIgnore));
   return names;
+}
+
+void DescribeBoneNames(Fields& fields, const Key& key, BoneNames& names) {
+  std::set<std::string> seen;
+  fields.Entries(
+      key, names, std::numeric_limits<size_t>::max(), "must be an object of joints and their bones",
+      [&](const Key& joint, std::string& bone) {
+        const std::string name(joint.name);
+        fields.Require(KnownJoints().contains(name),
+                       "'" + name.substr(0, 64) + "' is not a joint of H-Anim that people have",
+                       "see the table that the import prints");
+        fields.Text(joint, bone, 1024);
+        fields.Require(bone.empty() || seen.insert(bone).second,
+                       "bone '" + bone + "' is given to two joints");
+      });
 }
 
 Result<BoneNames> LoadBoneNames(const std::filesystem::path& file) {
@@ -487,7 +491,8 @@ Result<BoneNames> LoadBoneNames(const std::filesystem::path& file) {
 }
 
 Status SaveBoneNames(const std::filesystem::path& file, const BoneNames& names) {
-  return SaveJson(file, Json{{"schema", 1}, {"bones", names}});
+  BoneNames written = names;
+  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeMapFile(fields, written); }));
 }
 
 BoneNames NamesOf(const Rig& rig, const BoneMap& map) {

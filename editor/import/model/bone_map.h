@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shared/core/json_fwd.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/status.h"
 
 namespace lararium::import {
@@ -88,8 +88,8 @@ std::string Preview(const Rig& rig, const BoneMap& map);
 // Reads the file of a saved map: {"schema": 1, "bones": {"l_shoulder": "LeftArm", ...}}. Errors
 // name the field. An unknown H-Anim joint is an error.
 Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where);
-// Reads only the object "bones".
-Result<BoneNames> ParseBoneNames(const JsonView& bones);
+// Describes only the object "bones".
+void DescribeBoneNames(Fields& fields, const Key& key, BoneNames& names);
 Result<BoneNames> LoadBoneNames(const std::filesystem::path& file);
 Status SaveBoneNames(const std::filesystem::path& file, const BoneNames& names);
 BoneNames NamesOf(const Rig& rig, const BoneMap& map);

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/render/gl/texture_image.h"
 
 namespace lararium::render {
@@ -13,36 +14,41 @@ constexpr size_t kMaxGlyphs = 20'000;
 constexpr double kMaxEm = 10.0;  // limit on sizes of letters, em
 constexpr size_t kMaxMetrics = size_t{8} << 20;
 
-Result<glm::vec2> ReadPair(const JsonView& view, std::string_view key, double least, double most) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> numbers, view.Numbers(key, 2));
-  for (const double number : numbers) {
-    if (!(number >= least && number <= most)) {
-      return view.Problem("\"" + std::string(key) + "\" lies outside");
-    }
-  }
-  return glm::vec2(numbers[0], numbers[1]);
+void DescribePair(Fields& fields, std::string_view name, glm::vec2& pair, double min, double max) {
+  fields.Numbers(name, std::span(&pair.x, 2));
+  const auto [least, most] = std::minmax(pair.x, pair.y);
+  fields.Require(least >= min && most <= max, "\"" + std::string(name) + "\" lies outside");
 }
 
-Result<CaptionGlyph> ReadGlyph(const JsonView& view, const cv::Size& atlas) {
-  CaptionGlyph glyph;
+void DescribeGlyph(Fields& fields, const cv::Size& atlas, CaptionGlyph& glyph) {
   const double side = std::max(atlas.width, atlas.height);
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t character, view.Integer("character", 1, 0x10FFFF));
-  LARARIUM_ASSIGN_OR_RETURN(const double advance, view.Number("advance", 0.0, kMaxEm));
-  glyph.character = static_cast<uint32_t>(character);
-  glyph.advance = static_cast<float>(advance);
-  LARARIUM_ASSIGN_OR_RETURN(glyph.from, ReadPair(view, "from", -kMaxEm, kMaxEm));
-  LARARIUM_ASSIGN_OR_RETURN(glyph.to, ReadPair(view, "to", -kMaxEm, kMaxEm));
-  LARARIUM_ASSIGN_OR_RETURN(glyph.atlas_from, ReadPair(view, "atlas_from", 0.0, side));
-  LARARIUM_ASSIGN_OR_RETURN(glyph.atlas_to, ReadPair(view, "atlas_to", 0.0, side));
+  fields.Integer("character", glyph.character, 1, 0x10FFFF);
+  fields.Number("advance", glyph.advance, 0.0, kMaxEm);
+  DescribePair(fields, "from", glyph.from, -kMaxEm, kMaxEm);
+  DescribePair(fields, "to", glyph.to, -kMaxEm, kMaxEm);
+  DescribePair(fields, "atlas_from", glyph.atlas_from, 0.0, side);
+  DescribePair(fields, "atlas_to", glyph.atlas_to, 0.0, side);
   const bool inside = glyph.atlas_from.x <= glyph.atlas_to.x &&
                       glyph.atlas_from.y <= glyph.atlas_to.y &&
                       glyph.atlas_to.x <= static_cast<float>(atlas.width) &&
                       glyph.atlas_to.y <= static_cast<float>(atlas.height) &&
                       glyph.from.x <= glyph.to.x && glyph.from.y <= glyph.to.y;
-  if (!inside) {
-    return view.Problem("its rectangle does not lie in the atlas");
-  }
-  return glyph;
+  fields.Require(inside, "its rectangle does not lie in the atlas");
+}
+
+// The glyphs lie in the font's atlas.
+void DescribeMetrics(Fields& fields, CaptionFont& font) {
+  fields.Schema(1);
+  fields.Number("em_px", font.em_px, 4.0, 1000.0);
+  fields.Number("rim_px", font.rim_px, 1.0, 100.0);
+  fields.Number("ascent", font.ascent, 0.0, kMaxEm);
+  fields.Number("descent", font.descent, 0.0, kMaxEm);
+  uint32_t before = 0;
+  fields.List("glyphs", font.glyphs, kMaxGlyphs, [&](Fields& entry, CaptionGlyph& glyph) {
+    DescribeGlyph(entry, font.atlas.size(), glyph);
+    entry.Require(glyph.character > before, "the characters do not ascend");
+    before = glyph.character;
+  });
 }
 
 }  // namespace
@@ -60,45 +66,18 @@ Result<CaptionFont> ParseCaptionFont(std::string_view metrics,
   if (metrics.size() > kMaxMetrics) {
     return Status::Error(where, "is longer than 8 MiB");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(metrics, where));
-  const JsonView root(json, where);
-  LARARIUM_RETURN_IF_ERROR(root.Integer("schema", 1, 1).status());
   CaptionFont font;
-  LARARIUM_ASSIGN_OR_RETURN(const double em, root.Number("em_px", 4.0, 1000.0));
-  LARARIUM_ASSIGN_OR_RETURN(const double rim, root.Number("rim_px", 1.0, 100.0));
-  LARARIUM_ASSIGN_OR_RETURN(const double ascent, root.Number("ascent", 0.0, kMaxEm));
-  LARARIUM_ASSIGN_OR_RETURN(const double descent, root.Number("descent", 0.0, kMaxEm));
-  font.em_px = static_cast<float>(em);
-  font.rim_px = static_cast<float>(rim);
-  font.ascent = static_cast<float>(ascent);
-  font.descent = static_cast<float>(descent);
   LARARIUM_ASSIGN_OR_RETURN(const cv::Mat bgra, DecodeTexture(atlas, where + ": atlas"));
   cv::extractChannel(bgra, font.atlas, 0);
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView glyphs, root.Field("glyphs"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, glyphs.Array(kMaxGlyphs));
-  for (const JsonView& item : list) {
-    LARARIUM_ASSIGN_OR_RETURN(const CaptionGlyph glyph, ReadGlyph(item, font.atlas.size()));
-    if (!font.glyphs.empty() && glyph.character <= font.glyphs.back().character) {
-      return item.Problem("the characters do not ascend");
-    }
-    font.glyphs.push_back(glyph);
-  }
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      metrics, where, [&](Fields& fields) { DescribeMetrics(fields, font); },
+      UnknownFields::kIgnore));
   return font;
 }
 
 std::string FormatCaptionMetrics(const CaptionFont& font) {
-  const auto pair = [](const glm::vec2& v) { return Json::array({v.x, v.y}); };
-  Json json = {{"schema", 1},           {"em_px", font.em_px},     {"rim_px", font.rim_px},
-               {"ascent", font.ascent}, {"descent", font.descent}, {"glyphs", Json::array()}};
-  for (const CaptionGlyph& glyph : font.glyphs) {
-    json["glyphs"].push_back({{"character", glyph.character},
-                              {"advance", glyph.advance},
-                              {"from", pair(glyph.from)},
-                              {"to", pair(glyph.to)},
-                              {"atlas_from", pair(glyph.atlas_from)},
-                              {"atlas_to", pair(glyph.atlas_to)}});
-  }
-  return json.dump() + "\n";
+  CaptionFont written = font;
+  return WriteFields([&](Fields& fields) { DescribeMetrics(fields, written); }).dump() + "\n";
 }
 
 uint32_t NextCharacter(std::string_view text, size_t& at) {
