@@ -26,9 +26,6 @@ int VisibilityCount(const LightTransfer& transfer) { return std::min(transfer.co
 // not removed. Half of it came nearest to path-traced poses in measurements.
 constexpr float kBrightening = 0.5f;
 
-// Lamps with a lower irradiance on a facing surface are skipped: less than one 8-bit step on white
-// skin.
-constexpr float kLeastLampIrradiance = 0.01f;
 // A sphere of this radius, centred this far above the feet, encloses a person; metres.
 constexpr float kBodyReach = 1.0f;
 
@@ -340,7 +337,7 @@ void PersonLight::AddLamps(const light::Spheres& others, std::span<const light::
   near_lamps_.clear();
   const glm::vec3 middle = stage_from_actor_ * glm::vec4(0.0f, kBodyReach, 0.0f, 1.0f);
   for (const light::Lamp& lamp : lamps) {
-    const float reach = light::ReachOf(lamp, kLeastLampIrradiance) + kBodyReach;
+    const float reach = light::ReachOf(lamp, light::kLeastLampIrradiance) + kBodyReach;
     if (near_lamps_.size() < light::kMaxLamps && glm::distance(lamp.position, middle) < reach) {
       near_lamps_.push_back(lamp);
     }
