@@ -61,21 +61,9 @@ light::ShRowsRgb RowsRgb(int count, size_t slots) {
   return {light::ShRows(count, slots), light::ShRows(count, slots), light::ShRows(count, slots)};
 }
 
-// The transfer vectors of one mesh.
-light::Transfer Unpack(const LightTransfer& transfer,
-                       std::vector<float> scale,
-                       std::vector<int8_t> coefficients,
-                       size_t vertices) {
-  return light::Transfer(light::TransferBytes{transfer.count, transfer.key_poses.size(), vertices,
-                                              std::move(scale), std::move(coefficients)});
-}
-
-UnpackedLight UnpackAll(const LightTransfer& light) {
-  UnpackedLight unpacked;
-  for (const LightTransfer::Mesh& mesh : light.meshes) {
-    unpacked.push_back(Unpack(light, mesh.scale, mesh.coefficients, mesh.receivers.size()));
-  }
-  return unpacked;
+// As TakeLight(), but leaves the vectors where they are.
+std::shared_ptr<const UnpackedLight> CopyLight(LightTransfer transfer) {
+  return TakeLight(transfer);
 }
 
 }  // namespace
@@ -83,8 +71,9 @@ UnpackedLight UnpackAll(const LightTransfer& light) {
 std::shared_ptr<const UnpackedLight> TakeLight(LightTransfer& transfer) {
   auto unpacked = std::make_shared<UnpackedLight>();
   for (LightTransfer::Mesh& mesh : transfer.meshes) {
-    unpacked->push_back(Unpack(transfer, std::exchange(mesh.scale, {}),
-                               std::exchange(mesh.coefficients, {}), mesh.receivers.size()));
+    unpacked->push_back(light::Transfer(
+        light::TransferBytes{transfer.count, transfer.key_poses.size(), mesh.receivers.size(),
+                             std::exchange(mesh.scale, {}), std::exchange(mesh.coefficients, {})}));
   }
   return unpacked;
 }
@@ -96,9 +85,7 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human,
       receivers_(human_->light.receivers),
       skin_(human_->skeleton.size(), glm::mat4(1.0f)),
       receiver_light_(human_->light.count, human_->light.receivers.size()),
-      transfers_(light != nullptr
-                     ? std::move(light)
-                     : std::make_shared<const UnpackedLight>(UnpackAll(human_->light))),
+      transfers_(light != nullptr ? std::move(light) : CopyLight(human_->light)),
       used_light_(receiver_light_) {
   CHECK(transfers_->size() == human_->light.meshes.size());
   const size_t slots = receiver_light_.receivers();
