@@ -82,7 +82,7 @@ bool ShowSession::KeepGoing(double longest_work) {
     heartbeat_.Beat();
   }
   if (options_.pace == Pace::kRealtime) {
-    show_->SetHour(HourNow());
+    show_->input().SetHour(HourNow());
   }
   return keep_going;
 }
@@ -95,7 +95,7 @@ void ShowSession::SetLevel(size_t level) {
   heartbeat_.BeatBeforeLongWork();  // drivers may have to compile shaders
   const render::Quality& quality = QualityOf(level);
   renderer_->SetQuality(quality);
-  show_->SetQuality(quality);
+  show_->detail().SetQuality(quality);
 }
 
 void ShowSession::ChooseQuality(SteadyClock::time_point now,
@@ -106,7 +106,7 @@ void ShowSession::ChooseQuality(SteadyClock::time_point now,
   }
   const double time = Seconds(now);
   const size_t before = quality_->level();
-  if (staged.camera_from_stage) {
+  if (staged.camera.camera_from_stage) {
     quality_->AddFrame(time, work_ms);
   }
   if (const std::optional<show::PowerState> power = power_->Take()) {
@@ -124,11 +124,11 @@ void ShowSession::AddTimes(const show::StagedFrame& staged, SteadyClock::time_po
   const auto milliseconds = [](SteadyClock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
   };
-  statistics_.located_age.Add(milliseconds(staged.located - staged.arrival));
-  statistics_.staged_age.Add(milliseconds(staged.staged - staged.arrival));
-  statistics_.drawn_age.Add(milliseconds(drawn - staged.arrival));
-  statistics_.shown_age.Add(milliseconds(now - staged.arrival));
-  statistics_.total.Add(milliseconds(now - staged.arrival));
+  statistics_.located_age.Add(milliseconds(staged.times.located - staged.times.arrival));
+  statistics_.staged_age.Add(milliseconds(staged.times.staged - staged.times.arrival));
+  statistics_.drawn_age.Add(milliseconds(drawn - staged.times.arrival));
+  statistics_.shown_age.Add(milliseconds(now - staged.times.arrival));
+  statistics_.total.Add(milliseconds(now - staged.times.arrival));
   if (drawn_frames_ == 0) {
     statistics_.startup_seconds = Seconds(now);
   } else {
@@ -188,7 +188,7 @@ Status ShowSession::DrawFrame(show::StagedFrame& staged) {
   AddTimes(staged, drawn);
   faults_.AfterFrame(staged.tracked);
   draw_ms_ = std::chrono::duration<double, std::milli>(drawn - begin).count();
-  ChooseQuality(last_shown_, staged, std::max(draw_ms_, staged.stage_ms));
+  ChooseQuality(last_shown_, staged, std::max(draw_ms_, staged.times.stage_ms));
   heartbeat_.Beat();
   AfterFrame(staged);
   TellStaff(staged);

@@ -170,7 +170,7 @@ Status ShowSession::Prepare() {
   TellKiosk();
   TellShow();
   if (kiosk_ && kiosk_->ResumeAt(content.title) > 0.0) {
-    show_->RestartAt(kiosk_->ResumeAt(content.title));
+    show_->input().RestartAt(kiosk_->ResumeAt(content.title));
   }
   SetLevel(level());
   LARARIUM_ASSIGN_OR_RETURN(recorder_, Recorder::Create(options_, *source_, shown(), *show_));
@@ -258,7 +258,7 @@ Status ShowSession::ChangeLanguages() {
   shown_languages_ = next_languages_;
   TellKiosk();
   TellShow();
-  show_->SetQuality(QualityOf(level()));
+  show_->detail().SetQuality(QualityOf(level()));
   OpenSound();
   log_.info("language '{}', captions '{}'", shown_languages_.spoken, shown_languages_.captions);
   menu_.SetItems(ItemsOf(show_->content(), choices_));

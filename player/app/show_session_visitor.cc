@@ -18,7 +18,7 @@ constexpr std::string_view kLeaveKey = "escape";
 
 void ShowSession::PressKeys() {
   for (const std::string& message : osc_ != nullptr ? osc_->Take() : std::vector<std::string>()) {
-    show_->PressKey(message);
+    show_->input().PressKey(message);
   }
   for (const std::string& key : screen_->TakeKeys()) {
     if (key == kEvidenceKey) {
@@ -42,7 +42,7 @@ void ShowSession::PressKey(const std::string& key) {
   if (pressed.taken) {
     return;
   }
-  show_->PressKey(key);
+  show_->input().PressKey(key);
   if (const std::optional<Action> action = device_.buttons.ActionOf(key)) {
     Do(*action);
   }
@@ -57,12 +57,12 @@ void ShowSession::Do(Action action) {
       if (kiosk_) {
         kiosk_->BeginAgain(Seconds(SteadyClock::now()), *show_);
       } else {
-        show_->RestartAt(0.0);
+        show_->input().RestartAt(0.0);
       }
       break;
     case Action::kFindAnew:
       poses_->Relocalize();
-      show_->ForgetPose();
+      show_->input().ForgetPose();
       break;
     case Action::kMenu:
       ToggleMenu();
@@ -140,7 +140,7 @@ void ShowSession::TellStaff(const show::StagedFrame& staged) {
 void ShowSession::FillStaffState(const show::StagedFrame& staged, StaffState& state) const {
   const show::ShowContent& content = show_->content();
   state.title = content.title;
-  state.place = content.places[staged.place].stage.name;
+  state.place = content.places[staged.camera.place].stage.name;
   state.length = story_length_ > 0.0 ? std::optional(story_length_) : std::nullopt;
   state.kiosk = kiosk_.has_value();
   state.visitor = kiosk_ ? std::optional(kiosk_->visited()) : std::nullopt;
@@ -169,7 +169,7 @@ void ShowSession::ToggleMenu() {
 void ShowSession::ShowMenu(const show::StagedFrame& staged) {
   const bool tracked = staged.tracked.camera_from_map.has_value();
   if (const std::optional<Action> action = menu_.Look(
-          Seconds(SteadyClock::now()), tracked ? staged.camera_from_stage : std::nullopt)) {
+          Seconds(SteadyClock::now()), tracked ? staged.camera.camera_from_stage : std::nullopt)) {
     Do(*action);
   }
   ShowMenuTo(renderer_->PictureOf(staged.tracked.camera, size_.width, size_.height)
@@ -190,8 +190,8 @@ void ShowSession::TellKiosk() {
 
 // Applies the choices that do not need another show.
 void ShowSession::TellShow() {
-  show_->SetDescriptions(choices_.descriptions);
-  show_->SetReducedMotion(choices_.reduced_motion);
+  show_->input().SetDescriptions(choices_.descriptions);
+  show_->input().SetReducedMotion(choices_.reduced_motion);
 }
 
 void ShowSession::ShowToStaff() {

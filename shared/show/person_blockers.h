@@ -52,7 +52,7 @@ class PersonBlockers {
 
   void MergeGroups();
 
-  std::vector<human::LightTransfer::Blocker> blockers_;  // Those of one group are contiguous.
+  std::vector<human::LightTransfer::Blocker> blockers_;  // Blockers of one group are contiguous.
   std::vector<Group> groups_;
   SphereSet spheres_;                                         // Parallel to blockers_.
   glm::vec3 low_ = glm::vec3(0.0f), high_ = glm::vec3(0.0f);  // Bounding box of spheres_.

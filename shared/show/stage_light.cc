@@ -18,6 +18,10 @@ size_t CountVertices(const human::Human& human) {
 
 }  // namespace
 
+size_t LitVertices(const human::Human& human) {
+  return human.light.empty() ? 0 : CountVertices(human);
+}
+
 StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
                        std::span<const std::shared_ptr<const UnpackedLight>> light) {
   for (size_t i = 0; i < cast.size(); ++i) {
