@@ -61,7 +61,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
     video_index = std::max(index, video_index + 1);
     LARARIUM_RETURN_IF_ERROR(writer->Write(picture, video_index));
     ++report.frames;
-    report.tracked += staged.camera_from_stage.has_value() ? 1 : 0;
+    report.tracked += staged.camera.camera_from_stage.has_value() ? 1 : 0;
     progress.Report("rendering", std::min(report.frames / std::max(frame_count, 1.0), 1.0));
   }
   LARARIUM_RETURN_IF_ERROR(sound.Finish(1.0 / source->frames_per_second()));

@@ -103,10 +103,10 @@ class VirtualScene {
   static Result<std::vector<bake::SurfaceMesh>> Collect(const show::ShowContent& content,
                                                         const show::StagedFrame& staged) {
     std::vector<bake::SurfaceMesh> meshes;
-    for (const show::StagedActor& actor : staged.actors) {
+    for (const show::StagedActor& actor : staged.people.actors) {
       LARARIUM_RETURN_IF_ERROR(AddActor(*actor.figure, actor, staged, meshes));
     }
-    for (const show::StagedObject& object : staged.objects) {
+    for (const show::StagedObject& object : staged.things.objects) {
       LARARIUM_RETURN_IF_ERROR(
           AddObject(content.objects[object.object].model->prop(), object, staged, meshes));
     }
@@ -120,14 +120,15 @@ class VirtualScene {
                          std::vector<bake::SurfaceMesh>& meshes) {
     LARARIUM_ASSIGN_OR_RETURN(const bake::PosableSurface posable,
                               bake::PosableSurface::Create(human));
-    const std::span skin = std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count);
+    const std::span skin =
+        std::span(staged.people.skin).subspan(actor.skin_begin, actor.skin_count);
     std::vector<bake::SurfaceMesh> posed = posable.Pose(skin);
     for (uint32_t m = actor.mesh_begin; m < actor.mesh_begin + actor.mesh_count; ++m) {
-      const show::StagedMesh& moving = staged.meshes[m];
+      const show::StagedMesh& moving = staged.people.meshes[m];
       const std::span positions =
-          std::span(staged.positions).subspan(moving.vertex_begin, moving.vertex_count);
+          std::span(staged.people.positions).subspan(moving.vertex_begin, moving.vertex_count);
       const std::span normals =
-          std::span(staged.normals).subspan(moving.vertex_begin, moving.vertex_count);
+          std::span(staged.people.normals).subspan(moving.vertex_begin, moving.vertex_count);
       const uint32_t mesh = moving.mesh.mesh;
       if (moving.mesh.posed) {
         posed[mesh] = posable.PoseMesh(mesh, positions, normals);
@@ -156,9 +157,9 @@ class VirtualScene {
     size_t next = 0;
     for (size_t part = 0; part < prop.parts.size(); ++part) {
       for (size_t m = 0; m < prop.parts[part].meshes.size(); ++m, ++next) {
-        if (staged.part_shown[object.part_begin + part] != 0) {
+        if (staged.things.part_shown[object.part_begin + part] != 0) {
           meshes.push_back(
-              bake::Moved(staged.stage_from_part[object.part_begin + part], surfaces[next]));
+              bake::Moved(staged.things.stage_from_part[object.part_begin + part], surfaces[next]));
           meshes.back().emission *= object.glow;
         }
       }
@@ -364,10 +365,10 @@ Result<Drawn> Draw(const show::ShowContent& content,
   Drawn drawn;
   LARARIUM_RETURN_IF_ERROR(renderer->Draw(staged, target));
   target.ReadPixels(drawn.picture);
-  const auto pose = std::exchange(staged.camera_from_stage, std::nullopt);
+  const auto pose = std::exchange(staged.camera.camera_from_stage, std::nullopt);
   LARARIUM_RETURN_IF_ERROR(renderer->Draw(staged, target));
   target.ReadPixels(drawn.image);
-  staged.camera_from_stage = pose;
+  staged.camera.camera_from_stage = pose;
   return drawn;
 }
 
@@ -425,7 +426,7 @@ Result<CommandResult> RunSceneReference(const ReferenceOptions& options,
   show::StagedFrame staged;
   StageMoment(tracked, options.time, *show, staged);
 
-  const ReferenceView view = {tracked.camera.DisplayPinhole(), *staged.camera_from_stage};
+  const ReferenceView view = {tracked.camera.DisplayPinhole(), *staged.camera.camera_from_stage};
   LARARIUM_ASSIGN_OR_RETURN(const Drawn drawn, Draw(show->content(), staged, view.pinhole));
   LARARIUM_ASSIGN_OR_RETURN(std::vector<bake::SurfaceMesh> meshes,
                             VirtualScene::Collect(show->content(), staged));
@@ -440,13 +441,13 @@ Result<CommandResult> RunSceneReference(const ReferenceOptions& options,
   }
   const cv::Mat image = vision::LinearFromSrgb(drawn.image);
   if (tracing.has_real() && !options.video.empty()) {
-    LARARIUM_RETURN_IF_ERROR(FitAlbedo(image, staged.gain, tracing, progress));
+    LARARIUM_RETURN_IF_ERROR(FitAlbedo(image, staged.camera.gain, tracing, progress));
   }
   cv::Mat coverage;
   LARARIUM_ASSIGN_OR_RETURN(
       const cv::Mat traced,
-      TracedPicture(image, ShadowMask(show->content().places.front().stage, view), staged.gain,
-                    tracing, progress, coverage));
+      TracedPicture(image, ShadowMask(show->content().places.front().stage, view),
+                    staged.camera.gain, tracing, progress, coverage));
   const cv::Mat ours = vision::LinearFromSrgb(drawn.picture);
   const cv::Mat error = cv::abs(ours - traced) * 2.0;
   cv::Mat side_by_side;

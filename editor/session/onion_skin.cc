@@ -28,8 +28,8 @@ bool Moved(const show::StagedFrame& a,
            const show::StagedFrame& b,
            const show::StagedActor& of_b) {
   for (uint32_t i = 0; i < std::min(of_a.skin_count, of_b.skin_count); ++i) {
-    if (Moved(of_a.stage_from_actor * a.skin[of_a.skin_begin + i],
-              of_b.stage_from_actor * b.skin[of_b.skin_begin + i])) {
+    if (Moved(of_a.stage_from_actor * a.people.skin[of_a.skin_begin + i],
+              of_b.stage_from_actor * b.people.skin[of_b.skin_begin + i])) {
       return true;
     }
   }
@@ -41,8 +41,9 @@ bool Moved(const show::StagedFrame& a,
            const show::StagedFrame& b,
            const show::StagedObject& of_b) {
   for (uint32_t i = 0; i < std::min(of_a.part_count, of_b.part_count); ++i) {
-    if (a.part_shown[of_a.part_begin + i] != b.part_shown[of_b.part_begin + i] ||
-        Moved(a.stage_from_part[of_a.part_begin + i], b.stage_from_part[of_b.part_begin + i])) {
+    if (a.things.part_shown[of_a.part_begin + i] != b.things.part_shown[of_b.part_begin + i] ||
+        Moved(a.things.stage_from_part[of_a.part_begin + i],
+              b.things.stage_from_part[of_b.part_begin + i])) {
       return true;
     }
   }
@@ -68,15 +69,16 @@ std::vector<OnionMoment> OnionMoments(const OnionSkin& skin, double time) {
 }
 
 void RemoveUnmoved(const show::StagedFrame& now, show::StagedFrame& other) {
-  std::erase_if(other.actors, [&](const show::StagedActor& actor) {
-    return std::any_of(now.actors.begin(), now.actors.end(), [&](const auto& of_now) {
+  std::erase_if(other.people.actors, [&](const show::StagedActor& actor) {
+    return std::any_of(now.people.actors.begin(), now.people.actors.end(), [&](const auto& of_now) {
       return of_now.cast == actor.cast && !Moved(now, of_now, other, actor);
     });
   });
-  std::erase_if(other.objects, [&](const show::StagedObject& object) {
-    return std::any_of(now.objects.begin(), now.objects.end(), [&](const auto& of_now) {
-      return of_now.object == object.object && !Moved(now, of_now, other, object);
-    });
+  std::erase_if(other.things.objects, [&](const show::StagedObject& object) {
+    return std::any_of(
+        now.things.objects.begin(), now.things.objects.end(), [&](const auto& of_now) {
+          return of_now.object == object.object && !Moved(now, of_now, other, object);
+        });
   });
 }
 

@@ -46,7 +46,7 @@ class Preview::Worker {
             source_->live()};
   }
 
-  show::LodStreamer::Reading reading_finer() const { return show_->reading_finer(); }
+  show::LodStreamer::Reading reading_finer() const { return show_->detail().reading_finer(); }
 
   // Returns nullptr for a frame beyond the end.
   Result<std::shared_ptr<const PreviewPicture>> Draw(const PreviewRequest& request);
@@ -166,11 +166,11 @@ PreviewPicture Preview::Worker::Describe() const {
   picture.followed = staged_.tracked.followed;
   picture.confidence = staged_.tracked.confidence;
   picture.camera_from_map = staged_.tracked.camera_from_map;
-  picture.camera_from_stage = staged_.camera_from_stage;
-  picture.gain = staged_.gain;
+  picture.camera_from_stage = staged_.camera.camera_from_stage;
+  picture.gain = staged_.camera.gain;
   picture.trails = trails_.trails();
-  for (const show::StagedActor& actor : staged_.actors) {
-    const auto skin = staged_.skin.begin() + actor.skin_begin;
+  for (const show::StagedActor& actor : staged_.people.actors) {
+    const auto skin = staged_.people.skin.begin() + actor.skin_begin;
     picture.actors.push_back(
         {actor.figure, actor.stage_from_actor, {skin, skin + actor.skin_count}});
   }
@@ -178,7 +178,7 @@ PreviewPicture Preview::Worker::Describe() const {
 }
 
 Status Preview::Worker::Compare(PreviewPicture& picture) {
-  staged_.camera_from_stage.reset();  // People are not drawn without a pose.
+  staged_.camera.camera_from_stage.reset();  // People are not drawn without a pose.
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   target_->ReadPixels(picture.plain);
   return Status();
@@ -191,7 +191,7 @@ Status Preview::Worker::LayOnionSkin(const OnionSkin& skin,
   for (const OnionMoment& moment : OnionMoments(skin, staged_.time)) {
     LARARIUM_RETURN_IF_ERROR(show_->StageAtTime(staged_.time + moment.offset, staged_, other_));
     RemoveUnmoved(staged_, other_);
-    if (other_.actors.empty() && other_.objects.empty()) {
+    if (other_.people.actors.empty() && other_.things.objects.empty()) {
       continue;
     }
     render::SceneMark mark;
@@ -271,7 +271,7 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   if (!tracked_) {
     return std::shared_ptr<const PreviewPicture>();
   }
-  show_->SetDescriptions(request.descriptions);
+  show_->input().SetDescriptions(request.descriptions);
   show_->StageFrame(*tracked_, request.time, staged_);
   PlaySound(request.sound);
   renderer_->SetEvidence(request.evidence);
@@ -279,7 +279,7 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   PreviewPicture picture = Describe();
   picture.time = request.time;
   target_->ReadPixels(picture.bgr);
-  const bool onion = request.onion && staged_.camera_from_stage;
+  const bool onion = request.onion && staged_.camera.camera_from_stage;
   if (request.compare || onion) {
     renderer_->ReadCoverage(picture.coverage);
   }

@@ -54,7 +54,7 @@ int CountPeople(const show::ShowPlace& place,
       stage::CameraFromStage(place.stage, keyframe.camera_from_map);
   const geometry::CameraModel& camera = place.map->camera;
   int count = 0;
-  for (const show::StagedActor& actor : staged.actors) {
+  for (const show::StagedActor& actor : staged.people.actors) {
     const glm::vec3 middle = glm::vec3(actor.stage_from_actor[3]) + glm::vec3(0.0f, 1.0f, 0.0f);
     const std::optional<Eigen::Vector2d> pixel =
         camera.Project(camera_from_stage * geometry::ToEigen(middle));
@@ -85,7 +85,7 @@ class Stopwatch {
 
   // Measures pictures per second at a level of quality.
   Result<double> Measure(const render::Quality& quality) {
-    show_.SetQuality(quality);
+    show_.detail().SetQuality(quality);
     renderer_.SetQuality(quality);
     for (int i = 0; i < kFirstPictures; ++i) {
       LARARIUM_RETURN_IF_ERROR(Draw().status());
@@ -146,7 +146,7 @@ Status Measure(const show::ShowContent& content,
   }
   const std::span<const render::Quality> fader = render::QualityLadder();
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(content, {}, log));
-  show->SetPictureSize(probe.size.width, probe.size.height);
+  show->detail().SetPictureSize(probe.size.width, probe.size.height);
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext(graphics));
   LARARIUM_ASSIGN_OR_RETURN(const auto renderer,
                             show::ShowRenderer::Create(show->content(), fader.back()));

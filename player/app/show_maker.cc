@@ -52,8 +52,8 @@ Result<std::unique_ptr<show::Show>> ShowMaker::Make(show::ShowContent content) c
   }
   show::Show& show = **made;
   show.SetTrackingLossFader(lost_);
-  show.SetPictureSize(size_.width, size_.height, part_);
-  show.SetSeenAround(around_);
+  show.detail().SetPictureSize(size_.width, size_.height, part_);
+  show.detail().SetSeenAround(around_);
   if (visitor_) {
     show.drama().SetVisitorLog(*visitor_);
   }

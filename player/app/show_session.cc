@@ -136,7 +136,7 @@ Status ShowSession::Prepare() {
   controls_->SetShow(*show_);
   if (const Kiosk* kiosk = controls_->kiosk()) {
     if (const double time = kiosk->ResumeAt(content.title); time > 0.0) {
-      show_->RestartAt(time);
+      show_->input().RestartAt(time);
     }
   }
   ApplyQuality();
@@ -247,14 +247,14 @@ bool ShowSession::KeepGoing(double longest_work) {
     heartbeat_.Beat();
   }
   if (!lock_step()) {
-    show_->SetHour(HourNow());
+    show_->input().SetHour(HourNow());
   }
   return keep_going;
 }
 
 void ShowSession::TakeInput() {
   for (const std::string& message : osc_ != nullptr ? osc_->Take() : std::vector<std::string>()) {
-    show_->PressKey(message);
+    show_->input().PressKey(message);
   }
   for (const std::string& key : output_->screen().TakeKeys()) {
     controls_->PressKey(key, Now());
@@ -276,16 +276,16 @@ void ShowSession::SetVolume() {
 void ShowSession::ApplyQuality() {
   heartbeat_.BeatBeforeLongWork();  // drivers may have to compile shaders
   output_->renderer().SetQuality(quality_.quality());
-  show_->SetQuality(quality_.quality());
+  show_->detail().SetQuality(quality_.quality());
 }
 
 void ShowSession::AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn) {
   const SteadyClock::time_point now = SteadyClock::now();
-  statistics_.located_age.Add(Milliseconds(staged.located - staged.arrival));
-  statistics_.staged_age.Add(Milliseconds(staged.staged - staged.arrival));
-  statistics_.drawn_age.Add(Milliseconds(drawn - staged.arrival));
-  statistics_.shown_age.Add(Milliseconds(now - staged.arrival));
-  statistics_.total.Add(Milliseconds(now - staged.arrival));
+  statistics_.located_age.Add(Milliseconds(staged.times.located - staged.times.arrival));
+  statistics_.staged_age.Add(Milliseconds(staged.times.staged - staged.times.arrival));
+  statistics_.drawn_age.Add(Milliseconds(drawn - staged.times.arrival));
+  statistics_.shown_age.Add(Milliseconds(now - staged.times.arrival));
+  statistics_.total.Add(Milliseconds(now - staged.times.arrival));
   if (drawn_frames_ == 0) {
     statistics_.startup_seconds = Seconds(now);
   } else {
@@ -336,7 +336,7 @@ Status ShowSession::DrawFrame(show::StagedFrame& staged) {
   faults_.AfterFrame(staged.tracked);
   draw_ms_ = Milliseconds(drawn - begin);
   const std::optional<double> work_ms =
-      staged.camera_from_stage ? std::optional(std::max(draw_ms_, staged.stage_ms)) : std::nullopt;
+      staged.camera.camera_from_stage ? std::optional(std::max(draw_ms_, staged.times.stage_ms)) : std::nullopt;
   if (quality_.AfterFrame(Seconds(last_shown_), work_ms, log_)) {
     ApplyQuality();
   }
@@ -400,7 +400,7 @@ Status ShowSession::ChangeLanguages() {
   sound_.reset();
   show_ = std::move(*next);
   controls_->SetShow(*show_);
-  show_->SetQuality(quality_.quality());
+  show_->detail().SetQuality(quality_.quality());
   OpenSound();
   log_.info("language '{}', captions '{}'", languages.spoken, languages.captions);
   return output_->renderer().SetTexts(show_->content());

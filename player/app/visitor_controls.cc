@@ -90,7 +90,7 @@ void VisitorControls::PressKey(const std::string& key, double now) {
   if (pressed.taken) {
     return;
   }
-  show_->PressKey(key);
+  show_->input().PressKey(key);
   if (const std::optional<Action> action = buttons_.ActionOf(key)) {
     Do(*action, now);
   }
@@ -120,7 +120,7 @@ void VisitorControls::BeforeFrame(show::StagedFrame& staged, double now) {
   }
   const bool tracked = staged.tracked.camera_from_map.has_value();
   if (const std::optional<Action> action =
-          menu_.Look(now, tracked ? staged.camera_from_stage : std::nullopt)) {
+          menu_.Look(now, tracked ? staged.camera.camera_from_stage : std::nullopt)) {
     Do(*action, now);
   }
   const render::RenderTarget& picture = output_->picture();
@@ -147,7 +147,7 @@ void VisitorControls::AfterFrame(const show::StagedFrame& staged, double shown) 
 void VisitorControls::FillStaffState(const show::StagedFrame& staged, StaffState& state) const {
   const show::ShowContent& content = show_->content();
   state.title = content.title;
-  state.place = content.places[staged.place].stage.name;
+  state.place = content.places[staged.camera.place].stage.name;
   state.length = story_length_ > 0.0 ? std::optional(story_length_) : std::nullopt;
   state.kiosk = kiosk_.has_value();
   state.visitor = kiosk_ ? std::optional(kiosk_->visited()) : std::nullopt;
@@ -163,12 +163,12 @@ void VisitorControls::Do(Action action, double now) {
       if (kiosk_) {
         kiosk_->BeginAgain(now, *show_);
       } else {
-        show_->RestartAt(0.0);
+        show_->input().RestartAt(0.0);
       }
       break;
     case Action::kFindAnew:
       poses_->Relocalize();
-      show_->ForgetPose();
+      show_->input().ForgetPose();
       break;
     case Action::kMenu:
       ToggleMenu(now);
@@ -193,8 +193,8 @@ void VisitorControls::Change(const Choices& choices, double now) {
 // Applies the choices that do not need another show.
 void VisitorControls::ApplyChoices() {
   output_->renderer().SetCaptionStyle(choices_.caption_style);
-  show_->SetDescriptions(choices_.descriptions);
-  show_->SetReducedMotion(choices_.reduced_motion);
+  show_->input().SetDescriptions(choices_.descriptions);
+  show_->input().SetReducedMotion(choices_.reduced_motion);
   menu_.SetItems(ItemsOf(show_->content(), choices_));
 }
 

@@ -86,22 +86,22 @@ void Kiosk::Welcome(double now, show::Show& show) {
   log_.info("a visitor came: the show begins");
   visit_.Begin(now);
   new_visitor_ = true;
-  show.RestartAt(0.0);
+  show.input().RestartAt(0.0);
 }
 
 void Kiosk::BeforeFrame(show::StagedFrame& staged) const {
   if (!visit_.over()) {
     return;
   }
-  staged.opacity *= visit_.shown();
+  staged.camera.opacity *= visit_.shown();
   staged.lines.clear();
-  staged.guide.opacity = visit_.farewell();
-  staged.guide.says = show::StagedGuide::Says::kFarewell;
+  staged.camera.guide.opacity = visit_.farewell();
+  staged.camera.guide.says = show::StagedGuide::Says::kFarewell;
 }
 
 void Kiosk::AfterFrame(double now, const show::StagedFrame& staged, show::Show& show) {
   const bool tracked = staged.tracked.camera_from_map.has_value();
-  switch (watch_.Update(now, tracked ? staged.camera_from_stage : std::nullopt)) {
+  switch (watch_.Update(now, tracked ? staged.camera.camera_from_stage : std::nullopt)) {
     case VisitorWatch::Event::kCame:
       Welcome(now, show);
       break;
@@ -132,7 +132,7 @@ void Kiosk::Count(double now, const show::StagedFrame& staged) {
                   .noticed = watch_.noticed(),
                   .last_sign = watch_.last_sign(),
                   .tracked = staged.tracked.camera_from_map.has_value(),
-                  .people_went = staged.state == show::TrackingLossFader::State::kGone,
+                  .people_went = staged.camera.state == show::TrackingLossFader::State::kGone,
                   .drama_time = staged.time,
                   .story_length = story_length_},
                  statistics_.Day(today_));
@@ -160,7 +160,7 @@ void Kiosk::BeginAgain(double now, show::Show& show) {
     watch_.Leave();
     Touch(now, show);
   } else {
-    show.RestartAt(0.0);
+    show.input().RestartAt(0.0);
   }
 }
 

@@ -22,7 +22,7 @@ Status OpenXrDisplay::Draw(const show::StagedFrame& staged,
                            const std::function<void(const geometry::CameraModel&)>& before) {
   const auto delay = std::chrono::duration<double>(headset_.camera_delay);
   const SteadyClock::time_point taken =
-      staged.arrival - std::chrono::duration_cast<SteadyClock::duration>(delay);
+      staged.times.arrival - std::chrono::duration_cast<SteadyClock::duration>(delay);
   if (headset_.runtime_shows_room) {
     return DrawSeeThrough(staged, renderer, picture, taken, now, opacity, before);
   }
@@ -48,8 +48,8 @@ Status OpenXrDisplay::DrawSeeThrough(
     float opacity,
     const std::function<void(const geometry::CameraModel&)>& before) {
   const std::optional<geometry::Rigid3> room_from_camera = openxr_->RoomFromCamera(taken);
-  if (staged.camera_from_stage && room_from_camera) {
-    anchor_.Observe(*room_from_camera * *staged.camera_from_stage, now);
+  if (staged.camera.camera_from_stage && room_from_camera) {
+    anchor_.Observe(*room_from_camera * *staged.camera.camera_from_stage, now);
   }
   for (const Eye eye : {kLeft, kRight}) {
     const std::optional<EyeView> view = openxr_->ViewOf(eye, picture.width(), picture.height());

@@ -17,7 +17,7 @@ void StaffReporter::AfterFrame(const show::StagedFrame& staged,
   const double now = StaffLink::Now();
   const vision::TrackedFrame& tracked = staged.tracked;
   tally_.Add(now, tracked.camera_from_map.has_value(),
-             staged.state == show::TrackingLossFader::State::kGone);
+             staged.camera.state == show::TrackingLossFader::State::kGone);
   Mirror(now, picture);
   if (now - told_ < kTellEvery) {
     return;
@@ -27,7 +27,7 @@ void StaffReporter::AfterFrame(const show::StagedFrame& staged,
   state.seconds = staged.time;
   state.tracking = tracked.state;
   state.reason = tracked.reason;
-  state.lost_seconds = staged.lost_seconds;
+  state.lost_seconds = staged.camera.lost_seconds;
   state.confidence = tracked.confidence;
   state.tracked = tally_.since_start();
   state.tracked_minute = tally_.last_minute();

@@ -596,14 +596,14 @@ void Draw(const Model& model, State& state) {
   const float share = std::clamp(static_cast<float>(state.pending / double(kBeat)), 0.0f, 1.0f);
   const glm::mat3 actor_from_local = glm::mat3_cast(glm::conjugate(state.frame.turn));
   const float smooth = state.weight * state.weight * (3.0f - 2.0f * state.weight);
-  for (size_t i = 0; i < state.drawn.size(); ++i) {
+  for (size_t i = 0; i < state.drape.points.size(); ++i) {
     const glm::vec3 skin = actor_from_local * (state.frame.skin[i].xyz() - state.frame.place);
     const glm::vec3 offset =
         state.offsets[i] + (state.offsets[i] - state.offsets_before[i]) * share;
-    state.drawn[i] = skin + smooth * offset;
-    state.places[i] = Float4(state.drawn[i]);
+    state.drape.points[i] = skin + smooth * offset;
+    state.drape.places[i] = Float4(state.drape.points[i]);
   }
-  MeasureNormals(model, state);
+  MeasureNormals(model, state.drape);
 }
 
 void Fade(const ClothStep& step, State& state) {

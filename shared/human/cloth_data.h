@@ -155,6 +155,14 @@ struct ClothBody {
   glm::vec3 place = glm::vec3(0.0f);
 };
 
+// The particles as drawn, actor frame.
+struct ClothDrape {
+  std::vector<glm::vec3> points;
+  std::vector<Float4> places;            // The values of `points` as Float4.
+  std::vector<Float4> normals;           // Unit normals at the particles.
+  std::vector<Float4> triangle_normals;  // unit
+};
+
 struct ClothState::Data {
   // The simulation frame ("local") has the stage's axes, the actor's metres and an origin near the
   // actor.
@@ -190,10 +198,7 @@ struct ClothState::Data {
 
   std::vector<glm::vec3> offsets_before;  // Offsets from the skin, actor axes, one beat ago.
   std::vector<glm::vec3> offsets;         // Offsets from the skin at the last beat.
-  std::vector<glm::vec3> drawn;           // actor frame
-  std::vector<Float4> places;             // The values of `drawn` as Float4.
-  std::vector<Float4> normals;            // Unit normals at the particles.
-  std::vector<Float4> triangle_normals;   // unit
+  ClothDrape drape;
 
   // First particle of each cloth, followed by the total count.
   std::vector<uint32_t> first_particles;
@@ -205,8 +210,8 @@ void SetAir(const ClothModel::Data& model, const Wind& wind, ClothState::Data& s
 // Finds pairs of particles that may touch within the next beats (cloth_pairs.cc).
 void FindPairs(const ClothModel::Data& model, ClothState::Data& state);
 
-// Normals of the cloth as drawn (cloth_drape.cc).
-void MeasureNormals(const ClothModel::Data& model, ClothState::Data& state);
+// Computes the normals from `places` (cloth_drape.cc).
+void MeasureNormals(const ClothModel::Data& model, ClothDrape& drape);
 
 // Number of slots of the grid for this number of particles.
 size_t SlotCount(size_t particle_count);

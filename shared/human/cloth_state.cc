@@ -43,16 +43,16 @@ ClothState::ClothState(const ClothModel& model) : data_(std::make_unique<Data>()
   d.offsets_before.resize(count);
   d.offsets.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    d.drawn.push_back(m.rest[i].xyz());
+    d.drape.points.push_back(m.rest[i].xyz());
   }
-  d.places = m.rest;
-  d.normals.resize(count);
-  d.triangle_normals.resize(m.triangles.size());
+  d.drape.places = m.rest;
+  d.drape.normals.resize(count);
+  d.drape.triangle_normals.resize(m.triangles.size());
   for (const ClothRange& cloth : m.cloths) {
     d.first_particles.push_back(cloth.first);
   }
   d.first_particles.push_back(static_cast<uint32_t>(count));
-  MeasureNormals(m, d);
+  MeasureNormals(m, d.drape);
 }
 
 ClothState::ClothState(const ClothState& other) : data_(std::make_unique<Data>(*other.data_)) {
@@ -75,7 +75,7 @@ ClothState::~ClothState() = default;
 std::span<const glm::vec3> ClothState::particles(size_t cloth) const {
   CHECK(cloth + 1 < data_->first_particles.size());
   const uint32_t first = data_->first_particles[cloth];
-  return std::span<const glm::vec3>(data_->drawn)
+  return std::span<const glm::vec3>(data_->drape.points)
       .subspan(first, data_->first_particles[cloth + 1] - first);
 }
 

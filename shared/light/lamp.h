@@ -31,6 +31,9 @@ struct Lamp {
 inline constexpr size_t kMaxLamps = 8;
 // At less than this many radii a lamp gets no brighter.
 inline constexpr float kNearestLamp = 1.02f;
+// A lamp with a lower irradiance on a facing surface can be skipped: less than one 8-bit step on
+// white skin.
+inline constexpr float kLeastLampIrradiance = 0.01f;
 
 // Returns the lamp as a source in one direction, as seen from a point.
 Sun SeenFrom(const Lamp& lamp, const glm::vec3& point);

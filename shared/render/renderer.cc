@@ -449,33 +449,48 @@ PixelBounds Renderer::State::ChangedBy(const RenderScene& scene, const RenderTar
   return InPicture(Union(seen, catcher_pass.bounds()), scale, target);
 }
 
+LateProgram& Renderer::State::CompositePass(const RenderScene& scene) {
+  if (scene.see_through) {
+    return see_through_composite_pass;
+  }
+  if (quality.camera_look && IsOn(scene.look)) {
+    return look_composite_pass;
+  }
+  return Rectifies(scene) ? rectified_composite_pass : composite_pass;
+}
+
 Status Renderer::State::Composite(const RenderScene& scene, const RenderTarget& target) {
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  glViewport(0, 0, target.width(), target.height());
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_SCISSOR_TEST);
   const ImageSize size = {target.width(), target.height()};
   const geometry::CameraModel display =
       scene.background_display.value_or(scene.display).Resized(size.width, size.height);
-  UploadBackground(scene, display);
   const PixelBounds changed = ChangedBy(scene, target);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  glViewport(0, 0, size.width, size.height);
+  glDisable(GL_DEPTH_TEST);
   glBindVertexArray(no_vertices.id());
-  const bool rectified = Rectifies(scene);
-  LateProgram& background_pass_used = rectified ? rectified_background_pass : background_pass;
-  LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* background, background_pass_used.Get());
-  background->Use();
-  SetBackground(*background, scene, display);
-  for (const PixelBounds& unchanged : Around(changed, size)) {
-    FillBounds(unchanged);
+  if (scene.see_through) {
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+  } else {
+    glEnable(GL_SCISSOR_TEST);
+    UploadBackground(scene, display);
+    LARARIUM_ASSIGN_OR_RETURN(
+        const ShaderProgram* background,
+        (Rectifies(scene) ? rectified_background_pass : background_pass).Get());
+    background->Use();
+    SetBackground(*background, scene, display);
+    for (const PixelBounds& unchanged : Around(changed, size)) {
+      FillBounds(unchanged);
+    }
   }
   if (!changed.empty()) {
-    const bool look = quality.camera_look && IsOn(scene.look);
-    LateProgram& composite_pass_used = look        ? look_composite_pass
-                                       : rectified ? rectified_composite_pass
-                                                   : composite_pass;
-    LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* composite, composite_pass_used.Get());
+    LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* composite, CompositePass(scene).Get());
     composite->Use();
-    SetBackground(*composite, scene, display);
+    if (!scene.see_through) {
+      SetBackground(*composite, scene, display);
+    }
     SetLayer(*composite, scene, target);
     FillBounds(changed);
   }
@@ -498,33 +513,10 @@ void Renderer::State::SetLayer(const ShaderProgram& composite,
   catcher_pass.BindFor(composite, 2);
 }
 
-Status Renderer::State::CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target) {
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  glViewport(0, 0, target.width(), target.height());
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_SCISSOR_TEST);
-  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
-  const PixelBounds changed = ChangedBy(scene, target);
-  if (!changed.empty()) {
-    glEnable(GL_SCISSOR_TEST);
-    glBindVertexArray(no_vertices.id());
-    LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* composite, see_through_composite_pass.Get());
-    composite->Use();
-    SetLayer(*composite, scene, target);
-    FillBounds(changed);
-    glDisable(GL_SCISSOR_TEST);
-    glBindVertexArray(0);
-  }
-  glActiveTexture(GL_TEXTURE0);
-  return Status();
-}
-
 Status Renderer::State::PutTogether(const RenderScene& scene,
                                     const RenderTarget& picture,
                                     const RenderTarget& target) {
-  LARARIUM_RETURN_IF_ERROR(scene.see_through ? CompositeSeeThrough(scene, picture)
-                                             : Composite(scene, picture));
+  LARARIUM_RETURN_IF_ERROR(Composite(scene, picture));
   if (&picture != &target) {
     upscaler.Upscale(picture, target);
   }

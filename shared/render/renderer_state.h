@@ -110,10 +110,11 @@ struct Renderer::State {
   Status PutTogether(const RenderScene& scene,
                      const RenderTarget& picture,
                      const RenderTarget& target);
-  // Draws the camera's image and the layer over it.
+  // The program that draws the layer over the scene's background.
+  LateProgram& CompositePass(const RenderScene& scene);
+  // Draws the camera's image and the layer over it, or for RenderScene::see_through the layer alone
+  // with alpha.
   Status Composite(const RenderScene& scene, const RenderTarget& target);
-  // Draws the layer alone, with alpha (RenderScene::see_through).
-  Status CompositeSeeThrough(const RenderScene& scene, const RenderTarget& target);
   // Returns the pixels of the target that the layer changes: all if it was drawn for another pose.
   PixelBounds ChangedBy(const RenderScene& scene, const RenderTarget& target) const;
   // Sets the layer's textures and uniforms in composite, which must be the program in use.

@@ -22,10 +22,10 @@ render::CameraLook LookOf(const light::CameraTraits& traits,
   look.noise_slope = traits.noise_slope;
   look.frame = static_cast<uint32_t>(staged.tracked.frame.index);
   look.blur_px = static_cast<float>(std::sqrt(lens * lens + pixels));
-  if (staged.motion) {
-    look.previous_camera_from_stage = staged.motion->before_from_stage;
+  if (staged.camera.motion) {
+    look.previous_camera_from_stage = staged.camera.motion->before_from_stage;
     const float shutter = traits.shutter.value_or(staged.tracked.shutter.value_or(0.0f));
-    look.shutter = shutter / static_cast<float>(staged.motion->frames);
+    look.shutter = shutter / static_cast<float>(staged.camera.motion->frames);
   }
   return look;
 }

@@ -119,24 +119,25 @@ std::optional<size_t> Evidence::LookedAt(const StagedFrame& staged) const {
   std::optional<size_t> best;
   double least = std::numeric_limits<double>::max();
   const auto consider = [&](size_t index, const glm::vec3& point) {
-    const std::optional<double> away = AwayFromLook(*staged.camera_from_stage, point);
+    const std::optional<double> away = AwayFromLook(*staged.camera.camera_from_stage, point);
     const double stays = index == looked_at_ ? kStays : 0.0;
     if (away && *away - stays < least) {
       least = *away - stays;
       best = index;
     }
   };
-  if (!staged.camera_from_stage) {
+  if (!staged.camera.camera_from_stage) {
     return best;
   }
-  for (const StagedActor& actor : staged.actors) {
+  for (const StagedActor& actor : staged.people.actors) {
     for (const float height : kHeights) {
       const glm::vec4 point = actor.stage_from_actor * glm::vec4(0.0f, height, 0.0f, 1.0f);
       consider(actor.cast, glm::vec3(point));
     }
   }
-  for (const StagedObject& object : staged.objects) {
-    consider(cast_count_ + object.object, glm::vec3(staged.stage_from_part[object.part_begin][3]));
+  for (const StagedObject& object : staged.things.objects) {
+    consider(cast_count_ + object.object,
+             glm::vec3(staged.things.stage_from_part[object.part_begin][3]));
   }
   return best;
 }

@@ -28,10 +28,11 @@ void TimedStage(const FrameStages& stages,
   {
     ScopedStageTimer timer(stages.statistics.simulate);
     stages.show.StageFrame(std::move(tracked), time, staged);
-    timer.AddCpu(staged.helpers_cpu_ms);
+    timer.AddCpu(staged.times.helpers_cpu_ms);
   }
-  staged.staged = Clock::now();
-  staged.stage_ms = std::chrono::duration<double, std::milli>(staged.staged - begin).count();
+  staged.times.staged = Clock::now();
+  staged.times.stage_ms =
+      std::chrono::duration<double, std::milli>(staged.times.staged - begin).count();
 }
 
 }  // namespace
@@ -56,9 +57,9 @@ Result<bool> LockStep::Prepare(StagedFrame& staged) {
   if (!frame) {
     return false;
   }
-  staged.arrival = Clock::now();
+  staged.times.arrival = Clock::now();
   vision::TrackedFrame tracked = TimedTrack(stages_, *frame);
-  staged.located = Clock::now();
+  staged.times.located = Clock::now();
   TimedStage(stages_, std::move(tracked), clock_.ShowTime(*frame), staged);
   return true;
 }
@@ -182,8 +183,8 @@ void RealtimePipeline::Simulate(const std::stop_token& stop) {
   while (std::optional<LocatedFrame> located = located_.Take(stop)) {
     const Work work(*this, kStages);
     std::unique_ptr<StagedFrame> staged = SpareFrame();
-    staged->arrival = located->arrival;
-    staged->located = located->located;
+    staged->times.arrival = located->arrival;
+    staged->times.located = located->located;
     const double time = clock.ShowTime(located->tracked.frame);
     stages_.statistics.tracking.Add(located->tracked);
     TimedStage(stages_, std::move(located->tracked), time, *staged);

@@ -2,13 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "shared/core/check.h"
@@ -26,19 +20,10 @@ int VisibilityCount(const LightTransfer& transfer) { return std::min(transfer.co
 // not removed. Half of it came nearest to path-traced poses in measurements.
 constexpr float kBrightening = 0.5f;
 
-// Lamps with a lower irradiance on a facing surface are skipped: less than one 8-bit step on white
-// skin.
-constexpr float kLeastLampIrradiance = 0.01f;
 // A sphere of this radius, centred this far above the feet, encloses a person; metres.
 constexpr float kBodyReach = 1.0f;
 
-// Mean number of blockers in a group that one sphere may replace, and the largest sine of the angle
-// between its centre and its rim at which it does.
-constexpr size_t kBlockersOfGroup = 6;
-constexpr float kSmall = 0.3f;
-
-// A larger motion between frames (metres), or a larger relative change of light, is a jump.
-constexpr float kLeap = 0.2f;
+// A larger relative change of light is a jump.
 constexpr float kRelit = 0.02f;
 // Objects have at most this many receivers; they are lit only after a change, and then completely.
 constexpr size_t kFew = 64;
@@ -76,23 +61,9 @@ light::ShRowsRgb RowsRgb(int count, size_t slots) {
   return {light::ShRows(count, slots), light::ShRows(count, slots), light::ShRows(count, slots)};
 }
 
-glm::quat RotationOf(const glm::mat4& matrix) { return human::ToDualQuaternion(matrix).real; }
-
-// The transfer vectors of one mesh.
-light::Transfer Unpack(const LightTransfer& transfer,
-                       std::vector<float> scale,
-                       std::vector<int8_t> coefficients,
-                       size_t vertices) {
-  return light::Transfer(light::TransferBytes{transfer.count, transfer.key_poses.size(), vertices,
-                                              std::move(scale), std::move(coefficients)});
-}
-
-UnpackedLight UnpackAll(const LightTransfer& light) {
-  UnpackedLight unpacked;
-  for (const LightTransfer::Mesh& mesh : light.meshes) {
-    unpacked.push_back(Unpack(light, mesh.scale, mesh.coefficients, mesh.receivers.size()));
-  }
-  return unpacked;
+// As TakeLight(), but leaves the vectors where they are.
+std::shared_ptr<const UnpackedLight> CopyLight(LightTransfer transfer) {
+  return TakeLight(transfer);
 }
 
 }  // namespace
@@ -100,53 +71,21 @@ UnpackedLight UnpackAll(const LightTransfer& light) {
 std::shared_ptr<const UnpackedLight> TakeLight(LightTransfer& transfer) {
   auto unpacked = std::make_shared<UnpackedLight>();
   for (LightTransfer::Mesh& mesh : transfer.meshes) {
-    unpacked->push_back(Unpack(transfer, std::exchange(mesh.scale, {}),
-                               std::exchange(mesh.coefficients, {}), mesh.receivers.size()));
+    unpacked->push_back(light::Transfer(
+        light::TransferBytes{transfer.count, transfer.key_poses.size(), mesh.receivers.size(),
+                             std::exchange(mesh.scale, {}), std::exchange(mesh.coefficients, {})}));
   }
   return unpacked;
-}
-
-void SphereSet::Resize(size_t count) {
-  for (std::vector<float>* values : {&x, &y, &z, &radius}) {
-    values->assign(count, 0.0f);
-  }
-}
-
-void SphereSet::Set(size_t index, const glm::vec3& centre, float ball_radius) {
-  x[index] = centre.x;
-  y[index] = centre.y;
-  z[index] = centre.z;
-  radius[index] = ball_radius;
-}
-
-void SphereSet::Clear() {
-  for (std::vector<float>* values : {&x, &y, &z, &radius}) {
-    values->clear();
-  }
-}
-
-void SphereSet::Add(const glm::vec3& centre, float ball_radius) {
-  x.push_back(centre.x);
-  y.push_back(centre.y);
-  z.push_back(centre.z);
-  radius.push_back(ball_radius);
-}
-
-void SphereSet::Append(const SphereSet& more) {
-  x.insert(x.end(), more.x.begin(), more.x.end());
-  y.insert(y.end(), more.y.begin(), more.y.end());
-  z.insert(z.end(), more.z.begin(), more.z.end());
-  radius.insert(radius.end(), more.radius.begin(), more.radius.end());
 }
 
 PersonLight::PersonLight(std::shared_ptr<const human::Human> human,
                          std::shared_ptr<const UnpackedLight> light)
     : human_(std::move(human)),
+      blockers_(human_->light.blockers),
+      receivers_(human_->light.receivers),
       skin_(human_->skeleton.size(), glm::mat4(1.0f)),
       receiver_light_(human_->light.count, human_->light.receivers.size()),
-      transfers_(light != nullptr
-                     ? std::move(light)
-                     : std::make_shared<const UnpackedLight>(UnpackAll(human_->light))),
+      transfers_(light != nullptr ? std::move(light) : CopyLight(human_->light)),
       used_light_(receiver_light_) {
   CHECK(transfers_->size() == human_->light.meshes.size());
   const size_t slots = receiver_light_.receivers();
@@ -157,9 +96,6 @@ PersonLight::PersonLight(std::shared_ptr<const human::Human> human,
   pose_weights_.resize(slots * light::kMaxKeyPoses);
   used_weights_ = pose_weights_;
   changed_.assign(slots, 1);
-  GroupBlockers();
-  blockers_.Resize(human_->light.blockers.size());
-  OrderReceivers();
   MakeMeshes();
   FindKeyLogs();
 }
@@ -173,44 +109,6 @@ void PersonLight::SetMesh(std::shared_ptr<const human::Human> human,
   MakeMeshes();
 }
 
-void PersonLight::OrderReceivers() {
-  const std::vector<LightTransfer::Receiver>& receivers = human_->light.receivers;
-  std::map<uint32_t, std::vector<uint16_t>> by_joint;
-  for (size_t i = 0; i < receivers.size(); ++i) {
-    by_joint[receivers[i].joint].push_back(static_cast<uint16_t>(i));
-  }
-  slots_.resize(receivers.size());
-  bind_points_.Resize(receivers.size());
-  stage_points_.Resize(receivers.size());
-  for (std::vector<float>* values :
-       {&stage_from_bind_.w, &stage_from_bind_.x, &stage_from_bind_.y, &stage_from_bind_.z}) {
-    values->resize(receivers.size());
-  }
-  size_t slot = 0;
-  for (const auto& [joint, members] : by_joint) {
-    groups_.push_back({joint, slot, slot + members.size()});
-    for (const uint16_t member : members) {
-      bind_points_.Set(slot, receivers[member].position, 0.0f);
-      slots_[member] = static_cast<uint16_t>(slot++);
-    }
-  }
-}
-
-void PersonLight::PlaceReceivers() {
-  for (const Group& group : groups_) {
-    const glm::mat4 stage_from_bind = stage_from_actor_ * skin_[group.joint];
-    const glm::quat turn = RotationOf(stage_from_bind);
-    for (size_t slot = group.begin; slot < group.end; ++slot) {
-      const glm::vec4 bind(bind_points_.x[slot], bind_points_.y[slot], bind_points_.z[slot], 1.0f);
-      stage_points_.Set(slot, stage_from_bind * bind, 0.0f);
-      stage_from_bind_.w[slot] = turn.w;
-      stage_from_bind_.x[slot] = turn.x;
-      stage_from_bind_.y[slot] = turn.y;
-      stage_from_bind_.z[slot] = turn.z;
-    }
-  }
-}
-
 void PersonLight::MakeMeshes() {
   for (size_t i = 0; i < human_->meshes.size(); ++i) {
     const LightTransfer::Mesh& mesh = human_->light.meshes[i];
@@ -220,7 +118,7 @@ void PersonLight::MakeMeshes() {
     made.receivers.resize(mesh.receivers.size());
     for (size_t v = 0; v < made.receivers.size(); ++v) {
       for (size_t i = 0; i < light::kReceiversOfVertex; ++i) {
-        made.receivers[v].receiver[i] = slots_[mesh.receivers[v][i]];
+        made.receivers[v].receiver[i] = receivers_.slot(mesh.receivers[v][i]);
       }
       made.receivers[v].weight = mesh.weights[v];
     }
@@ -231,7 +129,7 @@ void PersonLight::FindKeyLogs() {
   const human::Skeleton& skeleton = human_->skeleton;
   for (const std::vector<human::JointTransform>& pose : human_->light.key_poses) {
     Pose(human::SkinOfPose(skeleton, pose), glm::mat4(1.0f));
-    PlaceReceivers();
+    receivers_.Pose(skin_, stage_from_actor_);
     OwnLog({0, own_log_.receivers()},
            key_logs_.emplace_back(own_log_.count(), own_log_.receivers()));
   }
@@ -239,108 +137,22 @@ void PersonLight::FindKeyLogs() {
 
 void PersonLight::OwnLog(light::ReceiverRange range, light::ShRows& log) const {
   light::ClearLogVisibility(range, log);
-  light::AddLogVisibility(blockers_.spheres(), points(), stage_from_bind_.turns(), range, log);
+  light::AddLogVisibility(blockers_.spheres().spheres(), receivers_.points(),
+                          receivers_.stage_from_bind(), range, log);
 }
 
 void PersonLight::Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor) {
   std::copy(skin.begin(), skin.end(), skin_.begin());
   stage_from_actor_ = stage_from_actor;
-  for (size_t i = 0; i < blockers_.size(); ++i) {
-    const LightTransfer::Blocker& blocker = human_->light.blockers[blocker_order_[i]];
-    const glm::vec4 in_actor = skin_[blocker.joint] * glm::vec4(blocker.centre, 1.0f);
-    const glm::vec3 centre = stage_from_actor * in_actor;
-    const glm::vec3 before(blockers_.x[i], blockers_.y[i], blockers_.z[i]);
-    leapt_ = leapt_ || !(glm::distance(centre, before) < kLeap);
-    blockers_.Set(i, centre, blocker.radius);
-  }
+  jumped_ = blockers_.Pose(skin_, stage_from_actor_) || jumped_;
   ++poses_;
-  MergeGroups();
-}
-
-// Joins the two nearest groups until few enough are left.
-void PersonLight::GroupBlockers() {
-  const std::vector<LightTransfer::Blocker>& blockers = human_->light.blockers;
-  std::vector<std::vector<uint32_t>> groups;
-  std::vector<glm::vec3> centres;
-  for (uint32_t i = 0; i < blockers.size(); ++i) {
-    groups.push_back({i});
-    centres.push_back(blockers[i].centre);
-  }
-  const size_t wanted = (blockers.size() + kBlockersOfGroup - 1) / kBlockersOfGroup;
-  while (groups.size() > wanted) {
-    size_t first = 0, second = 1;
-    float least = std::numeric_limits<float>::max();
-    for (size_t i = 0; i < groups.size(); ++i) {
-      for (size_t k = i + 1; k < groups.size(); ++k) {
-        // Join small groups first, so that no group grows long.
-        const float distance = glm::distance(centres[i], centres[k]) *
-                               static_cast<float>(groups[i].size() + groups[k].size());
-        if (distance < least) {
-          least = distance;
-          first = i;
-          second = k;
-        }
-      }
-    }
-    const auto sizes = glm::vec2(groups[first].size(), groups[second].size());
-    centres[first] = (sizes.x * centres[first] + sizes.y * centres[second]) / (sizes.x + sizes.y);
-    groups[first].insert(groups[first].end(), groups[second].begin(), groups[second].end());
-    groups.erase(groups.begin() + static_cast<ptrdiff_t>(second));
-    centres.erase(centres.begin() + static_cast<ptrdiff_t>(second));
-  }
-  for (const std::vector<uint32_t>& group : groups) {
-    const size_t begin = blocker_order_.size();
-    blocker_order_.insert(blocker_order_.end(), group.begin(), group.end());
-    blocker_groups_.push_back({.begin = begin, .end = blocker_order_.size()});
-  }
-}
-
-// From a distance, covered shares of the sky add up; a sphere's share grows with the square of its
-// radius.
-void PersonLight::MergeGroups() {
-  low_ = glm::vec3(std::numeric_limits<float>::max());
-  high_ = -low_;
-  const auto centre_of = [&](size_t i) {
-    return glm::vec3(blockers_.x[i], blockers_.y[i], blockers_.z[i]);
-  };
-  for (BlockerGroup& group : blocker_groups_) {
-    glm::vec3 centre(0.0f);
-    float share = 0.0f;
-    for (size_t i = group.begin; i < group.end; ++i) {
-      const float radius = blockers_.radius[i];
-      centre += radius * radius * centre_of(i);
-      share += radius * radius;
-      low_ = glm::min(low_, centre_of(i) - radius);
-      high_ = glm::max(high_, centre_of(i) + radius);
-    }
-    group.centre = share > 0.0f ? centre / share : centre_of(group.begin);
-    group.radius = std::sqrt(share);
-    group.extent = 0.0f;
-    for (size_t i = group.begin; i < group.end; ++i) {
-      group.extent =
-          std::max(group.extent, glm::distance(group.centre, centre_of(i)) + blockers_.radius[i]);
-    }
-  }
-}
-
-void PersonLight::AppendBlockers(const PersonLight& seen_from, SphereSet& to) const {
-  for (const BlockerGroup& group : blocker_groups_) {
-    const glm::vec3 nearest = glm::clamp(group.centre, seen_from.low_, seen_from.high_);
-    if (group.extent < kSmall * glm::distance(nearest, group.centre)) {
-      to.Add(group.centre, group.radius);
-      continue;
-    }
-    for (size_t i = group.begin; i < group.end; ++i) {
-      to.Add({blockers_.x[i], blockers_.y[i], blockers_.z[i]}, blockers_.radius[i]);
-    }
-  }
 }
 
 void PersonLight::AddLamps(const light::Spheres& others, std::span<const light::Lamp> lamps) {
   near_lamps_.clear();
   const glm::vec3 middle = stage_from_actor_ * glm::vec4(0.0f, kBodyReach, 0.0f, 1.0f);
   for (const light::Lamp& lamp : lamps) {
-    const float reach = light::ReachOf(lamp, kLeastLampIrradiance) + kBodyReach;
+    const float reach = light::ReachOf(lamp, light::kLeastLampIrradiance) + kBodyReach;
     if (near_lamps_.size() < light::kMaxLamps && glm::distance(lamp.position, middle) < reach) {
       near_lamps_.push_back(lamp);
     }
@@ -351,8 +163,8 @@ void PersonLight::AddLamps(const light::Spheres& others, std::span<const light::
   for (light::ShRows& rows : lamp_light_) {
     rows.Clear();
   }
-  light::AddLamps(near_lamps_, points(), own_stage_log_, others, {0, receiver_light_.receivers()},
-                  lamp_light_);
+  light::AddLamps(near_lamps_, receivers_.points(), own_stage_log_, others,
+                  {0, receiver_light_.receivers()}, lamp_light_);
 }
 
 void PersonLight::Update(const light::LightMatrix& light,
@@ -360,22 +172,22 @@ void PersonLight::Update(const light::LightMatrix& light,
                          std::span<const light::Lamp> lamps) {
   const light::ReceiverRange all = {0, receiver_light_.receivers()};
   const light::ReceiverRange now = ChooseReceivers(light);
-  PlaceReceivers();
+  receivers_.Pose(skin_, stage_from_actor_);
   OwnLog(now, own_log_);
   light::KeyPoseWeights(key_logs_, own_log_, {}, now, pose_weights_);
   light::SubtractKeyPoses(key_logs_, own_log_, pose_weights_, now, own_log_);
   DampBrightening(now, own_log_);
-  light::TurnRows(own_log_, stage_from_bind_.turns(), light::TurnDirection::kForth, now,
+  light::TurnRows(own_log_, receivers_.stage_from_bind(), light::TurnDirection::kForth, now,
                   own_stage_log_);
   AddLamps(others, lamps);
   CopyRows(own_stage_log_, now, stage_log_);
-  light::AddLogVisibility(others, points(), now, stage_log_);
+  light::AddLogVisibility(others, receivers_.points(), now, stage_log_);
   light::ShadowLight(light, stage_log_, now, shadowed_);
   const bool lamps_shine = !near_lamps_.empty();
   for (size_t channel = 0; lamps_shine && channel < 3; ++channel) {
     lamp_light_[channel].Add(shadowed_[channel]);
   }
-  light::TurnRows(lamps_shine ? lamp_light_ : shadowed_, stage_from_bind_.turns(),
+  light::TurnRows(lamps_shine ? lamp_light_ : shadowed_, receivers_.stage_from_bind(),
                   light::TurnDirection::kBack, all, turned_);
   light::PackReceiverLight(turned_, receiver_light_);
   FindChanged();
@@ -389,9 +201,9 @@ light::ReceiverRange PersonLight::ChooseReceivers(const light::LightMatrix& ligh
     relit = relit || !(moved <= kRelit * std::abs(seen_light_[0]));
   }
   std::copy_n(light.channel(1), light.count(), seen_light_.begin());
-  gradual_ = poses_ == 1 && !leapt_ && !relit && count > kFew;
+  gradual_ = poses_ == 1 && !jumped_ && !relit && count > kFew;
   poses_ = 0;
-  leapt_ = false;
+  jumped_ = false;
   if (!gradual_) {
     return {0, count};
   }

@@ -22,21 +22,10 @@
 #include "shared/light/receivers.h"
 #include "shared/light/transfer.h"
 #include "shared/render/detail.h"
+#include "shared/show/person_blockers.h"
+#include "shared/show/person_receivers.h"
 
 namespace lararium::show {
-
-// Spheres in stage axes, metres, as a structure of arrays.
-struct SphereSet {
-  std::vector<float> x, y, z, radius;
-
-  size_t size() const { return x.size(); }
-  void Resize(size_t count);
-  void Set(size_t index, const glm::vec3& centre, float ball_radius);
-  void Clear();
-  void Add(const glm::vec3& centre, float ball_radius);
-  void Append(const SphereSet& more);
-  light::Spheres spheres() const { return {x, y, z, radius}; }
-};
 
 // The transfer vectors of each mesh of a person or object, unpacked for use in every frame.
 using UnpackedLight = std::vector<light::Transfer>;
@@ -59,10 +48,7 @@ class PersonLight {
   // Computes the person's blockers for a pose. Call it before Update(), and for all people before
   // any of them is updated. Allocates nothing, like all functions below.
   void Pose(std::span<const glm::mat4> skin, const glm::mat4& stage_from_actor);
-  const SphereSet& blockers() const { return blockers_; }
-  // Appends this person's blockers as seen from another person: a group that is small from there
-  // becomes one sphere that hides as much as its parts (Ren et al. 2006, section 5: hierarchies).
-  void AppendBlockers(const PersonLight& seen_from, SphereSet& to) const;
+  const PersonBlockers& blockers() const { return blockers_; }
   // Number of coefficients that Update() needs in `light`.
   int light_count() const { return own_log_.count(); }
 
@@ -82,18 +68,6 @@ class PersonLight {
   void LightVertices(float detail, std::span<glm::vec3> irradiance);
 
  private:
-  // Receivers that follow one joint, contiguous.
-  struct Group {
-    uint32_t joint = 0;
-    size_t begin = 0;
-    size_t end = 0;
-  };
-  // Rotations of receivers as a structure of arrays.
-  struct TurnSet {
-    std::vector<float> w, x, y, z;
-
-    light::Turns turns() const { return {w, x, y, z}; }
-  };
   struct MeshLight {
     std::vector<light::VertexReceivers> receivers;
     std::vector<render::MeshLevel> levels;
@@ -101,21 +75,6 @@ class PersonLight {
     size_t lit = 0;                     // How many of the first vertices have values.
   };
 
-  // Blockers [begin, end) of blockers_, and the one sphere that replaces them.
-  struct BlockerGroup {
-    size_t begin = 0;
-    size_t end = 0;
-    glm::vec3 centre = glm::vec3(0.0f);
-    float radius = 0.0f;
-    float extent = 0.0f;  // Radius of a sphere around `centre` that encloses all of them.
-  };
-
-  void GroupBlockers();
-  void MergeGroups();
-  void OrderReceivers();
-  // Computes positions and rotations of the receivers for the last pose.
-  void PlaceReceivers();
-  light::Points points() const { return {stage_points_.x, stage_points_.y, stage_points_.z}; }
   // Chooses the receivers to update: all of them after jumps, gaps and changes of light.
   light::ReceiverRange ChooseReceivers(const light::LightMatrix& light);
   // Finds the receivers whose light differs visibly from the light that vertices used.
@@ -131,15 +90,8 @@ class PersonLight {
   void OwnLog(light::ReceiverRange range, light::ShRows& log) const;
 
   std::shared_ptr<const human::Human> human_;
-  std::vector<Group> groups_;
-  std::vector<uint16_t> slots_;          // Slot of each of the human's receivers.
-  SphereSet bind_points_;                // Receivers in the bind pose; radius unused.
-  SphereSet stage_points_;               // Receivers in the last pose.
-  TurnSet stage_from_bind_;              // Rotation of each receiver's joint in the last pose.
-  std::vector<uint32_t> blocker_order_;  // Blockers of one group are contiguous.
-  std::vector<BlockerGroup> blocker_groups_;
-  SphereSet blockers_;  // Last pose, stage axes, in blocker_order_.
-  glm::vec3 low_ = glm::vec3(0.0f), high_ = glm::vec3(0.0f);  // Bounding box of blockers_.
+  PersonBlockers blockers_;
+  PersonReceivers receivers_;
   std::vector<glm::mat4> skin_;
   glm::mat4 stage_from_actor_ = glm::mat4(1.0f);
   std::vector<light::ShRows> key_logs_;  // Log visibility of each key pose.
@@ -153,9 +105,9 @@ class PersonLight {
   std::vector<float> pose_weights_;  // [slot][light::kMaxKeyPoses]
   light::ReceiverLight receiver_light_;
   std::shared_ptr<const UnpackedLight> transfers_;  // Parallel to the human's meshes.
-  bool leapt_ = true;  // True if a blocker has jumped since the last Update().
-  int poses_ = 0;      // Calls of Pose() since the last Update().
-  size_t part_ = 0;    // Index of the part of the receivers that was updated last.
+  bool jumped_ = true;  // True if a blocker has jumped since the last Update().
+  int poses_ = 0;       // Calls of Pose() since the last Update().
+  size_t part_ = 0;     // Index of the part of the receivers that was updated last.
   // Green channel of the last Update()'s light: its mean with each basis function.
   std::array<float, 25> seen_light_{};
   // The light that vertices last used, and which receivers have changed since.

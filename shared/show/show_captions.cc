@@ -63,15 +63,15 @@ const stage::CaptionCue* FindCue(std::span<const stage::CaptionCue> cues, double
 }
 
 render::CaptionSide SideOf(const StagedFrame& staged, uint32_t cast) {
-  const auto actor = std::find_if(staged.actors.begin(), staged.actors.end(),
+  const auto actor = std::find_if(staged.people.actors.begin(), staged.people.actors.end(),
                                   [cast](const StagedActor& a) { return a.cast == cast; });
-  if (!staged.camera_from_stage || actor == staged.actors.end()) {
+  if (!staged.camera.camera_from_stage || actor == staged.people.actors.end()) {
     return render::CaptionSide::kHere;
   }
   constexpr float kHead = 1.5f;  // metres
   const glm::vec4 head = actor->stage_from_actor * glm::vec4(0.0f, kHead, 0.0f, 1.0f);
   const Eigen::Vector3d in_camera =
-      *staged.camera_from_stage * Eigen::Vector3d(head.x, head.y, head.z);
+      *staged.camera.camera_from_stage * Eigen::Vector3d(head.x, head.y, head.z);
   const geometry::CameraModel display = staged.tracked.camera.DisplayPinhole();
   const double across = display.fx * in_camera.x() + display.cx * in_camera.z();
   if (in_camera.z() <= 0.0) {
@@ -124,8 +124,9 @@ std::string TrackingText(const StagedFrame& staged) {
                   static_cast<double>(tracked.confidence));
     return text;
   }
-  const char* what = staged.state == TrackingLossFader::State::kSearching ? "searching" : "lost";
-  std::snprintf(text, sizeof(text), "%s for %.1f s: %s", what, staged.lost_seconds,
+  const char* what =
+      staged.camera.state == TrackingLossFader::State::kSearching ? "searching" : "lost";
+  std::snprintf(text, sizeof(text), "%s for %.1f s: %s", what, staged.camera.lost_seconds,
                 std::string(vision::Name(tracked.reason)).c_str());
   return text;
 }
@@ -147,13 +148,13 @@ Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& co
 
 void ShowCaptions::DrawGuide(const StagedFrame& staged, const render::RenderTarget& target) {
   render::Notice notice;
-  notice.opacity = staged.guide.opacity;
+  notice.opacity = staged.camera.guide.opacity;
   notice.style = style_;
-  switch (staged.guide.says) {
+  switch (staged.camera.guide.says) {
     case StagedGuide::Says::kLookThere:
-      notice.text = guides_[staged.place];
-      notice.picture = staged.guide.picture;
-      notice.picture_number = staged.guide.picture_number;
+      notice.text = guides_[staged.camera.place];
+      notice.picture = staged.camera.guide.picture;
+      notice.picture_number = staged.camera.guide.picture_number;
       break;
     case StagedGuide::Says::kDark:
       notice.text = dark_guide_;
@@ -174,12 +175,12 @@ void ShowCaptions::Draw(const StagedFrame& staged,
     painter_->Draw(captions_, evidence != nullptr ? &evidence->LegendOf(staged) : nullptr, style_,
                    target);
   }
-  if (staged.guide.opacity > 0.0f) {
+  if (staged.camera.guide.opacity > 0.0f) {
     DrawGuide(staged, target);
   }
   if (staff_) {
     const bool tracking = staged.tracked.camera_from_map.has_value();
-    const bool gone = staged.lost_seconds > kLongLoss;
+    const bool gone = staged.camera.lost_seconds > kLongLoss;
     render::DrawStatus(painter_->flat(),
                        tracking ? kGood
                        : gone   ? kBad

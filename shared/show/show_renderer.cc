@@ -23,11 +23,11 @@ bool CatchesShadows(const ShowPlace& place) {
 
 // Moves the camera to its predicted pose after a number of frames.
 void LookAhead(double frames, StagedFrame& staged) {
-  if (staged.motion && staged.camera_from_stage) {
-    const geometry::Rigid3 now = *staged.camera_from_stage;
-    staged.camera_from_stage = Predict(*staged.motion, now, frames);
-    staged.motion->before_from_stage =
-        staged.motion->before_from_stage * now.Inverse() * *staged.camera_from_stage;
+  if (staged.camera.motion && staged.camera.camera_from_stage) {
+    const geometry::Rigid3 now = *staged.camera.camera_from_stage;
+    staged.camera.camera_from_stage = Predict(*staged.camera.motion, now, frames);
+    staged.camera.motion->before_from_stage =
+        staged.camera.motion->before_from_stage * now.Inverse() * *staged.camera.camera_from_stage;
   }
 }
 
@@ -99,7 +99,7 @@ Status ShowRenderer::AddObjects(const ShowContent& content) {
 
 // The new level of detail shares the textures of the old one, which are already uploaded.
 Status ShowRenderer::UploadFigures(const StagedFrame& staged) {
-  for (const StagedActor& actor : staged.actors) {
+  for (const StagedActor& actor : staged.people.actors) {
     CastModel& known = cast_[actor.cast];
     if (known.figure != actor.figure) {
       LARARIUM_ASSIGN_OR_RETURN(const render::ModelHandle model, renderer_->AddHuman(actor.figure));
@@ -110,52 +110,51 @@ Status ShowRenderer::UploadFigures(const StagedFrame& staged) {
   return Status();
 }
 
-void ShowRenderer::CollectHumans(const StagedFrame& staged) {
+void ShowRenderer::CollectHumans(const StagedPeople& people, const StagedLight& light) {
   humans_.clear();
   vertices_.clear();
-  for (const StagedMesh& mesh : staged.meshes) {
+  for (const StagedMesh& mesh : people.meshes) {
     vertices_.push_back(
-        {mesh.mesh.mesh, std::span(staged.positions).subspan(mesh.vertex_begin, mesh.vertex_count),
-         std::span(staged.normals).subspan(mesh.vertex_begin, mesh.vertex_count), mesh.mesh.posed});
+        {mesh.mesh.mesh, std::span(people.positions).subspan(mesh.vertex_begin, mesh.vertex_count),
+         std::span(people.normals).subspan(mesh.vertex_begin, mesh.vertex_count), mesh.mesh.posed});
   }
-  for (const StagedActor& actor : staged.actors) {
+  for (const StagedActor& actor : people.actors) {
     humans_.push_back({cast_[actor.cast].model, actor.stage_from_actor,
-                       std::span(staged.skin).subspan(actor.skin_begin, actor.skin_count),
+                       std::span(people.skin).subspan(actor.skin_begin, actor.skin_count),
                        std::span(vertices_).subspan(actor.mesh_begin, actor.mesh_count),
-                       std::span(staged.irradiance).subspan(actor.light_begin, actor.light_count),
+                       std::span(light.on_people).subspan(actor.light_begin, actor.light_count),
                        actor.detail, &actor.light});
   }
 }
 
-void ShowRenderer::CollectProps(const StagedFrame& staged) {
+void ShowRenderer::CollectProps(const StagedThings& things, const StagedLight& light) {
   props_.clear();
-  for (const StagedObject& object : staged.objects) {
+  for (const StagedObject& object : things.objects) {
     props_.push_back(
         {objects_[object.object],
-         std::span(staged.stage_from_part).subspan(object.part_begin, object.part_count),
-         std::span(staged.part_shown).subspan(object.part_begin, object.part_count), &object.light,
-         std::span(staged.irradiance).subspan(object.light_begin, object.light_count),
-         object.glow});
+         std::span(things.stage_from_part).subspan(object.part_begin, object.part_count),
+         std::span(things.part_shown).subspan(object.part_begin, object.part_count), &object.light,
+         std::span(light.on_things).subspan(object.light_begin, object.light_count), object.glow});
   }
 }
 
 void ShowRenderer::MarkByEvidence(const StagedFrame& staged, int height) {
   for (size_t i = 0; i < humans_.size(); ++i) {
-    humans_[i].mark = evidence_->MarkOfActor(staged.actors[i].cast, height);
+    humans_[i].mark = evidence_->MarkOfActor(staged.people.actors[i].cast, height);
   }
   for (size_t i = 0; i < props_.size(); ++i) {
-    props_[i].mark = evidence_->MarkOfObject(staged.objects[i].object, height);
+    props_[i].mark = evidence_->MarkOfObject(staged.things.objects[i].object, height);
   }
 }
 
 void ShowRenderer::BlendReflections(const StagedFrame& staged) {
-  const PlaceScene& place = places_[staged.place];
-  const size_t count = std::min(place.glossy.size(), staged.probe_weights.size());
+  const PlaceScene& place = places_[staged.camera.place];
+  const size_t count = std::min(place.glossy.size(), staged.light.probe_weights.size());
   new_weights_.clear();
   glossy_maps_.clear();
   bool any = false;
   for (size_t i = 0; i < count; ++i) {
-    new_weights_.push_back(std::round(kWeightSteps * staged.probe_weights[i]) / kWeightSteps);
+    new_weights_.push_back(std::round(kWeightSteps * staged.light.probe_weights[i]) / kWeightSteps);
     glossy_maps_.push_back(&place.glossy[i]);
     any = any || !place.glossy[i].empty();
   }
@@ -164,10 +163,10 @@ void ShowRenderer::BlendReflections(const StagedFrame& staged) {
     glossy_weights_.clear();
     return;
   }
-  if (glossy_.empty() || staged.place != glossy_place_ || new_weights_ != glossy_weights_) {
+  if (glossy_.empty() || staged.camera.place != glossy_place_ || new_weights_ != glossy_weights_) {
     glossy_.resize(light::GlossyMap::kTexels);
     light::BlendGlossyMaps(glossy_maps_, new_weights_, glossy_);
-    glossy_place_ = staged.place;
+    glossy_place_ = staged.camera.place;
     glossy_weights_ = new_weights_;
     ++glossy_number_;
   }
@@ -175,25 +174,25 @@ void ShowRenderer::BlendReflections(const StagedFrame& staged) {
 
 Result<render::RenderScene> ShowRenderer::SceneOf(const StagedFrame& staged, int height) {
   LARARIUM_RETURN_IF_ERROR(UploadFigures(staged));
-  const PlaceScene& place = places_[staged.place];
+  const PlaceScene& place = places_[staged.camera.place];
   render::RenderScene scene;
-  CollectHumans(staged);
-  CollectProps(staged);
+  CollectHumans(staged.people, staged.light);
+  CollectProps(staged.things, staged.light);
   if (shows_evidence_) {
     MarkByEvidence(staged, height);
   }
   scene.occluders = place.occluders;
   scene.humans = humans_;
   scene.props = props_;
-  scene.light = staged.light.sky;
-  scene.sun = staged.light.sun;
-  scene.picture_light = staged.picture_light;
-  scene.blockers = staged.blockers;
-  scene.lamps = staged.lamps;
+  scene.light = staged.light.surfaces.sky;
+  scene.sun = staged.light.surfaces.sun;
+  scene.picture_light = staged.light.picture;
+  scene.blockers = staged.light.blockers;
+  scene.lamps = staged.things.lamps;
   BlendReflections(staged);
   scene.glossy = glossy_;
   scene.glossy_number = glossy_number_;
-  scene.gain = {staged.gain[0], staged.gain[1], staged.gain[2]};
+  scene.gain = {staged.camera.gain[0], staged.camera.gain[1], staged.camera.gain[2]};
   scene.matte = matte_;
   if (place.camera && !matte_) {
     scene.knee = place.camera->knee;
@@ -213,16 +212,16 @@ void ShowRenderer::SetCamera(const StagedFrame& staged,
                              const PictureEye& eye,
                              render::RenderScene& scene) const {
   const vision::TrackedFrame& tracked = staged.tracked;
-  const PlaceScene& place = places_[staged.place];
+  const PlaceScene& place = places_[staged.camera.place];
   scene.background = tracked.frame.bgr;
   scene.camera = tracked.camera;
   scene.background_display = PictureOf(tracked.camera, target.width(), target.height());
   scene.display = ForEye(*scene.background_display, eye);
   const geometry::Rigid3 eye_from_camera{.translation = -eye.in_camera};
-  if (staged.camera_from_stage) {
-    scene.camera_from_stage = eye_from_camera * *staged.camera_from_stage;
+  if (staged.camera.camera_from_stage) {
+    scene.camera_from_stage = eye_from_camera * *staged.camera.camera_from_stage;
   }
-  scene.people_opacity = staged.opacity;
+  scene.people_opacity = staged.camera.opacity;
   if (place.camera && !matte_) {
     const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
     scene.look = LookOf(*place.camera, staged, picture);
@@ -239,7 +238,7 @@ Status ShowRenderer::DrawWhole(const StagedFrame& staged,
   LARARIUM_ASSIGN_OR_RETURN(render::RenderScene scene, SceneOf(staged, target.height()));
   SetCamera(staged, target, eye, scene);
   shadows_are_drawn_ = false;
-  layer_place_ = staged.place;
+  layer_place_ = staged.camera.place;
   return renderer_->Draw(scene, target);
 }
 
@@ -266,7 +265,7 @@ Status ShowRenderer::Draw(const StagedFrame& staged,
                           const PictureEye& eye) {
   render::RenderScene picture;
   SetCamera(staged, target, eye, picture);
-  const bool halves = half_rate_ && eye == PictureEye() && layer_place_ == staged.place &&
+  const bool halves = half_rate_ && eye == PictureEye() && layer_place_ == staged.camera.place &&
                       renderer_->CanCarryLayer(picture, target);
   LARARIUM_RETURN_IF_ERROR(halves ? DrawHalf(staged, picture, target)
                                   : DrawWhole(staged, target, eye));
@@ -292,7 +291,7 @@ Status ShowRenderer::DrawSeeThrough(const StagedFrame& staged,
 Status ShowRenderer::DrawOverlays(const StagedFrame& staged,
                                   const render::SceneMark& mark,
                                   const render::RenderTarget& target) {
-  if (!staged.camera_from_stage) {
+  if (!staged.camera.camera_from_stage) {
     return Status::Error("overlays", "cannot be drawn without a camera pose");
   }
   LARARIUM_ASSIGN_OR_RETURN(render::RenderScene scene, SceneOf(staged, target.height()));
@@ -309,7 +308,7 @@ Status ShowRenderer::DrawOverlays(const StagedFrame& staged,
   scene.occluders = occluders;
   scene.see_through = true;
   scene.display = PictureOf(staged.tracked.camera, target.width(), target.height());
-  scene.camera_from_stage = staged.camera_from_stage;
+  scene.camera_from_stage = staged.camera.camera_from_stage;
   layer_place_.reset();
   return renderer_->Draw(scene, target);
 }

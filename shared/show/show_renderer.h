@@ -112,8 +112,8 @@ class ShowRenderer {
   Status DrawHalf(const StagedFrame& staged,
                   const render::RenderScene& picture,
                   const render::RenderTarget& target);
-  void CollectHumans(const StagedFrame& staged);
-  void CollectProps(const StagedFrame& staged);
+  void CollectHumans(const StagedPeople& people, const StagedLight& light);
+  void CollectProps(const StagedThings& things, const StagedLight& light);
   void MarkByEvidence(const StagedFrame& staged, int height);
   void BlendReflections(const StagedFrame& staged);
 

@@ -18,6 +18,10 @@ size_t CountVertices(const human::Human& human) {
 
 }  // namespace
 
+size_t LitVertices(const human::Human& human) {
+  return human.light.empty() ? 0 : CountVertices(human);
+}
+
 StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
                        std::span<const std::shared_ptr<const UnpackedLight>> light) {
   for (size_t i = 0; i < cast.size(); ++i) {
@@ -68,7 +72,7 @@ void StageLight::CollectBlockers(std::span<const LitActor> actors) {
     if (people_[actor.cast] == nullptr) {
       continue;
     }
-    const SphereSet& set = people_[actor.cast]->blockers();
+    const SphereSet& set = people_[actor.cast]->blockers().spheres();
     for (size_t k = 0; k < set.size(); ++k) {
       if (set.y[k] > 0.5f * kNowhere) {
         continue;
@@ -83,7 +87,7 @@ void StageLight::CollectOthers(std::span<const LitActor> actors, size_t index) {
   others.Clear();
   for (size_t k = 0; k < actors.size(); ++k) {
     if (k != index && people_[actors[k].cast] != nullptr) {
-      people_[actors[k].cast]->AppendBlockers(*people_[actors[index].cast], others);
+      people_[actors[k].cast]->blockers().AppendTo(others, people_[actors[index].cast]->blockers());
     }
   }
 }

@@ -16,6 +16,9 @@ namespace lararium::show {
 // Height in metres at which hidden parts are placed; a blocker there has no effect.
 inline constexpr float kNowhere = 1e5f;
 
+// Number of vertices of all meshes that are lit: 0 without baked transfer.
+size_t LitVertices(const human::Human& human);
+
 // A person or object to be lit, its light, and the output.
 struct LitActor {
   uint32_t cast = 0;

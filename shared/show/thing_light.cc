@@ -21,7 +21,6 @@ constexpr float kMovedNear = 0.002f;
 constexpr float kTurned = 1e-3f;              // Change of a matrix entry.
 constexpr float kBrightened = 1.0f / 256.0f;  // Share of the mean radiance.
 constexpr float kFlickered = 1.0f / 64.0f;    // Share of a lamp's intensity.
-constexpr float kLeastIrradiance = 0.01f;     // Equals kLeastLampIrradiance in person_light.cc.
 
 bool SameLight(const light::ShRgb& a, const light::ShRgb& b) {
   const float least = kBrightened * glm::length(a[0]);
@@ -145,7 +144,8 @@ bool ThingMemory::Update(const light::ShRgb& light,
   now_.skin.assign(skin.begin(), skin.end());
   now_.lamps.clear();
   for (const light::Lamp& lamp : lamps) {
-    if (glm::distance(lamp.position, centre) < light::ReachOf(lamp, kLeastIrradiance) + radius_) {
+    if (glm::distance(lamp.position, centre) <
+        light::ReachOf(lamp, light::kLeastLampIrradiance) + radius_) {
       now_.lamps.push_back(lamp);
     }
   }

@@ -85,9 +85,9 @@ Result<Performance> Perform(show::ShowContent content,
                   [](const audio::Voice& voice) { return voice.bus != audio::Bus::kSpeech; });
     LARARIUM_RETURN_IF_ERROR(track->RenderUntil(staged.sound));
     std::vector<glm::vec3>& vertices = performance.vertices.emplace_back();
-    for (const show::StagedMesh& mesh : staged.meshes) {
+    for (const show::StagedMesh& mesh : staged.people.meshes) {
       if (!mesh.mesh.posed) {
-        const auto begin = staged.positions.begin() + mesh.vertex_begin;
+        const auto begin = staged.people.positions.begin() + mesh.vertex_begin;
         vertices.insert(vertices.end(), begin, begin + mesh.vertex_count);
       }
     }

@@ -104,7 +104,7 @@ Status Bench::Prepare(const Arguments& arguments) {
     tracked_.push_back(poses->Track(*frame));
   }
   LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), {}, *log_));
-  show_->SetPictureSize(arguments.width, arguments.height);
+  show_->detail().SetPictureSize(arguments.width, arguments.height);
   LARARIUM_ASSIGN_OR_RETURN(context_, render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(show_->content()));
   LARARIUM_ASSIGN_OR_RETURN(target_,
@@ -116,7 +116,7 @@ Status Bench::Prepare(const Arguments& arguments) {
 }
 
 Status Bench::Measure(const Setting& setting, const std::filesystem::path& folder) {
-  show_->SetQuality(setting.quality);
+  show_->detail().SetQuality(setting.quality);
   renderer_->SetQuality(setting.quality);
   show::StagedFrame staged;
   cv::Mat picture;

@@ -36,8 +36,8 @@ class TwoPlaces : public testing::Test, protected test::TwoPlacesProject {
     show::StagedFrame staged;
     for (int moment = 0; moment < 80; ++moment) {
       (*show)->StageFrame(tracked, 0.1 * moment, staged);
-      played.stage_from_keeper.push_back(staged.actors.at(0).stage_from_actor);
-      played.skin.push_back(staged.skin);
+      played.stage_from_keeper.push_back(staged.people.actors.at(0).stage_from_actor);
+      played.skin.push_back(staged.people.skin);
     }
     const auto tasks = (*show)->drama().tasks();
     played.tasks.assign(tasks.begin(), tasks.end());

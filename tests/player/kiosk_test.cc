@@ -17,12 +17,12 @@ class KioskTest : public ::testing::Test {
   void Play(Kiosk& kiosk, double seconds, bool moving) {
     for (const double end = now_ + seconds; now_ < end; now_ += 1.0 / 30.0) {
       staged_.time += 1.0 / 30.0;
-      staged_.opacity = 1.0f;
-      staged_.guide = {};
+      staged_.camera.opacity = 1.0f;
+      staged_.camera.guide = {};
       staged_.tracked.camera_from_map = geometry::Rigid3();
       geometry::Rigid3 pose;
       pose.rotation = geometry::RotationFromVector({0.0, moving ? 0.3 * std::sin(now_) : 0.0, 0.0});
-      staged_.camera_from_stage = pose;
+      staged_.camera.camera_from_stage = pose;
       kiosk.BeforeFrame(staged_);
       kiosk.AfterFrame(now_, staged_, *show_);
     }
@@ -64,16 +64,16 @@ TEST_F(KioskTest, AtTheEndOfAVisitNobodyIsLeftAndItIsSaid) {
   Kiosk kiosk(folder_.path(), {}, *log_);
   kiosk.SetVisit({.longest = 60.0});
   Play(kiosk, 55.0, true);
-  EXPECT_EQ(staged_.opacity, 1.0f);
-  EXPECT_EQ(staged_.guide.opacity, 0.0f);
+  EXPECT_EQ(staged_.camera.opacity, 1.0f);
+  EXPECT_EQ(staged_.camera.guide.opacity, 0.0f);
   Play(kiosk, 10.0, true);
-  EXPECT_EQ(staged_.opacity, 0.0f);
-  EXPECT_EQ(staged_.guide.opacity, 1.0f);
-  EXPECT_EQ(staged_.guide.says, show::StagedGuide::Says::kFarewell);
+  EXPECT_EQ(staged_.camera.opacity, 0.0f);
+  EXPECT_EQ(staged_.camera.guide.opacity, 1.0f);
+  EXPECT_EQ(staged_.camera.guide.says, show::StagedGuide::Says::kFarewell);
   EXPECT_EQ(kiosk.shown(), 0.0f);
   Play(kiosk, 20.0, true);
   EXPECT_TRUE(kiosk.TakeNewVisitor()) << "it was handed on";
-  EXPECT_EQ(staged_.opacity, 1.0f);
+  EXPECT_EQ(staged_.camera.opacity, 1.0f);
   EXPECT_EQ(kiosk.shown(), 1.0f);
 }
 
@@ -84,11 +84,11 @@ TEST_F(KioskTest, AfterTheEndOfAVisitTheButtonBeginsTheNext) {
   kiosk.BeginAgain(now_, *show_);
   EXPECT_FALSE(kiosk.TakeNewVisitor()) << "in the middle of a visit it is the same visitor";
   Play(kiosk, 45.0, true);
-  EXPECT_EQ(staged_.opacity, 0.0f) << "and the same time";
+  EXPECT_EQ(staged_.camera.opacity, 0.0f) << "and the same time";
   kiosk.BeginAgain(now_, *show_);
   EXPECT_TRUE(kiosk.TakeNewVisitor());
   Play(kiosk, 1.0, true);
-  EXPECT_EQ(staged_.opacity, 1.0f);
+  EXPECT_EQ(staged_.camera.opacity, 1.0f);
 }
 
 TEST_F(KioskTest, KeepsWhatWasChosenAndHowTheHouseIs) {

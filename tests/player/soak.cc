@@ -474,7 +474,7 @@ class Judge {
     CountImage();
     // People must not be visible in a place that no image shows. They have faded out half a second
     // after the hold time.
-    if (!tracked && staged.lost_seconds > 1.0 && staged.opacity > 0.0f) {
+    if (!tracked && staged.camera.lost_seconds > 1.0 && staged.camera.opacity > 0.0f) {
       ++ghosts_;
     }
     if (truth.fault != Fault::kNone && KindOf(truth.fault).blinds && tracked) {
@@ -483,8 +483,8 @@ class Judge {
     }
     FollowTime(truth, staged.time);
     tracked_since_end_ += tracked ? 1 : 0;
-    opacity_ = staged.opacity;
-    const bool shows = tracked && staged.opacity > 0.99f && truth.fault == Fault::kNone;
+    opacity_ = staged.camera.opacity;
+    const bool shows = tracked && staged.camera.opacity > 0.99f && truth.fault == Fault::kNone;
     if (fault_ != Fault::kNone && ended_ && !recovered_ && shows && WorksAgain(staged)) {
       recovered_ = Seconds(Clock::now() - *ended_);
       recovered_in_time_ = *recovered_ <= kMostRecovery || images_since_end_ <= kFewImages;
@@ -616,7 +616,7 @@ void Inject(const Schedule& schedule,
   } else if (now == Fault::kStateGone) {
     disk.TakeState();
   } else if (now == Fault::kScriptError) {
-    show.PressKey(kErrorKey);
+    show.input().PressKey(kErrorKey);
   }
   log.info("soak: {}", KindOf(now).name);
 }
@@ -709,7 +709,7 @@ Result<bool> Soak(const Options& options) {
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<show::Show> show,
                             show::Show::Create(std::move(content), drama, *log));
   show->SetTrackingLossFader({});
-  show->SetPictureSize(kWidth, kHeight);
+  show->detail().SetPictureSize(kWidth, kHeight);
   LARARIUM_ASSIGN_OR_RETURN(const render::OffscreenContext context,
                             render::CreateOffscreenContext());
   LARARIUM_ASSIGN_OR_RETURN(
@@ -769,7 +769,7 @@ Result<bool> Soak(const Options& options) {
       show::QualityOptions::ForCamera(fader.size(), recording->frames_per_second()),
       fader.size() - 1);
   renderer->SetQuality(fader.back());
-  show->SetQuality(fader.back());
+  show->detail().SetQuality(fader.back());
   show::ShowStatistics statistics;
   std::vector<double> memory = {show::ResidentMebibytes()};
   const Clock::time_point begin = Clock::now();
@@ -795,10 +795,10 @@ Result<bool> Soak(const Options& options) {
       target.Finish();
       const double draw_ms =
           std::chrono::duration<double, std::milli>(Clock::now() - drawing).count();
-      if (staged->camera_from_stage &&
-          quality.AddFrame(elapsed, std::max(draw_ms, staged->stage_ms))) {
+      if (staged->camera.camera_from_stage &&
+          quality.AddFrame(elapsed, std::max(draw_ms, staged->times.stage_ms))) {
         renderer->SetQuality(fader[quality.level()]);
-        show->SetQuality(fader[quality.level()]);
+        show->detail().SetQuality(fader[quality.level()]);
       }
       if (sound != nullptr) {
         sound->Show(staged->sound);

@@ -40,15 +40,16 @@ class StereoDisplayTest : public render::GlTest {
     auto renderer = show::ShowRenderer::Create(content);
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
-    staged_.actors.resize(1);
-    staged_.actors[0].figure = content.cast[0].human;
-    staged_.actors[0].skin_count = 1;
-    staged_.actors[0].stage_from_actor =
+    staged_.people.actors.resize(1);
+    staged_.people.actors[0].figure = content.cast[0].human;
+    staged_.people.actors[0].skin_count = 1;
+    staged_.people.actors[0].stage_from_actor =
         glm::mat4(glm::vec4(0.06f, 0.0f, 0.0f, 0.0f), glm::vec4(0.0f, 0.06f, 0.0f, 0.0f),
                   glm::vec4(0.0f, 0.0f, 0.06f, 0.0f), glm::vec4(0.0f, 0.0f, -2.0f, 1.0f));
-    staged_.skin = {glm::mat4(1.0f)};
-    staged_.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
-    staged_.light.sky[0] = staged_.actors[0].light.sky[0] = glm::vec3(9.0f);
+    staged_.people.skin = {glm::mat4(1.0f)};
+    staged_.camera.camera_from_stage =
+        geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
+    staged_.light.surfaces.sky[0] = staged_.people.actors[0].light.sky[0] = glm::vec3(9.0f);
     staged_.tracked.camera = kCamera;
     staged_.tracked.frame.bgr = cv::Mat(240, 320, CV_8UC3, cv::Scalar(120, 0, 0));
     staged_.tracked.frame.bgr.colRange(156, 164).setTo(cv::Scalar(0, 0, 0));

@@ -72,7 +72,7 @@ TEST_F(OnionSkinTest, ChangesThePictureWherePeopleAreThenAndNowhereElseAndNoPict
   show::StagedFrame other;
   ASSERT_TRUE(show_->StageAtTime(1.5, now_, other).ok());
   RemoveUnmoved(now_, other);
-  ASSERT_EQ(other.actors.size(), 1u);
+  ASSERT_EQ(other.people.actors.size(), 1u);
   render::SceneMark mark;
   mark.colour = {0.1f, 0.4f, 0.9f};
   mark.share = 0.7f;
@@ -103,9 +103,9 @@ TEST_F(OnionSkinTest, WhoStandsStillHasNoSkins) {
   Draw(0.5);
   show::StagedFrame other;
   ASSERT_TRUE(show_->StageAtTime(0.25, now_, other).ok());
-  ASSERT_EQ(other.actors.size(), 1u);
+  ASSERT_EQ(other.people.actors.size(), 1u);
   RemoveUnmoved(now_, other);
-  EXPECT_TRUE(other.actors.empty());
+  EXPECT_TRUE(other.people.actors.empty());
 }
 
 }  // namespace

@@ -33,14 +33,15 @@ TEST(OnionMoments, AreFartherFirstFainterAndNotBeforeTheBeginning) {
 
 show::StagedFrame Frame(float x, float turn) {
   show::StagedFrame frame;
-  frame.actors.resize(1);
-  frame.actors[0].cast = 2;
-  frame.actors[0].skin_count = 2;
-  frame.actors[0].stage_from_actor[3].x = x;
-  frame.skin = {glm::mat4(1.0f), glm::rotate(glm::mat4(1.0f), turn, glm::vec3(0.0f, 0.0f, 1.0f))};
-  frame.objects.push_back({1, 0, 1, {}, 1.0f});
-  frame.stage_from_part = {glm::mat4(1.0f)};
-  frame.part_shown = {1};
+  frame.people.actors.resize(1);
+  frame.people.actors[0].cast = 2;
+  frame.people.actors[0].skin_count = 2;
+  frame.people.actors[0].stage_from_actor[3].x = x;
+  frame.people.skin = {glm::mat4(1.0f),
+                       glm::rotate(glm::mat4(1.0f), turn, glm::vec3(0.0f, 0.0f, 1.0f))};
+  frame.things.objects.push_back({1, 0, 1, {}, 1.0f});
+  frame.things.stage_from_part = {glm::mat4(1.0f)};
+  frame.things.part_shown = {1};
   return frame;
 }
 
@@ -48,20 +49,20 @@ TEST(RemoveUnmoved, LeavesWhoIsElsewhereOrPosedOtherwise) {
   const show::StagedFrame now = Frame(1.0f, 0.0f);
   const auto left = [&](show::StagedFrame other) {
     RemoveUnmoved(now, other);
-    return std::pair(other.actors.size(), other.objects.size());
+    return std::pair(other.people.actors.size(), other.things.objects.size());
   };
   EXPECT_EQ(left(Frame(1.0f, 0.0f)), std::pair(size_t{0}, size_t{0}));
   EXPECT_EQ(left(Frame(1.005f, 0.001f)), std::pair(size_t{0}, size_t{0})) << "breath";
   EXPECT_EQ(left(Frame(1.1f, 0.0f)), std::pair(size_t{1}, size_t{0}));
   EXPECT_EQ(left(Frame(1.0f, 0.1f)), std::pair(size_t{1}, size_t{0})) << "an arm";
   show::StagedFrame carried = Frame(1.0f, 0.0f);
-  carried.stage_from_part[0][3].y = 0.2f;
+  carried.things.stage_from_part[0][3].y = 0.2f;
   EXPECT_EQ(left(carried), std::pair(size_t{0}, size_t{1}));
   show::StagedFrame gone = Frame(1.0f, 0.0f);
-  gone.part_shown[0] = 0;
+  gone.things.part_shown[0] = 0;
   EXPECT_EQ(left(gone), std::pair(size_t{0}, size_t{1}));
   show::StagedFrame somebody_else = Frame(1.0f, 0.0f);
-  somebody_else.actors[0].cast = 3;
+  somebody_else.people.actors[0].cast = 3;
   EXPECT_EQ(left(somebody_else).first, 1u);
 }
 

@@ -14,7 +14,7 @@ StagedFrame Staged() {
   staged.tracked.camera = kCamera;
   staged.tracked.frame.index = 12;
   staged.tracked.shutter = 0.5f;
-  staged.motion = CameraMotion{geometry::Rigid3(), 1};
+  staged.camera.motion = CameraMotion{geometry::Rigid3(), 1};
   return staged;
 }
 
@@ -47,11 +47,11 @@ TEST(LookOf, TheShutterIsThatOfTheTraitsElseTheOneThatWasLearnt) {
   known.shutter = 0.25f;
   StagedFrame staged = Staged();
   EXPECT_EQ(LookOf(known, staged, kCamera).shutter, 0.25f);
-  staged.motion->frames = 2;  // The motion spans two frames.
+  staged.camera.motion->frames = 2;  // The motion spans two frames.
   EXPECT_EQ(LookOf(known, staged, kCamera).shutter, 0.125f);
   staged.tracked.shutter.reset();
   EXPECT_EQ(LookOf(kTraits, staged, kCamera).shutter, 0.0f);
-  staged.motion.reset();
+  staged.camera.motion.reset();
   EXPECT_FALSE(LookOf(known, staged, kCamera).previous_camera_from_stage.has_value());
 }
 

@@ -199,12 +199,12 @@ TEST(ShowWithObjects, StagesThePartsOfEachWhereTheyAre) {
   ASSERT_TRUE(show.ok()) << show.message();
   StagedFrame staged;
   (*show)->StageFrame(test::FakePoses().Track({}), 0.1, staged);
-  ASSERT_EQ(staged.objects.size(), 2u);
-  EXPECT_EQ(staged.objects[1].object, 1u);
-  EXPECT_EQ(staged.objects[1].part_count, 2u);
-  const glm::mat4& part = staged.stage_from_part.at(staged.objects[1].part_begin);
+  ASSERT_EQ(staged.things.objects.size(), 2u);
+  EXPECT_EQ(staged.things.objects[1].object, 1u);
+  EXPECT_EQ(staged.things.objects[1].part_count, 2u);
+  const glm::mat4& part = staged.things.stage_from_part.at(staged.things.objects[1].part_begin);
   EXPECT_LT(glm::distance(glm::vec3(part[3]), glm::vec3(1.0f, 0.8f, 0.0f)), 1e-5f);
-  EXPECT_EQ(staged.part_shown.size(), 4u);
+  EXPECT_EQ(staged.things.part_shown.size(), 4u);
 }
 
 TEST(ShowWithObjects, NamesThatAreTakenAreErrors) {

@@ -24,10 +24,10 @@ ShowContent TwoPeople() {
 // The camera stands at the stage's origin and looks along -Z.
 StagedFrame Seeing(std::initializer_list<glm::vec3> feet) {
   StagedFrame staged;
-  staged.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
+  staged.camera.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
   uint32_t cast = 0;
   for (const glm::vec3& at : feet) {
-    StagedActor& actor = staged.actors.emplace_back();
+    StagedActor& actor = staged.people.actors.emplace_back();
     actor.cast = cast++;
     actor.stage_from_actor[3] = glm::vec4(at, 1.0f);
   }
@@ -66,7 +66,7 @@ TEST(Evidence, SaysWhatIsKnownOfWhomTheVisitorLooksAt) {
   EXPECT_EQ(right.text, "");
   EXPECT_EQ(evidence.LegendOf(Seeing({{0.0f, -1.2f, 3.0f}})).title, "") << "behind the camera";
   StagedFrame lost = Seeing({{0.0f, -1.2f, -3.0f}});
-  lost.camera_from_stage.reset();
+  lost.camera.camera_from_stage.reset();
   EXPECT_EQ(evidence.LegendOf(lost).title, "");
 }
 

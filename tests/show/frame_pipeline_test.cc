@@ -150,8 +150,8 @@ TEST_F(FramePipelineTest, RealtimeStagesIntoThreeFramesHoweverSlowTheyAreDrawn) 
   while (!pipeline.Finished()) {
     std::unique_ptr<StagedFrame> staged = pipeline.Take(std::chrono::milliseconds(20));
     if (staged != nullptr) {
-      fresh += staged->actors.capacity() < kServed ? 1 : 0;
-      staged->actors.reserve(kServed);
+      fresh += staged->people.actors.capacity() < kServed ? 1 : 0;
+      staged->people.actors.reserve(kServed);
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
       pipeline.Recycle(std::move(staged));
     }

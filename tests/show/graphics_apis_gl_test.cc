@@ -42,19 +42,19 @@ StagedFrame Noon(const std::shared_ptr<const human::Human>& ball) {
   light.sky[0] = glm::vec3(0.5f, 0.6f, 0.8f) * 2.0f * std::sqrt(std::numbers::pi_v<float>);
   light.sky[1] = glm::vec3(0.2f);
   light.sun = light::Sun{glm::normalize(glm::vec3(0.4f, 1.0f, 0.3f)), glm::vec3(2.0f, 1.8f, 1.5f)};
-  staged.light = light;
-  staged.lamps = {{{1.5f, 0.5f, -4.0f}, glm::vec3(0.9f, 0.6f, 0.3f)}};
-  staged.actors.resize(2);
-  for (StagedActor& actor : staged.actors) {
+  staged.light.surfaces = light;
+  staged.things.lamps = {{{1.5f, 0.5f, -4.0f}, glm::vec3(0.9f, 0.6f, 0.3f)}};
+  staged.people.actors.resize(2);
+  for (StagedActor& actor : staged.people.actors) {
     actor.figure = ball;
     actor.skin_count = 1;
     actor.light = light;
   }
-  staged.actors[0].stage_from_actor[3] = glm::vec4(-1.0f, -0.5f, -5.0f, 1.0f);
-  staged.actors[1].stage_from_actor[3] = glm::vec4(1.1f, -0.3f, -4.5f, 1.0f);
-  staged.blockers = {{-1.0f, -0.5f, -5.0f, 1.0f}, {1.1f, -0.3f, -4.5f, 1.0f}};
-  staged.skin = {glm::mat4(1.0f)};
-  staged.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
+  staged.people.actors[0].stage_from_actor[3] = glm::vec4(-1.0f, -0.5f, -5.0f, 1.0f);
+  staged.people.actors[1].stage_from_actor[3] = glm::vec4(1.1f, -0.3f, -4.5f, 1.0f);
+  staged.light.blockers = {{-1.0f, -0.5f, -5.0f, 1.0f}, {1.1f, -0.3f, -4.5f, 1.0f}};
+  staged.people.skin = {glm::mat4(1.0f)};
+  staged.camera.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
   staged.tracked.camera = kCamera;
   cv::Mat& image = staged.tracked.frame.bgr;
   image.create(kCamera.height, kCamera.width, CV_8UC3);

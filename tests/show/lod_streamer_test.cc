@@ -172,8 +172,8 @@ TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
   auto fine = create(0.0f);
   ASSERT_TRUE(coarse.ok()) << coarse.message();
   ASSERT_TRUE(fine.ok());
-  (*coarse)->SetSeenAround(true);
-  (*fine)->SetSeenAround(true);
+  (*coarse)->detail().SetSeenAround(true);
+  (*fine)->detail().SetSeenAround(true);
   test::FakePoses poses;
   StagedFrame by_coarse;
   StagedFrame by_fine;
@@ -185,13 +185,13 @@ TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
     tracked.camera = {64, 48, 60.0, 60.0, 31.5, 23.5};
     (*coarse)->StageFrame(tracked, frame.capture_time, by_coarse);
     (*fine)->StageFrame(tracked, frame.capture_time, by_fine);
-    ASSERT_EQ(by_coarse.actors.size(), 1u);
-    const StagedActor& actor = by_coarse.actors[0];
+    ASSERT_EQ(by_coarse.people.actors.size(), 1u);
+    const StagedActor& actor = by_coarse.people.actors[0];
     EXPECT_EQ(actor.light_count, actor.figure->meshes[0].positions.size());
     if (actor.light_count == 4) {
-      EXPECT_EQ(actor.detail, by_fine.actors[0].detail);
-      EXPECT_EQ(by_coarse.irradiance, by_fine.irradiance);
-      EXPECT_EQ(by_coarse.skin, by_fine.skin);
+      EXPECT_EQ(actor.detail, by_fine.people.actors[0].detail);
+      EXPECT_EQ(by_coarse.light.on_people, by_fine.light.on_people);
+      EXPECT_EQ(by_coarse.people.skin, by_fine.people.skin);
       return;
     }
     ASSERT_EQ(actor.light_count, 3u);

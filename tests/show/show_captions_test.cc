@@ -82,14 +82,14 @@ TEST(ShowCaptions, AnArrowPointsToASpeakerOutOfView) {
   staged.tracked.camera = {
       .width = 640, .height = 480, .fx = 500, .fy = 500, .cx = 319.5, .cy = 239.5};
   const auto side = [&](const glm::vec3& place) {
-    staged.actors = {{}};
-    staged.actors[0].cast = 1;
-    staged.actors[0].stage_from_actor = glm::translate(glm::mat4(1.0f), place);
+    staged.people.actors = {{}};
+    staged.people.actors[0].cast = 1;
+    staged.people.actors[0].stage_from_actor = glm::translate(glm::mat4(1.0f), place);
     return SideOf(staged, 1);
   };
   EXPECT_EQ(side({9.0f, 0.0f, 0.0f}), CaptionSide::kHere) << "nobody knows where the camera is";
   // Camera axes: x right, z forward.
-  staged.camera_from_stage.emplace();
+  staged.camera.camera_from_stage.emplace();
   EXPECT_EQ(side({0.0f, 0.0f, 3.0f}), CaptionSide::kHere);
   EXPECT_EQ(side({-9.0f, 0.0f, 3.0f}), CaptionSide::kLeft);
   EXPECT_EQ(side({9.0f, 0.0f, 3.0f}), CaptionSide::kRight);

@@ -55,17 +55,18 @@ class ShowRendererTest : public render::GlTest {
     ASSERT_TRUE(renderer.ok()) << renderer.message();
     renderer_ = std::move(renderer).value();
     target_.emplace(MakeTarget(kShowCamera.width, kShowCamera.height));
-    staged_.actors.resize(1);
-    staged_.actors[0].figure = content.cast[0].human;
-    staged_.actors[0].skin_count = 1;
-    staged_.actors[0].stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
-    staged_.skin = {glm::mat4(1.0f)};
-    staged_.camera_from_stage = geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
+    staged_.people.actors.resize(1);
+    staged_.people.actors[0].figure = content.cast[0].human;
+    staged_.people.actors[0].skin_count = 1;
+    staged_.people.actors[0].stage_from_actor[3] = glm::vec4(0.0f, 0.0f, -4.0f, 1.0f);
+    staged_.people.skin = {glm::mat4(1.0f)};
+    staged_.camera.camera_from_stage =
+        geometry::Rigid3{{0.0, 1.0, 0.0, 0.0}, Eigen::Vector3d::Zero()};
     staged_.tracked.camera = kShowCamera;
   }
 
   void SetLight(const glm::vec3& radiance) {
-    staged_.light = staged_.actors[0].light = UniformLight(radiance);
+    staged_.light.surfaces = staged_.people.actors[0].light = UniformLight(radiance);
   }
 
   // Draws over a uniform camera image: linear colour, below the knee.
@@ -94,9 +95,9 @@ class ShowRendererTest : public render::GlTest {
 TEST_F(ShowRendererTest, OneStopLessOfTheCameraIsOneStopLessOfThePeople) {
   Create(glm::vec3(0.5f), {{}});
   SetLight({1.0f, 0.9f, 0.8f});
-  staged_.gain = {1.0f, 1.0f, 1.0f};
+  staged_.camera.gain = {1.0f, 1.0f, 1.0f};
   const glm::dvec3 full = LinearAt(Draw(), 80, 60);
-  staged_.gain = {0.5f, 0.5f, 0.5f};
+  staged_.camera.gain = {0.5f, 0.5f, 0.5f};
   const glm::dvec3 half = LinearAt(Draw(), 80, 60);
   for (int c = 0; c < 3; ++c) {
     EXPECT_LT(full[c], kKnee);
@@ -114,7 +115,7 @@ TEST_F(ShowRendererTest, PeopleStandInThePictureLikeThePlaceAtEveryGain) {
   const glm::vec3 reference = albedo * light;
   for (const glm::vec3& gain :
        {glm::vec3(1.0f), glm::vec3(0.5f), glm::vec3(0.25f), glm::vec3(1.2f, 1.0f, 0.7f)}) {
-    staged_.gain = {gain.r, gain.g, gain.b};
+    staged_.camera.gain = {gain.r, gain.g, gain.b};
     const glm::vec3 seen = reference * gain;
     ASSERT_LT(std::max({seen.r, seen.g, seen.b}), kKnee);
     const cv::Mat picture = Draw(seen);
@@ -129,7 +130,7 @@ TEST_F(ShowRendererTest, EachPlaceHasItsOwnOccluders) {
   Create(glm::vec3(1.0f), {{}, yard});
   SetLight(glm::vec3(0.5f));
   for (const uint32_t place : {0u, 1u, 0u}) {
-    staged_.place = place;
+    staged_.camera.place = place;
     const cv::Mat picture = Draw();
     EXPECT_NEAR(LinearAt(picture, 60, 60).r, 0.5, 0.01) << place;
     EXPECT_NEAR(LinearAt(picture, 100, 60).r, place == 0 ? 0.5 : 0.0, 0.01) << place;
@@ -143,10 +144,10 @@ TEST_F(ShowRendererTest, ShadowsFallOnOccludersThatReceiveThem) {
   glazed.occluders[0].receives_shadow = false;
   Create(glm::vec3(1.0f), {yard, glazed});
   SetLight(glm::vec3(0.5f));
-  staged_.actors.clear();
-  staged_.blockers = {{0.0f, 0.0f, -4.4f, 0.5f}};
+  staged_.people.actors.clear();
+  staged_.light.blockers = {{0.0f, 0.0f, -4.4f, 0.5f}};
   for (const uint32_t place : {0u, 1u}) {
-    staged_.place = place;
+    staged_.camera.place = place;
     const double seen = LinearAt(Draw(glm::vec3(0.5f)), 80, 60).r;
     EXPECT_NEAR(seen, place == 0 ? 0.5 * (1.0 - 0.25 / 0.36) : 0.5, place == 0 ? 0.06 : 0.005);
   }
@@ -154,11 +155,11 @@ TEST_F(ShowRendererTest, ShadowsFallOnOccludersThatReceiveThem) {
 
 TEST_F(ShowRendererTest, EverybodyIsInTheirOwnLight) {
   Create(glm::vec3(1.0f), {{}});
-  staged_.actors.push_back(staged_.actors[0]);
-  staged_.actors[0].stage_from_actor[3].x = -1.2f;
-  staged_.actors[1].stage_from_actor[3].x = 1.2f;
-  staged_.actors[0].light = UniformLight({0.5f, 0.4f, 0.1f});
-  staged_.actors[1].light = UniformLight({0.1f, 0.2f, 0.5f});
+  staged_.people.actors.push_back(staged_.people.actors[0]);
+  staged_.people.actors[0].stage_from_actor[3].x = -1.2f;
+  staged_.people.actors[1].stage_from_actor[3].x = 1.2f;
+  staged_.people.actors[0].light = UniformLight({0.5f, 0.4f, 0.1f});
+  staged_.people.actors[1].light = UniformLight({0.1f, 0.2f, 0.5f});
   const cv::Mat picture = Draw();
   for (const auto& [x, expected] :
        {std::pair(20, glm::dvec3(0.5, 0.4, 0.1)), std::pair(140, glm::dvec3(0.1, 0.2, 0.5))}) {
@@ -175,7 +176,7 @@ TEST_F(ShowRendererTest, StagingOnePlaceAnewLeavesTheOthers) {
   SetLight(glm::vec3(0.5f));
   renderer_->SetPlace(1, yard);
   EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.5, 0.01);
-  staged_.place = 1;
+  staged_.camera.place = 1;
   EXPECT_NEAR(LinearAt(Draw(), 80, 60).r, 0.0, 0.01);
 }
 
@@ -184,7 +185,7 @@ TEST_F(ShowRendererTest, GhostsAreOfOneColourWhereNothingHidesThemAndChangeNoPic
   yard.occluders = {{"wall", Wall(0.0f, 9.0f, -2.0f), {}}, {"floor", Wall(-9.0f, 9.0f, -6.0f), {}}};
   Create(glm::vec3(0.5f), {yard});
   SetLight(glm::vec3(0.8f));
-  staged_.blockers = {{0.0f, 0.0f, -5.5f, 1.0f}};  // A shadow on the floor.
+  staged_.light.blockers = {{0.0f, 0.0f, -5.5f, 1.0f}};  // A shadow on the floor.
   const cv::Mat before = Draw(glm::vec3(0.2f));
   render::SceneMark mark;
   mark.colour = {0.1f, 0.2f, 0.9f};
@@ -222,12 +223,12 @@ TEST_F(ShowRendererTest, WhoIsStagedInAnotherDetailIsDrawnInIt) {
   Create(glm::vec3(0.5f), {{}});
   SetLight(glm::vec3(1.0f));
   const cv::Mat ball = Draw();
-  human::Human half = *staged_.actors[0].figure;
+  human::Human half = *staged_.people.actors[0].figure;
   half.meshes[0].indices.resize(half.meshes[0].indices.size() / 6 * 3);
   const auto coarse = std::make_shared<const human::Human>(half);
-  const auto fine = std::exchange(staged_.actors[0].figure, coarse);
+  const auto fine = std::exchange(staged_.people.actors[0].figure, coarse);
   EXPECT_FALSE(test::ImagesAgree(Draw(), ball, {.max = 1.0, .mean = 0.1}));
-  staged_.actors[0].figure = fine;
+  staged_.people.actors[0].figure = fine;
   EXPECT_TRUE(test::ImagesAgree(Draw(), ball, {.max = 0.0, .mean = 0.0}));
 }
 
@@ -238,7 +239,7 @@ TEST_F(ShowRendererTest, AtHalfTheRatePeopleMoveInEverySecondPicture) {
   std::vector<double> seen;
   for (int frame = 0; frame < 7; ++frame) {
     staged_.tracked.frame.index = frame;
-    staged_.actors[0].stage_from_actor[3].x = 0.1f * static_cast<float>(frame);
+    staged_.people.actors[0].stage_from_actor[3].x = 0.1f * static_cast<float>(frame);
     seen.push_back(BallAt(Draw()));
   }
   // The first picture is drawn as a whole; each pair shows what the previous pair began.
@@ -253,12 +254,12 @@ TEST_F(ShowRendererTest, AtHalfTheRatePeopleStayOnTheirSpotWhileTheCameraTurns) 
   SetLight(glm::vec3(1.0f));
   const auto turn = [&](int frame) {
     staged_.tracked.frame.index = frame;
-    staged_.camera_from_stage = geometry::Rigid3{
+    staged_.camera.camera_from_stage = geometry::Rigid3{
         Eigen::Quaterniond(Eigen::AngleAxisd(0.012 * frame, Eigen::Vector3d::UnitY())) *
             Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0),
         Eigen::Vector3d::Zero()};
-    staged_.motion = frame == 0 ? std::nullopt : std::optional(motion_);
-    motion_ = {*staged_.camera_from_stage, 1};
+    staged_.camera.motion = frame == 0 ? std::nullopt : std::optional(motion_);
+    motion_ = {*staged_.camera.camera_from_stage, 1};
   };
   std::vector<double> whole;
   for (int frame = 0; frame < 6; ++frame) {
@@ -280,11 +281,11 @@ TEST_F(ShowRendererTest, AtHalfTheRateNobodyOfAnotherPlaceIsCarriedOver) {
     staged_.tracked.frame.index = frame;
     Draw();
   }
-  staged_.place = 1;
-  staged_.actors[0].stage_from_actor[3].x = 0.5f;
+  staged_.camera.place = 1;
+  staged_.people.actors[0].stage_from_actor[3].x = 0.5f;
   const double there = BallAt(Draw());
   EXPECT_NEAR(there, 79.5 + kPixelsPerMetre * 0.5, 0.5);
-  staged_.camera_from_stage.reset();
+  staged_.camera.camera_from_stage.reset();
   EXPECT_EQ(cv::countNonZero(Draw().reshape(1)), 0) << "without a pose nobody is there";
 }
 

@@ -27,7 +27,9 @@ class ShowTest : public ::testing::Test {
   std::shared_ptr<Log> log_ = MakeSilentLog();
 };
 
-float PositionX(const StagedFrame& staged) { return staged.actors.at(0).stage_from_actor[3].x; }
+float PositionX(const StagedFrame& staged) {
+  return staged.people.actors.at(0).stage_from_actor[3].x;
+}
 
 TEST_F(ShowTest, DrawsBetweenTwoTicks) {
   const std::unique_ptr<Show> show = Make();
@@ -39,8 +41,8 @@ TEST_F(ShowTest, DrawsBetweenTwoTicks) {
 TEST_F(ShowTest, PosesTheClipAtTheSameMoment) {
   const std::unique_ptr<Show> show = Make();
   const StagedFrame staged = At(*show, 0.25);
-  ASSERT_EQ(staged.actors.at(0).skin_count, 1u);
-  EXPECT_NEAR(staged.skin.at(0)[3].y, 0.25f, 1e-4f);
+  ASSERT_EQ(staged.people.actors.at(0).skin_count, 1u);
+  EXPECT_NEAR(staged.people.skin.at(0)[3].y, 0.25f, 1e-4f);
 }
 
 TEST_F(ShowTest, AnyOrderOfTimesGivesTheStateOfPlaying) {
@@ -84,8 +86,10 @@ TEST_F(ShowTest, AnotherMomentIsStagedAsItWillBeAndLeavesNoTrace) {
     const double time = i <= 40 ? i / 30.0 : (i - 20) / 30.0;  // Goes back once.
     plain->StageFrame(tracked, time, expected);
     glancing->StageFrame(tracked, time, staged);
-    ASSERT_EQ(staged.actors.at(0).stage_from_actor, expected.actors.at(0).stage_from_actor) << i;
-    ASSERT_EQ(staged.skin, expected.skin) << i;
+    ASSERT_EQ(staged.people.actors.at(0).stage_from_actor,
+              expected.people.actors.at(0).stage_from_actor)
+        << i;
+    ASSERT_EQ(staged.people.skin, expected.people.skin) << i;
     for (const double offset : {-0.5, -0.25, 0.25, 0.5, 1.5}) {
       ASSERT_TRUE(glancing->StageAtTime(time + offset, staged, other).ok());
     }
@@ -103,7 +107,8 @@ TEST_F(ShowTest, AnotherMomentIsThatOfTheDrama) {
     ASSERT_TRUE(show->StageAtTime(time, staged, other).ok());
     EXPECT_NEAR(PositionX(other), time, 1e-4);
     EXPECT_NEAR(other.time, time, 1e-9);
-    EXPECT_EQ(other.camera_from_stage->translation, staged.camera_from_stage->translation);
+    EXPECT_EQ(other.camera.camera_from_stage->translation,
+              staged.camera.camera_from_stage->translation);
     EXPECT_EQ(PositionX(At(*show, 0.5)), PositionX(staged));
   }
 }
@@ -112,8 +117,8 @@ TEST_F(ShowTest, ThePoseOnTheStageIsMetric) {
   const std::unique_ptr<Show> show = Make();
   const StagedFrame staged = At(*show, 0.0);
   // The map's scale is twice the stage's, so 4 map units are 2 metres.
-  ASSERT_TRUE(staged.camera_from_stage.has_value());
-  EXPECT_NEAR(staged.camera_from_stage->translation.z(), 2.0, 1e-12);
+  ASSERT_TRUE(staged.camera.camera_from_stage.has_value());
+  EXPECT_NEAR(staged.camera.camera_from_stage->translation.z(), 2.0, 1e-12);
 }
 
 TEST_F(ShowTest, TheStageGoesWhereTheFramesMapSaysAndTheDramaRunsOn) {
@@ -138,10 +143,10 @@ TEST_F(ShowTest, TheStageGoesWhereTheFramesMapSaysAndTheDramaRunsOn) {
   for (const Step& step : {Step{0, 0, 2.0}, Step{1, 1, 8.0}, Step{std::nullopt, 1, 0.0},
                            Step{std::nullopt, 1, 0.0}, Step{1, 1, 8.0}, Step{0, 0, 2.0}}) {
     stage(time, step.map);
-    EXPECT_EQ(staged.place, step.place) << time;
-    ASSERT_EQ(staged.camera_from_stage.has_value(), step.map.has_value()) << time;
+    EXPECT_EQ(staged.camera.place, step.place) << time;
+    ASSERT_EQ(staged.camera.camera_from_stage.has_value(), step.map.has_value()) << time;
     if (step.map) {
-      EXPECT_NEAR(staged.camera_from_stage->translation.z(), step.depth, 1e-12) << time;
+      EXPECT_NEAR(staged.camera.camera_from_stage->translation.z(), step.depth, 1e-12) << time;
     }
     time += 0.1;
   }
@@ -155,10 +160,10 @@ TEST_F(ShowTest, StagingOnePlaceAnewLeavesTheOthers) {
   StagedFrame staged;
   vision::TrackedFrame tracked = test::FakePoses().Track({});
   show->StageFrame(tracked, 0.0, staged);
-  EXPECT_NEAR(staged.camera_from_stage->translation.z(), 2.0, 1e-12);
+  EXPECT_NEAR(staged.camera.camera_from_stage->translation.z(), 2.0, 1e-12);
   tracked.map = 1;
   show->StageFrame(tracked, 0.1, staged);
-  EXPECT_NEAR(staged.camera_from_stage->translation.z(), 7.0, 1e-12);
+  EXPECT_NEAR(staged.camera.camera_from_stage->translation.z(), 7.0, 1e-12);
 }
 
 TEST_F(ShowTest, AWallThatWasMovedIsGoneRoundAsIfItHadAlwaysStoodThere) {
@@ -194,7 +199,8 @@ TEST_F(ShowTest, AWallThatWasMovedIsGoneRoundAsIfItHadAlwaysStoodThere) {
   const std::unique_ptr<Show> always = create(with_wall(0.7f));
   for (const double time : {kBeside, kBeside + 0.1, 1.0, 4.0}) {
     const StagedFrame expected = At(*always, time);
-    EXPECT_EQ(At(*show, time).actors[0].stage_from_actor, expected.actors[0].stage_from_actor)
+    EXPECT_EQ(At(*show, time).people.actors[0].stage_from_actor,
+              expected.people.actors[0].stage_from_actor)
         << time;
   }
   EXPECT_LT(PositionX(At(*show, kBeside)), -0.3f) << "round it";
@@ -224,7 +230,7 @@ TEST_F(ShowTest, AThingThatWasMovedIsSeenThereAtOnceAndWasAlwaysThereOnceThatIsS
   };
   const auto create = [&](float z) { return Show::Create(with_table(z), {}, *log_).value(); };
   const auto place_of = [](const StagedFrame& staged, size_t object) {
-    return glm::vec3(staged.stage_from_part[staged.objects.at(object).part_begin][3]);
+    return glm::vec3(staged.things.stage_from_part[staged.things.objects.at(object).part_begin][3]);
   };
   constexpr double kBeside = 2.5;  // seconds: about half of the way
   const std::unique_ptr<Show> show = create(2.0f);
@@ -246,8 +252,9 @@ TEST_F(ShowTest, AThingThatWasMovedIsSeenThereAtOnceAndWasAlwaysThereOnceThatIsS
   for (const double time : {kBeside, 1.0, 4.0}) {
     const StagedFrame expected = At(*always, time);
     const StagedFrame settled = At(*show, time);
-    EXPECT_EQ(settled.actors[0].stage_from_actor, expected.actors[0].stage_from_actor) << time;
-    EXPECT_EQ(settled.stage_from_part, expected.stage_from_part) << time;
+    EXPECT_EQ(settled.people.actors[0].stage_from_actor, expected.people.actors[0].stage_from_actor)
+        << time;
+    EXPECT_EQ(settled.things.stage_from_part, expected.things.stage_from_part) << time;
   }
   EXPECT_GT(std::abs(PositionX(At(*show, kBeside))), 0.2f) << "round it";
   const int64_t played = show->drama().played_ticks();
@@ -263,7 +270,7 @@ TEST_F(ShowTest, WhereAThingIsSinceSomebodyMovedItStaysUntilThatIsSettled) {
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
   const auto x_at = [&](double time) {
     const StagedFrame staged = At(*show, time);
-    return staged.stage_from_part[staged.objects.at(0).part_begin][3].x;
+    return staged.things.stage_from_part[staged.things.objects.at(0).part_begin][3].x;
   };
   EXPECT_NEAR(x_at(1.5), 5.0f, 1e-5f);
   show->PlaceObject(0, {{2.0f, 0.0f, -2.0f}});
@@ -283,7 +290,7 @@ TEST_F(ShowTest, TheGainIsSteadiedUntilThePlaceChangesOrThePoseIsLost) {
     tracked.map = map;
     tracked.gain = {gain, gain, gain};
     show->StageFrame(tracked, time, staged);
-    return staged.gain[0];
+    return staged.camera.gain[0];
   };
   EXPECT_FLOAT_EQ(gain_of(1.0f, 0), 1.0f);
   const float steadied = gain_of(0.8f, 0);
@@ -298,16 +305,16 @@ TEST_F(ShowTest, WithoutAPoseNothingIsPlaced) {
   const std::unique_ptr<Show> show = Make();
   StagedFrame staged = At(*show, 0.0);
   show->StageFrame({}, 0.1, staged);
-  EXPECT_FALSE(staged.camera_from_stage.has_value());
+  EXPECT_FALSE(staged.camera.camera_from_stage.has_value());
 }
 
 TEST_F(ShowTest, SteadyPlayReusesItsBuffers) {
   const std::unique_ptr<Show> show = Make();
   StagedFrame staged = At(*show, 0.0);
-  const glm::mat4* skin = staged.skin.data();
+  const glm::mat4* skin = staged.people.skin.data();
   for (int i = 1; i < 100; ++i) {
     show->StageFrame({}, i / 100.0, staged);
-    EXPECT_EQ(staged.skin.data(), skin);
+    EXPECT_EQ(staged.people.skin.data(), skin);
   }
 }
 
@@ -348,12 +355,12 @@ TEST_F(ShowTest, TheDramaHearsOfItsVisitor) {
       one:place{ y = visitor:where().z }
     end)";
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
-  show->SetHour(9.4f);
+  show->input().SetHour(9.4f);
   StagedFrame staged = At(*show, 0.1);
-  show->PressKey("space");
-  show->SetHour(9.6f);
+  show->input().PressKey("space");
+  show->input().SetHour(9.6f);
   staged = At(*show, 0.3);
-  const glm::vec3 at = staged.actors.at(0).stage_from_actor[3];
+  const glm::vec3 at = staged.people.actors.at(0).stage_from_actor[3];
   EXPECT_EQ(at.x, 1.0f);
   EXPECT_EQ(at.z, 1.0f);
   // The camera is 4 map units from the stage's origin, at 2 units per metre.
@@ -382,13 +389,14 @@ TEST_F(ShowTest, LampsBurnWhereTheirObjectsAreAndAsTheDramaSays) {
   content.drama += "function main() wait(1); light('lamp'):set{ level = 0 } end";
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
   const StagedFrame lit = At(*show, 0.5);
-  ASSERT_EQ(lit.lamps.size(), 1u);
-  EXPECT_LT(glm::distance(lit.lamps[0].position, glm::vec3(1.0f, 0.1f, -2.0f)), 1e-5f);
-  EXPECT_GT(lit.objects.at(0).glow, 0.5f);
-  EXPECT_EQ(At(*show, 0.5).lamps[0].intensity, lit.lamps[0].intensity);  // Depends on time only.
+  ASSERT_EQ(lit.things.lamps.size(), 1u);
+  EXPECT_LT(glm::distance(lit.things.lamps[0].position, glm::vec3(1.0f, 0.1f, -2.0f)), 1e-5f);
+  EXPECT_GT(lit.things.objects.at(0).glow, 0.5f);
+  EXPECT_EQ(At(*show, 0.5).things.lamps[0].intensity,
+            lit.things.lamps[0].intensity);  // Depends on time only.
   const StagedFrame out = At(*show, 1.5);
-  EXPECT_TRUE(out.lamps.empty());
-  EXPECT_EQ(out.objects.at(0).glow, 0.0f);
+  EXPECT_TRUE(out.things.lamps.empty());
+  EXPECT_EQ(out.things.objects.at(0).glow, 0.0f);
 }
 
 TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {
@@ -403,7 +411,9 @@ TEST_F(ShowTest, ActorsAreInTheLightOfWhereTheyStandAndOfTheDramasHour) {
     probes.push_back({{x, 0.8f, 0.0f}, hour, light});  // Half as high as the person.
   }
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
-  const auto radiance_at = [&](double time) { return At(*show, time).actors.at(0).light.sky[0].r; };
+  const auto radiance_at = [&](double time) {
+    return At(*show, time).people.actors.at(0).light.sky[0].r;
+  };
   EXPECT_NEAR(radiance_at(0.0), 1.0f, 1e-3f);
   EXPECT_NEAR(radiance_at(0.5), 2.0f, 1e-3f);  // The middle, at nine o'clock.
   EXPECT_NEAR(radiance_at(1.0), 6.0f, 1e-3f);
@@ -432,24 +442,24 @@ TEST_F(ShowTest, WhileTrackingIsLostPeopleAreHeldThenFadeThenTheVisitorIsGuided)
   for (; time < 1.0; time += 1.0 / 30.0) {
     stage(time, true);
   }
-  const auto seen = staged.camera_from_stage;
-  EXPECT_EQ(staged.opacity, 1.0f);
+  const auto seen = staged.camera.camera_from_stage;
+  EXPECT_EQ(staged.camera.opacity, 1.0f);
   stage(time, false);
-  EXPECT_EQ(staged.opacity, 1.0f);
-  EXPECT_EQ(staged.state, TrackingLossFader::State::kHeld);
-  ASSERT_TRUE(staged.camera_from_stage);
-  EXPECT_NEAR((staged.camera_from_stage->Center() - seen->Center()).norm(), 0.0, 1e-6);
-  EXPECT_EQ(staged.gain, (std::array<float, 3>{1.0f, 1.0f, 1.0f}));
+  EXPECT_EQ(staged.camera.opacity, 1.0f);
+  EXPECT_EQ(staged.camera.state, TrackingLossFader::State::kHeld);
+  ASSERT_TRUE(staged.camera.camera_from_stage);
+  EXPECT_NEAR((staged.camera.camera_from_stage->Center() - seen->Center()).norm(), 0.0, 1e-6);
+  EXPECT_EQ(staged.camera.gain, (std::array<float, 3>{1.0f, 1.0f, 1.0f}));
   for (const double end = time + 3.5; time < end; time += 1.0 / 30.0) {
     stage(time, false);
   }
-  EXPECT_EQ(staged.opacity, 0.0f);
-  EXPECT_FALSE(staged.camera_from_stage);
-  EXPECT_EQ(staged.guide.opacity, 1.0f);
-  EXPECT_FALSE(staged.actors.empty()) << "the drama runs on";
+  EXPECT_EQ(staged.camera.opacity, 0.0f);
+  EXPECT_FALSE(staged.camera.camera_from_stage);
+  EXPECT_EQ(staged.camera.guide.opacity, 1.0f);
+  EXPECT_FALSE(staged.people.actors.empty()) << "the drama runs on";
   stage(time, true);
-  EXPECT_LT(staged.opacity, 0.2f);
-  EXPECT_TRUE(staged.camera_from_stage);
+  EXPECT_LT(staged.camera.opacity, 0.2f);
+  EXPECT_TRUE(staged.camera.camera_from_stage);
 }
 
 TEST_F(ShowTest, WhatIsDescribedIsHeardAndReadByWhoeverChoseIt) {
@@ -463,7 +473,7 @@ TEST_F(ShowTest, WhatIsDescribedIsHeardAndReadByWhoeverChoseIt) {
   const StagedFrame without = At(*show, 1.5);
   EXPECT_TRUE(without.lines.empty());
   EXPECT_TRUE(without.sound.voices.empty());
-  show->SetDescriptions(true);
+  show->input().SetDescriptions(true);
   const StagedFrame with = At(*show, 1.5);
   ASSERT_EQ(with.lines.size(), 1u);
   EXPECT_EQ(with.lines[0].cast, StagedLine::kDescription);
@@ -472,7 +482,7 @@ TEST_F(ShowTest, WhatIsDescribedIsHeardAndReadByWhoeverChoseIt) {
   EXPECT_EQ(with.sound.voices[0].bus, audio::Bus::kDescription);
   EXPECT_TRUE(with.sound.voices[0].head_locked);
   EXPECT_NEAR(with.sound.voices[0].began, 1.0, 0.02);
-  show->SetDescriptions(false);
+  show->input().SetDescriptions(false);
   EXPECT_TRUE(At(*show, 1.6).sound.voices.empty());
 }
 
@@ -480,10 +490,10 @@ TEST_F(ShowTest, TheNextVisitorSeesTheDramaFromItsBeginning) {
   const std::unique_ptr<Show> show = Make();
   StagedFrame staged = At(*show, 0.7);
   EXPECT_NEAR(PositionX(staged), 0.7, 1e-4);
-  show->RestartAt(0.0);
+  show->input().RestartAt(0.0);
   EXPECT_NEAR(PositionX(At(*show, 20.0)), 0.0, 1e-4);
   EXPECT_NEAR(PositionX(At(*show, 20.3)), 0.3, 1e-4);
-  show->RestartAt(0.5);
+  show->input().RestartAt(0.5);
   EXPECT_NEAR(PositionX(At(*show, 21.0)), 0.5, 1e-4);
   EXPECT_NEAR(PositionX(At(*show, 21.2)), 0.7, 1e-4);
 }
@@ -524,16 +534,16 @@ TEST_F(ShowTest, APoseThatIsFoundAnewIsTakenAsItIs) {
         frame.camera_from_map.reset();
       }
       if (i == 9) {
-        before = staged.camera_from_stage->Center();
+        before = staged.camera.camera_from_stage->Center();
         frame.camera_from_map->translation.x() += 1.5;
         if (forget) {
-          show->ForgetPose();
+          show->input().ForgetPose();
         }
       }
       show->StageFrame(frame, i / 30.0, staged);
     }
     EXPECT_NEAR(PositionX(staged), 0.3, 1e-4) << "the drama goes on";
-    return (staged.camera_from_stage->Center() - before).norm();
+    return (staged.camera.camera_from_stage->Center() - before).norm();
   };
   EXPECT_LT(moved(false), 0.1) << "first they go where they were";
   EXPECT_GT(moved(true), 0.5);
@@ -543,7 +553,7 @@ TEST_F(ShowTest, AKioskRunsForDays) {
   const std::unique_ptr<Show> show = Make();
   const double days = 5.0 * 24.0 * 3600.0;
   At(*show, 0.0);
-  show->RestartAt(0.0);
+  show->input().RestartAt(0.0);
   EXPECT_NEAR(PositionX(At(*show, days)), 0.0, 1e-4);
   EXPECT_NEAR(PositionX(At(*show, days + 0.25)), 0.25, 1e-4);
 }

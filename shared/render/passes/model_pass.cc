@@ -11,6 +11,7 @@
 #include "shared/core/units.h"
 #include "shared/human/skinning.h"
 #include "shared/light/glossy_map.h"
+#include "shared/light/lamp.h"
 #include "shared/render/detail.h"
 #include "shared/render/gl/surface_texture.h"
 #include "shared/render/passes/sun_mask.h"
@@ -34,9 +35,8 @@ constexpr float kLeastCaster = 0.15f;  // metres
 constexpr float kCore = 0.85f;
 constexpr float kCoreAlone = 0.5f;
 
-// Lamps are skipped if their irradiance stays below kLeastLampIrradiance within kModelReach metres
-// of a model's root.
-constexpr float kLeastLampIrradiance = 0.01f;
+// Lamps are skipped if their irradiance stays below light::kLeastLampIrradiance within kModelReach
+// metres of a model's root.
 constexpr float kModelReach = 1.5f;
 
 // Not a unit of the composite: it binds a different kind of texture there.
@@ -290,7 +290,7 @@ void ModelPass::SetLight(const ModelDraw& draw, Program& program, bool skin) {
   shaders.Set("glossy_scale",
               glm::max(light.sky[0], 0.0f) / glm::max(scene_light_.sky[0], glm::vec3(1e-4f)));
   const glm::vec3 middle(draw.stage_from_model * draw.skin[0][3]);
-  lamps_.Choose(scene_lamps_, middle, kModelReach, kLeastLampIrradiance);
+  lamps_.Choose(scene_lamps_, middle, kModelReach, light::kLeastLampIrradiance);
   lamps_.Set(shaders);
 }
 
