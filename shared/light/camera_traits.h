@@ -4,7 +4,6 @@
 // the images.
 
 #include <optional>
-#include <string_view>
 
 #include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
