@@ -149,16 +149,6 @@ TEST(ShowManifest, KeepsObjectsLinesAndLanguages) {
   }
 }
 
-TEST(ShowManifest, SpeechOfBundlesOfBeforeIsOfNoLanguage) {
-  ShowManifest manifest = Listed();
-  manifest.members.push_back({"speech/0.json", 1, ComputeSha256({})});
-  Json json = Json::parse(FormatShowManifest(manifest));
-  json["speech"] = Json::array({{{"name", "greeting"}, {"visemes", "speech/0.json"}}});
-  const auto parsed = Parse(json);
-  ASSERT_TRUE(parsed.ok()) << parsed.message();
-  EXPECT_EQ(parsed->lines.at(0).spoken.at(parsed->spoken.at(0).name).visemes, "speech/0.json");
-}
-
 TEST(ShowManifest, ABundleOfBeforeHasNoObjects) {
   Json json = Json::parse(FormatShowManifest(Listed()));
   json.erase("objects");
