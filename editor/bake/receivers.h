@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "editor/bake/blockers.h"
 #include "editor/bake/posed_surface.h"

@@ -3,7 +3,6 @@
 // Synthesises speech with espeak-ng and reports when each sound is said.
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 

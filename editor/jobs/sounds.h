@@ -3,7 +3,6 @@
 // The sounds of a project: its own files, and the built-in ones that no file replaces.
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -9,7 +9,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "shared/core/log.h"
 #include "shared/core/status.h"

@@ -21,13 +21,11 @@
 // the frame. The motion thus hardly depends on the frame rate, and equal input gives bit-identical
 // results.
 
-#include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "shared/human/human.h"
 

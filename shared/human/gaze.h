@@ -2,7 +2,6 @@
 
 // Looking at a target with eyes, then head, then torso; and blinks.
 
-#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

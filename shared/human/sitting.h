@@ -7,7 +7,6 @@
 // when each phase begins and how far it goes is set by eye. Sitting down is the same motion
 // backwards.
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <span>
 

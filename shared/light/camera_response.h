@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <glm/vec3.hpp>
 
 #include "shared/core/json_fields.h"

@@ -4,7 +4,6 @@
 // the images.
 
 #include <optional>
-#include <string_view>
 
 #include "shared/core/json_fields.h"
 #include "shared/light/camera_response.h"

@@ -79,14 +79,11 @@ struct OverlayPoints {
 };
 
 struct Overlay::State {
-  void DrawBoundPoints(size_t count, float size_px) const;
-
   SlotMap<GpuMesh> meshes;
   SlotMap<OverlayPoints> point_sets;
   ShaderProgram point_pass;
   ShaderProgram line_pass;
   ShaderProgram mesh_pass;
-  Stream points = PointStream();
   Stream lines = LineStream();
 
   bool drawing = false;
@@ -156,13 +153,6 @@ void Overlay::Begin(const OverlayView& view, const RenderTarget& target) {
   }
 }
 
-void Overlay::DrawPoints(std::span<const OverlayPoint> points, float size_px, OverlayDepth depth) {
-  CHECK(state_->drawing);
-  SetDepth(depth, true);
-  state_->points.Upload(points);
-  state_->DrawBoundPoints(points.size(), size_px);
-}
-
 Status Overlay::DrawPoints(PointsHandle points, size_t count, float size_px, OverlayDepth depth) {
   CHECK(state_->drawing);
   const OverlayPoints* set = state_->point_sets.Find(points);
@@ -171,15 +161,11 @@ Status Overlay::DrawPoints(PointsHandle points, size_t count, float size_px, Ove
   }
   SetDepth(depth, true);
   set->vertices->Bind();
-  state_->DrawBoundPoints(std::min(count, set->count), size_px);
+  state_->point_pass.Use();
+  state_->point_pass.Set("clip_from_stage", state_->clip_from_stage);
+  state_->point_pass.Set("size_px", size_px);
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(std::min(count, set->count)));
   return Status();
-}
-
-void Overlay::State::DrawBoundPoints(size_t count, float size_px) const {
-  point_pass.Use();
-  point_pass.Set("clip_from_stage", clip_from_stage);
-  point_pass.Set("size_px", size_px);
-  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
 }
 
 void Overlay::DrawLines(std::span<const OverlayLine> lines, float width_px, OverlayDepth depth) {

@@ -77,11 +77,8 @@ class Overlay {
   // Call Begin, any number of Draw..., then End. The target must have depth
   // (RenderTarget::Depth::kForOverlay) and must live until End.
   void Begin(const OverlayView& view, const RenderTarget& target);
-  // Draws round points with a diameter of size_px.
-  void DrawPoints(std::span<const OverlayPoint> points,
-                  float size_px,
-                  OverlayDepth depth = OverlayDepth::kTest);
-  // Draws the first count points of a set, or all if it has fewer.
+  // Draws the first count points of a set, or all if it has fewer, as discs with a diameter of
+  // size_px.
   Status DrawPoints(PointsHandle points,
                     size_t count,
                     float size_px,

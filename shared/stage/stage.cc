@@ -119,28 +119,6 @@ Result<ObjectId> Stage::AddObject(std::string name,
   return id;
 }
 
-bool Stage::Remove(ActorId id) {
-  Actor* actor = Find(id);
-  if (actor == nullptr) {
-    return false;
-  }
-  Show(id, false);
-  SyncWalkers(*world_);
-  world_->actors.Remove(id);
-  world_->actor_ids = world_->actors.ids();
-  return true;
-}
-
-bool Stage::Remove(ObjectId id) {
-  if (!world_->objects.Remove(id)) {
-    return false;
-  }
-  tasks_.Reset();
-  world_->object_ids = world_->objects.ids();
-  floor_changed_ = true;
-  return true;
-}
-
 Status Stage::AddSpeech(std::string name, human::VisemeTrack track) {
   LARARIUM_RETURN_IF_ERROR(track.Validate(name));
   if (FindSpeech(name)) {

@@ -97,9 +97,6 @@ class Stage {
   Result<ObjectId> AddObject(std::string name,
                              std::shared_ptr<const ObjectModel> model,
                              const Pose& stage_from_object);
-  // False when the id is stale.
-  bool Remove(ActorId id);
-  bool Remove(ObjectId id);
   // Adds a line that actors can say; `name` is the id of the line.
   Status AddSpeech(std::string name, human::VisemeTrack track);
   // Sets the floor and the occluders of all places. A drama must run the same way in every place,

@@ -30,6 +30,12 @@ class OverlayTest : public GlTest {
     return {pixel.x(), pixel.y()};
   }
 
+  void DrawPoint(const OverlayPoint& point,
+                 float size_px,
+                 OverlayDepth depth = OverlayDepth::kTest) {
+    ASSERT_TRUE(overlay_->DrawPoints(overlay_->AddPoints({&point, 1}), 1, size_px, depth).ok());
+  }
+
   std::unique_ptr<Overlay> overlay_;
   std::optional<RenderTarget> target_;
   OverlayView view_;
@@ -45,7 +51,7 @@ cv::Point2d Centroid(const cv::Mat& bgr) {
 TEST_F(OverlayTest, PointsAreRoundAndLieWhereTheyProject) {
   const OverlayPoint point = {{0.31f, 0.22f, 0.4f}, {255, 255, 255, 255}};
   overlay_->Begin(view_, *target_);
-  overlay_->DrawPoints({&point, 1}, 8.0f);
+  DrawPoint(point, 8.0f);
   overlay_->End();
   const cv::Mat picture = ReadTarget();
   const cv::Point2d centroid = Centroid(picture);
@@ -103,7 +109,7 @@ TEST_F(OverlayTest, MeshesAreTranslucentAndHiddenByNearerThings) {
   const OverlayPoint near = {{0.0f, 0.0f, 1.0f}, {255, 0, 0, 255}};
   view_.clear = glm::vec3(0.0f, 0.0f, 1.0f);
   overlay_->Begin(view_, *target_);
-  overlay_->DrawPoints({&near, 1}, 10.0f);
+  DrawPoint(near, 10.0f);
   ASSERT_TRUE(overlay_->DrawMesh(square, glm::mat4(1.0f), {0, 255, 0, 128}).ok());
   overlay_->End();
   const cv::Mat picture = ReadTarget();
@@ -127,7 +133,7 @@ TEST_F(OverlayTest, DrawsOverThePictureThatIsThere) {
   view_.clear.reset();
   const OverlayPoint point = {{0.0f, 0.0f, 0.0f}, {255, 255, 255, 255}};
   overlay_->Begin(view_, *target_);
-  overlay_->DrawPoints({&point, 1}, 6.0f, OverlayDepth::kOnTop);
+  DrawPoint(point, 6.0f, OverlayDepth::kOnTop);
   overlay_->End();
   const cv::Mat picture = ReadTarget();
   EXPECT_EQ(picture.at<cv::Vec3b>(60, 80), cv::Vec3b(255, 255, 255));

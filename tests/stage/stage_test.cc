@@ -15,18 +15,6 @@ TEST(Stage, NamesAreUnique) {
   EXPECT_FALSE(stage.Add("keeper", test::MakeTestHuman()).ok());
 }
 
-TEST(Stage, StaleIdsReachNobody) {
-  Stage stage;
-  const ActorId old = *stage.Add("keeper", test::MakeTestHuman());
-  EXPECT_TRUE(stage.Remove(old));
-  EXPECT_FALSE(stage.Remove(old));
-  const ActorId fresh = *stage.Add("guest", test::MakeTestHuman());
-  EXPECT_EQ(stage.Find(old), nullptr);
-  EXPECT_EQ(stage.Find(fresh)->name, "guest");
-  EXPECT_EQ(stage.Find("keeper"), std::nullopt);
-  EXPECT_EQ(stage.Find("guest"), fresh);
-}
-
 TEST(Stage, AdvanceRunsClipsAndFades) {
   Stage stage;
   const ActorId id = *stage.Add("keeper", test::MakeTestHuman());
