@@ -39,8 +39,8 @@ struct Key {
 
   std::string_view name;
   size_t index = 0;      // Used if the name is empty.
-  bool required = true;  // Whether the field must be in the file.
-  bool written = true;   // Whether the field is written.
+  bool required = true;  // Reading fails if a required field is missing.
+  bool written = true;   // Writing leaves out a field for which this is false.
 };
 
 // A field that the file may lack, so that the value keeps its default. The field is written only if

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "shared/core/check.h"
+#include "shared/core/json.h"
 #include "shared/light/camera_response.h"
 #include "shared/light/camera_traits.h"
 

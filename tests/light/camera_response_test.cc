@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "shared/core/json.h"
+
 namespace lararium::light {
 namespace {
 

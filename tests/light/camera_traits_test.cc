@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "shared/core/json.h"
+
 namespace lararium::light {
 namespace {
 

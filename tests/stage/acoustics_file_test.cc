@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "shared/core/json.h"
+
 namespace lararium::stage {
 namespace {
 
