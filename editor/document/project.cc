@@ -183,10 +183,7 @@ void DescribeFields(Fields& fields, ProbeDocument& probe) {
                  "\"balance\" must be three numbers about 1");
 }
 
-Json FormatPicks(const stage::StagePicks& picks) {
-  return WriteFields(
-      [&](Fields& fields) { DescribePicks(fields, const_cast<stage::StagePicks&>(picks)); });
-}
+Json FormatPicks(const stage::StagePicks& picks) { return FormatFields(picks, DescribePicks); }
 
 stage::StagePicks EmptyPicks() {
   stage::StagePicks picks;
@@ -292,15 +289,11 @@ void DescribeProject(Fields& fields, ProjectDocument& document) {
 }  // namespace
 
 Result<ProjectDocument> ParseProject(const Json& json, const std::string& where) {
-  ProjectDocument document;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(JsonView(json, where),
-                                      [&](Fields& fields) { DescribeProject(fields, document); }));
-  return document;
+  return ParseFields<ProjectDocument>(JsonView(json, where), DescribeProject);
 }
 
 Json FormatProject(const ProjectDocument& document) {
-  return WriteFields(
-      [&](Fields& fields) { DescribeProject(fields, const_cast<ProjectDocument&>(document)); });
+  return FormatFields(document, DescribeProject);
 }
 
 Result<ProjectDocument> LoadProject(const ProjectPaths& paths) {

@@ -140,8 +140,8 @@ void DescribeBakedLight(Fields& fields, light::ProbeLight& light) {
   fields.Object("sun", light.sun);
 }
 
-std::string FormatLight(light::ProbeLight light) {
-  return WriteFields([&](Fields& fields) { DescribeBakedLight(fields, light); }).dump(1) + "\n";
+std::string FormatLight(const light::ProbeLight& light) {
+  return FormatFields(light, DescribeBakedLight).dump(1) + "\n";
 }
 
 Result<std::vector<std::byte>> MakeLight(const std::filesystem::path& file,
@@ -644,10 +644,10 @@ Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& path
       continue;
     }
     LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-    light::ProbeLight light;
-    LARARIUM_RETURN_IF_ERROR(ReadFields(
-        JsonView(json, file.string()), [&](Fields& fields) { DescribeBakedLight(fields, light); },
-        UnknownFields::kIgnore));
+    LARARIUM_ASSIGN_OR_RETURN(
+        const light::ProbeLight light,
+        ParseFields<light::ProbeLight>(JsonView(json, file.string()), DescribeBakedLight,
+                                       UnknownFields::kIgnore));
     probes.push_back({geometry::ToGlm(probe.position), probe.hour, light});
   }
   return probes;

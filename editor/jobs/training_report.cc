@@ -160,16 +160,12 @@ Json TrainingJson(const TrainingReport& report) {
 
 Result<TrainingReport> LoadTrainingReport(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  TrainingReport report;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      JsonView(json, file.string()), [&](Fields& fields) { DescribeReport(fields, report); },
-      UnknownFields::kIgnore));
-  return report;
+  return ParseFields<TrainingReport>(JsonView(json, file.string()), DescribeReport,
+                                     UnknownFields::kIgnore);
 }
 
 Status SaveTrainingReport(const std::filesystem::path& file, const TrainingReport& report) {
-  TrainingReport written = report;
-  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeReport(fields, written); }));
+  return SaveJson(file, FormatFields(report, DescribeReport));
 }
 
 }  // namespace lararium::editor

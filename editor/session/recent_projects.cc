@@ -39,10 +39,7 @@ void DescribeList(Fields& fields, std::vector<RecentProject>& recent) {
 
 Result<std::vector<RecentProject>> Load(const fs::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxFileBytes));
-  std::vector<RecentProject> entries;
-  LARARIUM_RETURN_IF_ERROR(
-      ReadFields(text, file.string(), [&](Fields& fields) { DescribeList(fields, entries); }));
-  return entries;
+  return ParseFields<std::vector<RecentProject>>(text, file.string(), DescribeList);
 }
 
 }  // namespace
@@ -69,8 +66,7 @@ Status RecentProjects::Reload() {
 Status RecentProjects::Save() const {
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
-  std::vector<RecentProject> recent = entries_;
-  return SaveJson(file_, WriteFields([&](Fields& fields) { DescribeList(fields, recent); }));
+  return SaveJson(file_, FormatFields(entries_, DescribeList));
 }
 
 Status RecentProjects::NoteOpened(const RecentProject& project) {

@@ -29,13 +29,6 @@ void DescribeSettings(Fields& fields, Settings& settings) {
       "\"language\" must be \"\", \"en\" or \"it\"");
 }
 
-Result<Settings> Parse(const std::string& text, const std::string& where) {
-  Settings settings;
-  LARARIUM_RETURN_IF_ERROR(
-      ReadFields(text, where, [&](Fields& fields) { DescribeSettings(fields, settings); }));
-  return settings;
-}
-
 }  // namespace
 
 Result<Settings> LoadSettings(const std::filesystem::path& file) {
@@ -44,7 +37,8 @@ Result<Settings> LoadSettings(const std::filesystem::path& file) {
     return Settings();
   }
   const Result<std::string> text = ReadText(file, kMaxSettingsBytes);
-  Result<Settings> settings = text.ok() ? Parse(*text, file.string()) : text.status();
+  Result<Settings> settings =
+      text.ok() ? ParseFields<Settings>(*text, file.string(), DescribeSettings) : text.status();
   if (!settings.ok()) {
     return SetAside(file, settings.status(), "choose the look again in the menu View");
   }
@@ -54,8 +48,7 @@ Result<Settings> LoadSettings(const std::filesystem::path& file) {
 Status SaveSettings(const std::filesystem::path& file, const Settings& settings) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  Settings written = settings;
-  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeSettings(fields, written); }));
+  return SaveJson(file, FormatFields(settings, DescribeSettings));
 }
 
 }  // namespace lararium::editor

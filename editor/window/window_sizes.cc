@@ -37,13 +37,6 @@ void DescribeSizes(Fields& fields, WindowSizes& sizes) {
   }
 }
 
-Result<WindowSizes> Parse(const std::string& text, const std::string& where) {
-  WindowSizes sizes;
-  LARARIUM_RETURN_IF_ERROR(
-      ReadFields(text, where, [&](Fields& fields) { DescribeSizes(fields, sizes); }));
-  return sizes;
-}
-
 }  // namespace
 
 Result<WindowSizes> LoadWindowSizes(const std::filesystem::path& file) {
@@ -52,7 +45,8 @@ Result<WindowSizes> LoadWindowSizes(const std::filesystem::path& file) {
     return WindowSizes();
   }
   const Result<std::string> text = ReadText(file, kMaxFileBytes);
-  Result<WindowSizes> sizes = text.ok() ? Parse(*text, file.string()) : text.status();
+  Result<WindowSizes> sizes =
+      text.ok() ? ParseFields<WindowSizes>(*text, file.string(), DescribeSizes) : text.status();
   if (!sizes.ok()) {
     return SetAside(file, sizes.status(), "the window has its usual size");
   }
@@ -62,8 +56,7 @@ Result<WindowSizes> LoadWindowSizes(const std::filesystem::path& file) {
 Status SaveWindowSizes(const std::filesystem::path& file, const WindowSizes& sizes) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  WindowSizes written = sizes;
-  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeSizes(fields, written); }));
+  return SaveJson(file, FormatFields(sizes, DescribeSizes));
 }
 
 }  // namespace lararium::editor

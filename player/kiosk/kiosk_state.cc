@@ -52,10 +52,7 @@ Result<KioskState> LoadKioskState(const std::filesystem::path& folder) {
 }
 
 Result<KioskState> ParseKioskState(std::string_view text, const std::string& where) {
-  KioskState state;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      text, where, [&](Fields& fields) { DescribeState(fields, state); }, UnknownFields::kIgnore));
-  return state;
+  return ParseFields<KioskState>(text, where, DescribeState, UnknownFields::kIgnore);
 }
 
 Status SaveKioskState(const std::filesystem::path& folder, const KioskState& state) {
@@ -65,9 +62,7 @@ Status SaveKioskState(const std::filesystem::path& folder, const KioskState& sta
     return Status::Error(folder.string(), "cannot be created: " + error.message(),
                          "name another folder with --state");
   }
-  KioskState written = state;
-  return SaveJson(StateFile(folder),
-                  WriteFields([&](Fields& fields) { DescribeState(fields, written); }));
+  return SaveJson(StateFile(folder), FormatFields(state, DescribeState));
 }
 
 }  // namespace lararium::player

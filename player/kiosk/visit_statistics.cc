@@ -138,9 +138,9 @@ VisitStatistics LoadVisitStatistics(const std::filesystem::path& folder, Log& lo
 }
 
 Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::string& where) {
-  std::vector<DayCounts> days;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      text, where, [&](Fields& fields) { DescribeDays(fields, days); }, UnknownFields::kIgnore));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const std::vector<DayCounts> days,
+      ParseFields<std::vector<DayCounts>>(text, where, DescribeDays, UnknownFields::kIgnore));
   VisitStatistics statistics;
   for (const DayCounts& day : days) {
     statistics.Day(day.day) = day;
@@ -155,9 +155,7 @@ Status SaveVisitStatistics(const std::filesystem::path& folder, const VisitStati
     return Status::Error(folder.string(), "cannot be created: " + error.message(),
                          "name another folder with --state");
   }
-  std::vector<DayCounts> days = statistics.days();
-  return SaveJson(StatisticsFile(folder),
-                  WriteFields([&](Fields& fields) { DescribeDays(fields, days); }));
+  return SaveJson(StatisticsFile(folder), FormatFields(statistics.days(), DescribeDays));
 }
 
 void VisitCounter::Count(const Moment& moment, DayCounts& day) {

@@ -233,6 +233,10 @@ void ManifestDescription::Describe(ShowManifest& manifest) {
   }
 }
 
+void DescribeManifest(Fields& fields, ShowManifest& manifest) {
+  ManifestDescription(fields).Describe(manifest);
+}
+
 }  // namespace
 
 bool Describes(const ShowManifest& manifest, const LineEntry& line) {
@@ -242,17 +246,11 @@ bool Describes(const ShowManifest& manifest, const LineEntry& line) {
 }
 
 Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& where) {
-  ShowManifest manifest;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      text, where, [&](Fields& fields) { ManifestDescription(fields).Describe(manifest); },
-      UnknownFields::kIgnore));
-  return manifest;
+  return ParseFields<ShowManifest>(text, where, DescribeManifest, UnknownFields::kIgnore);
 }
 
 std::string FormatShowManifest(const ShowManifest& manifest) {
-  const Json json = WriteFields([&](Fields& fields) {
-    ManifestDescription(fields).Describe(const_cast<ShowManifest&>(manifest));
-  });
+  const Json json = FormatFields(manifest, DescribeManifest);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

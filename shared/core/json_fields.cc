@@ -138,7 +138,7 @@ class FieldReader final : public Fields {
  private:
   struct Level {
     JsonView view;
-    std::vector<JsonView> entries;        // Of a list.
+    std::vector<JsonView> entries;        // Entries of a list; empty for an object.
     std::vector<std::string_view> known;  // The fields of an object that were described.
     bool refuse_unknown = false;
     bool free_names = false;  // The author chooses the names of the fields.
@@ -186,7 +186,7 @@ class FieldReader final : public Fields {
     return true;
   }
 
-  std::vector<Level> levels_;  // From the root to the object or list that is being described.
+  std::vector<Level> levels_;  // Path from the root to the described object or list.
   Status status_;
   size_t missing_level_ = 0;  // The size of levels_ when a field was found to be missing.
 };
@@ -254,7 +254,7 @@ class FieldWriter final : public Fields {
   }
 
   Json root_ = Json::object();
-  std::vector<Json*> levels_ = {&root_};  // From the root to what is being described.
+  std::vector<Json*> levels_ = {&root_};  // Path from the root to the described object or list.
 };
 
 }  // namespace

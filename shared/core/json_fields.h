@@ -39,8 +39,8 @@ struct Key {
 
   std::string_view name;
   size_t index = 0;      // Used if the name is empty.
-  bool required = true;  // Whether the field must be in the file.
-  bool written = true;   // Whether the field is written.
+  bool required = true;  // Reading fails if a required field is missing.
+  bool written = true;   // Writing leaves out a field for which this is false.
 };
 
 // A field that the file may lack, so that the value keeps its default. The field is written only if
@@ -236,30 +236,44 @@ Status ReadFields(std::string_view text,
                   UnknownFields unknown = UnknownFields::kRefuse);
 nlohmann::json WriteFields(const std::function<void(Fields&)>& describe);
 
-// For types with a function DescribeFields().
+// The same for a value of one type, which DescribeFields() or another function describes.
 template <typename T>
-Result<T> ParseFields(const JsonView& view, UnknownFields unknown = UnknownFields::kRefuse) {
-  T value;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      view, [&](Fields& fields) { DescribeFields(fields, value); }, unknown));
-  return value;
-}
+using Description = void (*)(Fields&, T&);
 
 template <typename T>
-Result<T> ParseFields(std::string_view text,
-                      std::string_view where,
+Result<T> ParseFields(const JsonView& view,
+                      Description<T> describe,
                       UnknownFields unknown = UnknownFields::kRefuse) {
   T value;
   LARARIUM_RETURN_IF_ERROR(ReadFields(
-      text, where, [&](Fields& fields) { DescribeFields(fields, value); }, unknown));
+      view, [&](Fields& fields) { describe(fields, value); }, unknown));
+  return value;
+}
+template <typename T>
+Result<T> ParseFields(const JsonView& view, UnknownFields unknown = UnknownFields::kRefuse) {
+  return ParseFields<T>(
+      view, [](Fields& fields, T& value) { DescribeFields(fields, value); }, unknown);
+}
+template <typename T>
+Result<T> ParseFields(std::string_view text,
+                      std::string_view where,
+                      Description<T> describe,
+                      UnknownFields unknown = UnknownFields::kRefuse) {
+  T value;
+  LARARIUM_RETURN_IF_ERROR(ReadFields(
+      text, where, [&](Fields& fields) { describe(fields, value); }, unknown));
   return value;
 }
 
 // Returns Json; the deduced type keeps the whole of the JSON library out of this header.
 template <typename T>
-auto FormatFields(const T& value) {
+auto FormatFields(const T& value, std::type_identity_t<Description<T>> describe) {
   // Writing does not change the value.
-  return WriteFields([&](Fields& fields) { DescribeFields(fields, const_cast<T&>(value)); });
+  return WriteFields([&](Fields& fields) { describe(fields, const_cast<T&>(value)); });
+}
+template <typename T>
+auto FormatFields(const T& value) {
+  return FormatFields(value, [](Fields& fields, T& object) { DescribeFields(fields, object); });
 }
 
 }  // namespace lararium

@@ -81,15 +81,11 @@ Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& wher
   if (text.size() > kMaxBytes) {
     return Status::Error(where, "is longer than 64 MiB");
   }
-  CaptionBook book;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      text, where, [&](Fields& fields) { DescribeBook(fields, book); }, UnknownFields::kIgnore));
-  return book;
+  return ParseFields<CaptionBook>(text, where, DescribeBook, UnknownFields::kIgnore);
 }
 
 std::string FormatCaptions(const CaptionBook& book) {
-  CaptionBook written = book;
-  const Json json = WriteFields([&](Fields& fields) { DescribeBook(fields, written); });
+  const Json json = FormatFields(book, DescribeBook);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

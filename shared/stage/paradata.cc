@@ -146,15 +146,11 @@ const Claim* Paradata::Find(Subject subject, std::string_view name) const {
 }
 
 Result<Paradata> ParseParadata(std::string_view text, const std::string& where) {
-  Paradata paradata;
-  LARARIUM_RETURN_IF_ERROR(
-      ReadFields(text, where, [&](Fields& fields) { DescribeParadata(fields, paradata); }));
-  return paradata;
+  return ParseFields<Paradata>(text, where, DescribeParadata);
 }
 
 std::string FormatParadata(const Paradata& paradata) {
-  Paradata written = paradata;
-  return WriteFields([&](Fields& fields) { DescribeParadata(fields, written); }).dump(1) + "\n";
+  return FormatFields(paradata, DescribeParadata).dump(1) + "\n";
 }
 
 }  // namespace lararium::stage

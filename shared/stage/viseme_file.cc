@@ -51,16 +51,15 @@ Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string
   if (text.size() > kMaxTextBytes) {
     return Status::Error(where, "is longer than 16 MiB");
   }
-  human::VisemeTrack track;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      text, where, [&](Fields& fields) { DescribeTrack(fields, track); }, UnknownFields::kIgnore));
+  LARARIUM_ASSIGN_OR_RETURN(
+      human::VisemeTrack track,
+      ParseFields<human::VisemeTrack>(text, where, DescribeTrack, UnknownFields::kIgnore));
   LARARIUM_RETURN_IF_ERROR(track.Validate(where));
   return track;
 }
 
 std::string FormatVisemes(const human::VisemeTrack& track) {
-  human::VisemeTrack written = track;
-  return WriteFields([&](Fields& fields) { DescribeTrack(fields, written); }).dump(1) + "\n";
+  return FormatFields(track, DescribeTrack).dump(1) + "\n";
 }
 
 }  // namespace lararium::stage

@@ -102,7 +102,7 @@ TEST(JsonFields, LeavesOutWhatIsNotWritten) {
 
 TEST(JsonFields, MissingOptionalFieldsKeepTheirDefaults) {
   const Result<Cart> cart = ParseFields<Cart>(
-      R"({"schema": 2, "name": "gig", "size": [1, 1], "wheels": []})", "cart.json");
+      R"({"schema": 2, "name": "gig", "size": [1, 1], "wheels": []})", "cart.json", DescribeFields);
   ASSERT_TRUE(cart.ok()) << cart.message();
   EXPECT_EQ(cart->seats, 2u);
   EXPECT_FALSE(cart->covered || cart->spare.has_value());
@@ -123,7 +123,9 @@ TEST(JsonFields, ErrorsNameTheFileAndTheField) {
   EXPECT_EQ(ProblemWith("/wheels", {{{"radius", 0.5}}}), "cart.json: falls over; add a wheel");
   EXPECT_EQ(ProblemWith("/schema", 3), "cart.json: is too new (3); update");
   EXPECT_EQ(Problem(Json::array()), "cart.json: must be an object");
-  EXPECT_EQ(ParseFields<Cart>("{", "cart.json").message().rfind("cart.json: not valid JSON", 0),
+  EXPECT_EQ(ParseFields<Cart>("{", "cart.json", DescribeFields)
+                .message()
+                .rfind("cart.json: not valid JSON", 0),
             0u);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/core/json.h"
 #include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/vision/occluders.h"

@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (!json.ok()) {
     return 0;
   }
-  const auto response = ParseFields<CameraResponse>(JsonView(*json, "fuzz.json"));
+  const auto response =
+      ParseFields<CameraResponse>(JsonView(*json, "fuzz.json"), UnknownFields::kIgnore);
   if (response.ok()) {
     CHECK(response->Validate("fuzz.json").ok());
     const FittedKnee knee = FitKnee(*response);
@@ -25,7 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const Json again = FormatFields(*response);
     CHECK(ParseFields<CameraResponse>(JsonView(again, "fuzz.json")).ok());
   }
-  const auto traits = ParseFields<CameraTraits>(JsonView(*json, "fuzz.json"));
+  const auto traits =
+      ParseFields<CameraTraits>(JsonView(*json, "fuzz.json"), UnknownFields::kIgnore);
   if (traits.ok()) {
     CHECK(traits->width > 0 && std::isfinite(traits->blur_px));
     const Json again = FormatFields(*traits);

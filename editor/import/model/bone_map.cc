@@ -463,11 +463,7 @@ void DescribeMapFile(Fields& fields, BoneNames& names) {
 }  // namespace
 
 Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where) {
-  BoneNames names;
-  LARARIUM_RETURN_IF_ERROR(ReadFields(
-      json, where, [&](Fields& fields) { DescribeMapFile(fields, names); },
-      UnknownFields::kIgnore));
-  return names;
+  return ParseFields<BoneNames>(json, where, DescribeMapFile, UnknownFields::kIgnore);
 }
 
 void DescribeBoneNames(Fields& fields, const Key& key, BoneNames& names) {
@@ -491,8 +487,7 @@ Result<BoneNames> LoadBoneNames(const std::filesystem::path& file) {
 }
 
 Status SaveBoneNames(const std::filesystem::path& file, const BoneNames& names) {
-  BoneNames written = names;
-  return SaveJson(file, WriteFields([&](Fields& fields) { DescribeMapFile(fields, written); }));
+  return SaveJson(file, FormatFields(names, DescribeMapFile));
 }
 
 BoneNames NamesOf(const Rig& rig, const BoneMap& map) {

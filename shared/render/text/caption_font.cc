@@ -76,8 +76,7 @@ Result<CaptionFont> ParseCaptionFont(std::string_view metrics,
 }
 
 std::string FormatCaptionMetrics(const CaptionFont& font) {
-  CaptionFont written = font;
-  return WriteFields([&](Fields& fields) { DescribeMetrics(fields, written); }).dump() + "\n";
+  return FormatFields(font, DescribeMetrics).dump() + "\n";
 }
 
 uint32_t NextCharacter(std::string_view text, size_t& at) {
