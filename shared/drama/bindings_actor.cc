@@ -1,6 +1,5 @@
 // Host functions for actors by themselves.
 
-#include <algorithm>
 #include <string>
 
 #include "shared/drama/host_bindings.h"
