@@ -90,7 +90,10 @@ Result<std::pair<std::string, Json>> ParseField(const LaneSpec& lane, const std:
 
 // Checks that an item has one of the fields that its lane requires.
 Status CheckComplete(const LaneSpec& lane, const Json& fields) {
-  const std::vector<std::string_view> required = drama::RequiredFields(lane);
+  const std::vector<std::string_view> required = drama::RequiredFields(lane, fields);
+  if (required.empty()) {
+    return Status();
+  }
   std::string listed;
   for (const std::string_view key : required) {
     if (fields.contains(key)) {

@@ -355,6 +355,9 @@ function meet(point, ...)
     if type(who) ~= "table" or not index or (act[2] ~= "gesture" and act[2] ~= "say") then
       error("meet: give a point and things like {keeper, \"gesture\", \"wave\"}", 2)
     end
+    if not who.is_actor then
+      error("meet: give an actor", 2)
+    end
     delays[i] = select(index, host.foretell(who.id, act[2], act[3]))
     latest = math.max(latest, delays[i])
   end

@@ -2,35 +2,16 @@
 
 #include <string>
 
+#include "shared/drama/host_bindings.h"
 #include "shared/drama/lua_binding.h"
-#include "shared/drama/run.h"
+#include "shared/drama/script_runtime.h"
 
 namespace lararium::drama {
-
-stage::ActorId Run::CheckActorId(lua_State* lua, int argument) {
-  return UnpackId<stage::Actor>(luaL_checkinteger(lua, argument));
-}
-
-stage::Actor& Run::CheckActor(lua_State* lua, int argument) {
-  stage::Actor* actor = stage_.Find(CheckActorId(lua, argument));
-  if (actor == nullptr) {
-    luaL_error(lua, "the actor has left the stage");
-  }
-  return *actor;
-}
-
-// Like CheckActor, for commands. Error: a track leads the actor and would undo the command.
-stage::Actor& Run::CheckFreeActor(lua_State* lua, int argument) {
-  stage::Actor& actor = CheckActor(lua, argument);
-  if (actor.led) {
-    luaL_error(lua, "'%s' is led by a track", actor.name.c_str());
-  }
-  return actor;
-}
+namespace {
 
 // actor(name) -> id or nil
-int Run::PushActor(lua_State* lua) {
-  if (const auto id = stage_.Find(CheckText(lua, 1))) {
+int PushActor(ScriptRuntime& run, lua_State* lua) {
+  if (const auto id = run.stage().Find(CheckText(lua, 1))) {
     lua_pushinteger(lua, PackId(*id));
   } else {
     lua_pushnil(lua);
@@ -39,8 +20,8 @@ int Run::PushActor(lua_State* lua) {
 }
 
 // clip(actor, name) -> duration, stride; or nil
-int Run::PushClip(lua_State* lua) {
-  const human::Human& human = CheckActor(lua).human();
+int PushClip(ScriptRuntime& run, lua_State* lua) {
+  const human::Human& human = CheckActor(run, lua).human();
   const int clip = lua_type(lua, 2) == LUA_TSTRING ? stage::FindClip(human, CheckText(lua, 2))
                                                    : human::Animation::kNoClip;
   if (clip == human::Animation::kNoClip) {
@@ -52,17 +33,9 @@ int Run::PushClip(lua_State* lua) {
   return 2;
 }
 
-int Run::CheckClip(lua_State* lua, const stage::Actor& actor, int argument) {
-  const int clip = stage::FindClip(actor.human(), CheckText(lua, argument));
-  if (clip == human::Animation::kNoClip) {
-    luaL_error(lua, "'%s' has no clip '%s'", actor.name.c_str(), lua_tostring(lua, argument));
-  }
-  return clip;
-}
-
 // playing(actor) -> name of the current clip, or nil
-int Run::PushPlaying(lua_State* lua) {
-  const stage::Actor& actor = CheckActor(lua);
+int PushPlaying(ScriptRuntime& run, lua_State* lua) {
+  const stage::Actor& actor = CheckActor(run, lua);
   const int clip = actor.state.animation_state.animation.clip;
   if (clip == human::Animation::kNoClip) {
     lua_pushnil(lua);
@@ -73,8 +46,8 @@ int Run::PushPlaying(lua_State* lua) {
 }
 
 // play(actor, clip or nil, fade, rate)
-int Run::Play(lua_State* lua) {
-  stage::Actor& actor = CheckFreeActor(lua);
+int Play(ScriptRuntime& run, lua_State* lua) {
+  stage::Actor& actor = CheckFreeActor(run, lua);
   const int clip = lua_isnil(lua, 2) ? human::Animation::kNoClip : CheckClip(lua, actor, 2);
   const auto fade = static_cast<float>(CheckFinite(lua, 3, "fade"));
   const double rate = CheckFinite(lua, 4, "rate");
@@ -86,28 +59,29 @@ int Run::Play(lua_State* lua) {
   }
   actor.clip_after = clip;
   actor.clip_ends = -1.0;
-  NoteBlock(lua, actor, lua_isnil(lua, 2) ? "play" : "play " + std::string(CheckText(lua, 2)), 0.0);
+  run.NoteBlock(lua, actor, lua_isnil(lua, 2) ? "play" : "play " + std::string(CheckText(lua, 2)),
+                0.0);
   return 0;
 }
 
 // gesture(actor, clip, part) -> duration
-int Run::Gesture(lua_State* lua) {
-  const stage::Actor& actor = CheckFreeActor(lua);
+int Gesture(ScriptRuntime& run, lua_State* lua) {
+  const stage::Actor& actor = CheckFreeActor(run, lua);
   const int clip = CheckClip(lua, actor, 2);
   constexpr const char* kParts[] = {"whole", "upper", "arms", "head", nullptr};
   const int part = luaL_checkoption(lua, 3, nullptr, kParts);
-  stage_.Gesture(CheckActorId(lua, 1), clip, static_cast<human::BodyPart>(part));
+  run.stage().Gesture(CheckActorId(lua, 1), clip, static_cast<human::BodyPart>(part));
   const human::Clip& played = actor.human().clips[static_cast<size_t>(clip)];
-  NoteSync(GestureTimes(played, actor.model->turned[static_cast<size_t>(clip)],
-                        stage::Stage::kClipFade));
-  NoteBlock(lua, actor, "gesture " + played.name, played.duration);
+  run.NoteSync(GestureTimes(played, actor.model->turned[static_cast<size_t>(clip)],
+                            stage::Stage::kClipFade));
+  run.NoteBlock(lua, actor, "gesture " + played.name, played.duration);
   lua_pushnumber(lua, played.duration);
   return 1;
 }
 
 // pose(actor) -> x, y, z, heading
-int Run::PushPose(lua_State* lua) {
-  const stage::ActorState& state = CheckActor(lua).state;
+int PushPose(ScriptRuntime& run, lua_State* lua) {
+  const stage::ActorState& state = CheckActor(run, lua).state;
   for (const float value : {state.position.x, state.position.y, state.position.z, state.heading}) {
     lua_pushnumber(lua, value);
   }
@@ -115,26 +89,27 @@ int Run::PushPose(lua_State* lua) {
 }
 
 // place(actor, x, y, z, heading)
-int Run::PlaceActor(lua_State* lua) {
-  CheckFreeActor(lua);
+int PlaceActor(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
   const glm::vec3 position = {CheckFinite(lua, 2, "x"), CheckFinite(lua, 3, "y"),
                               CheckFinite(lua, 4, "z")};
-  stage_.Place(CheckActorId(lua, 1), position, static_cast<float>(CheckFinite(lua, 5, "heading")));
-  NoteBlock(lua, CheckActor(lua), "place", 0.0);
+  run.stage().Place(CheckActorId(lua, 1), position,
+                    static_cast<float>(CheckFinite(lua, 5, "heading")));
+  run.NoteBlock(lua, CheckActor(run, lua), "place", 0.0);
   return 0;
 }
 
 // show(actor, visible)
-int Run::Show(lua_State* lua) {
-  CheckFreeActor(lua);
-  stage_.Show(CheckActorId(lua, 1), lua_toboolean(lua, 2) != 0);
+int Show(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
+  run.stage().Show(CheckActorId(lua, 1), lua_toboolean(lua, 2) != 0);
   return 0;
 }
 
 // look(actor, "self" | "nothing" | "visitor" | "actor", id | "object", id | "point", x, y, z)
-int Run::Look(lua_State* lua) {
+int Look(ScriptRuntime& run, lua_State* lua) {
   using Target = stage::Attention::Target;
-  stage::Attention& attention = CheckActor(lua).attention;
+  stage::Attention& attention = CheckActor(run, lua).attention;
   constexpr const char* kTargets[] = {"nothing", "point", "actor", "object",
                                       "visitor", "self",  nullptr};
   const int target = luaL_checkoption(lua, 2, nullptr, kTargets);
@@ -148,26 +123,26 @@ int Run::Look(lua_State* lua) {
   if (choice.target == Target::kPoint) {
     choice.point = {CheckFinite(lua, 3, "x"), CheckFinite(lua, 4, "y"), CheckFinite(lua, 5, "z")};
   } else if (choice.target == Target::kActor) {
-    CheckActor(lua, 3);
+    CheckActor(run, lua, 3);
     choice.actor = CheckActorId(lua, 3);
   } else if (choice.target == Target::kObject) {
-    CheckObject(lua, 3);
+    CheckObject(run, lua, 3);
     choice.object = CheckObjectId(lua, 3);
   }
   attention.told = choice;
-  NoteBlock(lua, CheckActor(lua), "look_at", 0.0);
+  run.NoteBlock(lua, CheckActor(run, lua), "look_at", 0.0);
   return 0;
 }
 
 // attend(actor, on): whether the actor chooses what to look at by itself
-int Run::Attend(lua_State* lua) {
-  CheckActor(lua).attention.automatic = lua_toboolean(lua, 2) != 0;
+int Attend(ScriptRuntime& run, lua_State* lua) {
+  CheckActor(run, lua).attention.automatic = lua_toboolean(lua, 2) != 0;
   return 0;
 }
 
 // express(actor, name, intensity, fade, ease)
-int Run::Express(lua_State* lua) {
-  stage::Actor& actor = CheckActor(lua);
+int Express(ScriptRuntime& run, lua_State* lua) {
+  stage::Actor& actor = CheckActor(run, lua);
   const auto expression = human::ExpressionNamed(CheckText(lua, 2));
   if (!expression) {
     return luaL_error(lua,
@@ -179,33 +154,34 @@ int Run::Express(lua_State* lua) {
                        static_cast<float>(CheckFinite(lua, 3, "intensity")),
                        static_cast<float>(CheckFinite(lua, 4, "fade")),
                        CheckEase(lua, CheckText(lua, 5)));
-  NoteBlock(lua, actor, "express " + std::string(CheckText(lua, 2)), CheckFinite(lua, 4, "fade"));
+  run.NoteBlock(lua, actor, "express " + std::string(CheckText(lua, 2)),
+                CheckFinite(lua, 4, "fade"));
   return 0;
 }
 
 // say(actor, line or nil) -> duration, or nil if there is no line with this id
-int Run::Say(lua_State* lua) {
-  CheckActor(lua);
+int Say(ScriptRuntime& run, lua_State* lua) {
+  CheckActor(run, lua);
   if (lua_isnil(lua, 2)) {
-    stage_.Say(CheckActorId(lua, 1), -1);
+    run.stage().Say(CheckActorId(lua, 1), -1);
     return 0;
   }
-  const auto speech = stage_.FindSpeech(CheckText(lua, 2));
+  const auto speech = run.stage().FindSpeech(CheckText(lua, 2));
   if (!speech) {
     lua_pushnil(lua);
     return 1;
   }
-  stage_.Say(CheckActorId(lua, 1), *speech);
-  NoteSync(SpeechTimes(stage_.SpeechTrack(*speech)));
-  NoteBlock(lua, CheckActor(lua), "say " + std::string(CheckText(lua, 2)),
-            stage_.SpeechSeconds(*speech));
-  lua_pushnumber(lua, stage_.SpeechSeconds(*speech));
+  run.stage().Say(CheckActorId(lua, 1), *speech);
+  run.NoteSync(SpeechTimes(run.stage().SpeechTrack(*speech)));
+  run.NoteBlock(lua, CheckActor(run, lua), "say " + std::string(CheckText(lua, 2)),
+                run.stage().SpeechSeconds(*speech));
+  lua_pushnumber(lua, run.stage().SpeechSeconds(*speech));
   return 1;
 }
 
 // Arguments: actor, "gesture" | "say", clip or line -> seconds to each synchronisation point.
-int Run::Foretell(lua_State* lua) {
-  const stage::Actor& actor = CheckActor(lua);
+int Foretell(ScriptRuntime& run, lua_State* lua) {
+  const stage::Actor& actor = CheckActor(run, lua);
   constexpr const char* kWhat[] = {"gesture", "say", nullptr};
   SyncTimes times = {};
   if (luaL_checkoption(lua, 2, nullptr, kWhat) == 0) {
@@ -213,11 +189,11 @@ int Run::Foretell(lua_State* lua) {
     times =
         GestureTimes(actor.human().clips[clip], actor.model->turned[clip], stage::Stage::kClipFade);
   } else {
-    const auto speech = stage_.FindSpeech(CheckText(lua, 3));
+    const auto speech = run.stage().FindSpeech(CheckText(lua, 3));
     if (!speech) {
       return luaL_error(lua, "there is no line '%s'", lua_tostring(lua, 3));
     }
-    times = SpeechTimes(stage_.SpeechTrack(*speech));
+    times = SpeechTimes(run.stage().SpeechTrack(*speech));
   }
   for (const double time : times) {
     lua_pushnumber(lua, time);
@@ -226,8 +202,8 @@ int Run::Foretell(lua_State* lua) {
 }
 
 // gait(actor, style) -> whether the style exists; gait(actor, name, value)
-int Run::SetGait(lua_State* lua) {
-  human::GaitStyle& style = CheckActor(lua).state.animation_state.locomotion.style;
+int SetGait(ScriptRuntime& run, lua_State* lua) {
+  human::GaitStyle& style = CheckActor(run, lua).state.animation_state.locomotion.style;
   if (lua_isnoneornil(lua, 3)) {
     const auto named = human::GaitStyleNamed(CheckText(lua, 2));
     style = named.value_or(style);
@@ -241,6 +217,53 @@ int Run::SetGait(lua_State* lua) {
   const int which = luaL_checkoption(lua, 2, nullptr, kNames);
   *values[which] = static_cast<float>(CheckFinite(lua, 3, kNames[which]));
   return 0;
+}
+
+}  // namespace
+
+stage::Actor& CheckActor(ScriptRuntime& run, lua_State* lua, int argument) {
+  stage::Actor* actor = run.stage().Find(CheckActorId(lua, argument));
+  if (actor == nullptr) {
+    luaL_error(lua, "the actor has left the stage");
+  }
+  return *actor;
+}
+
+stage::Actor& CheckFreeActor(ScriptRuntime& run, lua_State* lua, int argument) {
+  stage::Actor& actor = CheckActor(run, lua, argument);
+  if (actor.led) {
+    luaL_error(lua, "'%s' is led by a track", actor.name.c_str());
+  }
+  return actor;
+}
+
+stage::ActorId CheckActorId(lua_State* lua, int argument) {
+  return UnpackId<stage::Actor>(luaL_checkinteger(lua, argument));
+}
+
+int CheckClip(lua_State* lua, const stage::Actor& actor, int argument) {
+  const int clip = stage::FindClip(actor.human(), CheckText(lua, argument));
+  if (clip == human::Animation::kNoClip) {
+    luaL_error(lua, "'%s' has no clip '%s'", actor.name.c_str(), lua_tostring(lua, argument));
+  }
+  return clip;
+}
+
+void AddActorBindings(HostTable& table) {
+  table.AddRecorded<Foretell>("foretell");
+  table.AddRecorded<PushActor>("actor");
+  table.AddRecorded<PushClip>("clip");
+  table.AddRecorded<PushPlaying>("playing");
+  table.AddRecorded<Play>("play");
+  table.AddRecorded<Gesture>("gesture");
+  table.AddRecorded<PushPose>("pose");
+  table.AddRecorded<PlaceActor>("place");
+  table.AddRecorded<Show>("show");
+  table.AddRecorded<Look>("look");
+  table.AddRecorded<Attend>("attend");
+  table.AddRecorded<Express>("express");
+  table.AddRecorded<Say>("say");
+  table.AddRecorded<SetGait>("gait");
 }
 
 }  // namespace lararium::drama

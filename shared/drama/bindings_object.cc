@@ -4,8 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "shared/drama/host_bindings.h"
 #include "shared/drama/lua_binding.h"
-#include "shared/drama/run.h"
+#include "shared/drama/script_runtime.h"
 
 namespace lararium::drama {
 namespace {
@@ -19,22 +20,8 @@ float HeadingOfObject(const stage::Pose& pose) {
   return stage::HeadingOf({forward.x, forward.z});
 }
 
-}  // namespace
-
-stage::ObjectId Run::CheckObjectId(lua_State* lua, int argument) {
-  return UnpackId<stage::Object>(luaL_checkinteger(lua, argument));
-}
-
-stage::Object& Run::CheckObject(lua_State* lua, int argument) {
-  stage::Object* object = stage_.Find(CheckObjectId(lua, argument));
-  if (object == nullptr) {
-    luaL_error(lua, "the object has left the stage");
-  }
-  return *object;
-}
-
 // Index into ObjectUse::surfaces; -1 (any) if the argument is nil.
-int Run::CheckSurface(lua_State* lua, const stage::Object& object, int argument) {
+int CheckSurface(lua_State* lua, const stage::Object& object, int argument) {
   if (lua_isnoneornil(lua, argument)) {
     return -1;
   }
@@ -50,9 +37,9 @@ int Run::CheckSurface(lua_State* lua, const stage::Object& object, int argument)
 }
 
 // Pushes the number of the task, or nil and the error.
-int Run::PushTask(lua_State* lua, const Result<stage::TaskId>& task) {
+int PushTask(ScriptRuntime& run, lua_State* lua, const Result<stage::TaskId>& task) {
   if (task.ok()) {
-    NoteTaskSync(*task);
+    run.NoteTaskSync(*task);
     lua_pushinteger(lua, static_cast<lua_Integer>(*task));
     return 1;
   }
@@ -62,9 +49,9 @@ int Run::PushTask(lua_State* lua, const Result<stage::TaskId>& task) {
 }
 
 // task(number) -> "waiting" | "running" | "done" | "failed", message, seconds waited
-int Run::PushTaskState(lua_State* lua) {
+int PushTaskState(ScriptRuntime& run, lua_State* lua) {
   const stage::TaskReport report =
-      stage_.tasks().report(static_cast<stage::TaskId>(luaL_checkinteger(lua, 1)));
+      run.stage().tasks().report(static_cast<stage::TaskId>(luaL_checkinteger(lua, 1)));
   constexpr const char* kNames[] = {"failed", "waiting", "running", "done", "failed"};
   lua_pushstring(lua, kNames[static_cast<size_t>(report.state)]);
   PushText(lua, report.message);
@@ -73,81 +60,84 @@ int Run::PushTaskState(lua_State* lua) {
 }
 
 // stop_task(number): ends the task if it is not over, and forgets it
-int Run::StopTask(lua_State* lua) {
+int StopTask(ScriptRuntime& run, lua_State* lua) {
   const auto task = static_cast<stage::TaskId>(luaL_checkinteger(lua, 1));
-  stage_.tasks().Stop(task);
-  stage_.tasks().Forget(task);
+  run.stage().tasks().Stop(task);
+  run.stage().tasks().Forget(task);
   return 0;
 }
 
 // walk(actor, x, z, heading or nil, speed) -> task
-int Run::Walk(lua_State* lua) {
-  CheckFreeActor(lua);
+int Walk(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
   const glm::vec2 goal = {CheckFinite(lua, 2, "x"), CheckFinite(lua, 3, "z")};
   std::optional<float> heading;
   if (!lua_isnil(lua, 4)) {
     heading = static_cast<float>(CheckFinite(lua, 4, "heading"));
   }
   const auto speed = static_cast<float>(CheckFinite(lua, 5, "speed"));
-  return PushTask(lua, stage_.tasks().Walk(CheckActorId(lua, 1), goal, heading, speed));
+  return PushTask(run, lua, run.stage().tasks().Walk(CheckActorId(lua, 1), goal, heading, speed));
 }
 
 // turn(actor, heading, radians per second) -> task
-int Run::Turn(lua_State* lua) {
-  CheckFreeActor(lua);
+int Turn(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
   const auto heading = static_cast<float>(CheckFinite(lua, 2, "heading"));
   const auto speed = static_cast<float>(CheckFinite(lua, 3, "speed"));
-  return PushTask(lua, stage_.tasks().Turn(CheckActorId(lua, 1), heading, speed));
+  return PushTask(run, lua, run.stage().tasks().Turn(CheckActorId(lua, 1), heading, speed));
 }
 
 // stand_up(actor) -> task
-int Run::StandUp(lua_State* lua) {
-  CheckFreeActor(lua);
-  return PushTask(lua, stage_.tasks().Stand(CheckActorId(lua, 1)));
+int StandUp(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
+  return PushTask(run, lua, run.stage().tasks().Stand(CheckActorId(lua, 1)));
 }
 
 // use(actor, object, action or nil, seconds) -> task
-int Run::Use(lua_State* lua) {
-  CheckFreeActor(lua);
-  const std::vector<stage::ObjectAction>& actions = CheckObject(lua, 2).use().actions;
+int Use(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
+  const std::vector<stage::ObjectAction>& actions = CheckObject(run, lua, 2).use().actions;
   const std::string_view first = actions.empty() ? std::string_view() : actions.front().name;
   const auto seconds = static_cast<float>(CheckFinite(lua, 4, "seconds"));
-  return PushTask(lua, stage_.tasks().Use(CheckActorId(lua, 1), CheckObjectId(lua, 2),
+  return PushTask(run, lua,
+                  run.stage().tasks().Use(CheckActorId(lua, 1), CheckObjectId(lua, 2),
                                           lua_isnil(lua, 3) ? first : CheckText(lua, 3), seconds));
 }
 
 // take(actor, object) -> task
-int Run::Take(lua_State* lua) {
-  CheckFreeActor(lua);
-  return PushTask(lua, stage_.tasks().Take(CheckActorId(lua, 1), CheckObjectId(lua, 2)));
+int Take(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
+  return PushTask(run, lua, run.stage().tasks().Take(CheckActorId(lua, 1), CheckObjectId(lua, 2)));
 }
 
 // put(actor, object, other object, surface or nil) or put(actor, object, nil, x, z, heading or nil)
-int Run::Put(lua_State* lua) {
-  CheckFreeActor(lua);
+int Put(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
   stage::PutTarget target;
   if (!lua_isnil(lua, 3)) {
     target.object = CheckObjectId(lua, 3);
-    target.surface = CheckSurface(lua, CheckObject(lua, 3), 4);
+    target.surface = CheckSurface(lua, CheckObject(run, lua, 3), 4);
   } else {
     target.place = {CheckFinite(lua, 4, "x"), CheckFinite(lua, 5, "z")};
     if (!lua_isnil(lua, 6)) {
       target.heading = static_cast<float>(CheckFinite(lua, 6, "heading"));
     }
   }
-  return PushTask(lua, stage_.tasks().Put(CheckActorId(lua, 1), CheckObjectId(lua, 2), target));
+  return PushTask(run, lua,
+                  run.stage().tasks().Put(CheckActorId(lua, 1), CheckObjectId(lua, 2), target));
 }
 
 // give(actor, object, other actor) -> task
-int Run::Give(lua_State* lua) {
-  CheckFreeActor(lua);
+int Give(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
   return PushTask(
-      lua, stage_.tasks().Give(CheckActorId(lua, 1), CheckObjectId(lua, 2), CheckActorId(lua, 3)));
+      run, lua,
+      run.stage().tasks().Give(CheckActorId(lua, 1), CheckObjectId(lua, 2), CheckActorId(lua, 3)));
 }
 
 // object(name) -> id or nil
-int Run::PushObject(lua_State* lua) {
-  if (const auto id = stage_.FindObject(CheckText(lua, 1))) {
+int PushObject(ScriptRuntime& run, lua_State* lua) {
+  if (const auto id = run.stage().FindObject(CheckText(lua, 1))) {
     lua_pushinteger(lua, PackId(*id));
   } else {
     lua_pushnil(lua);
@@ -156,8 +146,8 @@ int Run::PushObject(lua_State* lua) {
 }
 
 // object_pose(object) -> x, y, z, heading
-int Run::PushObjectPose(lua_State* lua) {
-  const stage::Pose& pose = CheckObject(lua).state.stage_from_object;
+int PushObjectPose(ScriptRuntime& run, lua_State* lua) {
+  const stage::Pose& pose = CheckObject(run, lua).state.stage_from_object;
   for (const float value :
        {pose.position.x, pose.position.y, pose.position.z, HeadingOfObject(pose)}) {
     lua_pushnumber(lua, value);
@@ -166,20 +156,20 @@ int Run::PushObjectPose(lua_State* lua) {
 }
 
 // place_object(object, x, y, z, heading)
-int Run::PlaceObject(lua_State* lua) {
-  CheckObject(lua);
+int PlaceObject(ScriptRuntime& run, lua_State* lua) {
+  CheckObject(run, lua);
   const glm::vec3 position = {CheckFinite(lua, 2, "x"), CheckFinite(lua, 3, "y"),
                               CheckFinite(lua, 4, "z")};
-  stage_.Place(CheckObjectId(lua, 1),
-               stage::Pose{position, HeadingRotation(CheckFinite(lua, 5, "heading"))});
+  run.stage().Place(CheckObjectId(lua, 1),
+                    stage::Pose{position, HeadingRotation(CheckFinite(lua, 5, "heading"))});
   return 0;
 }
 
 // place_object_on(object, other object, surface or nil, spot or nil): spots count from 1; nil
 // chooses the first free one
-int Run::PlaceObjectOn(lua_State* lua) {
-  const stage::Object& base = CheckObject(lua, 2);
-  CheckObject(lua);
+int PlaceObjectOn(ScriptRuntime& run, lua_State* lua) {
+  const stage::Object& base = CheckObject(run, lua, 2);
+  CheckObject(run, lua);
   const int wanted_surface = CheckSurface(lua, base, 3);
   const lua_Integer wanted_spot = luaL_optinteger(lua, 4, 0);
   const std::vector<stage::Surface>& surfaces = base.use().surfaces;
@@ -190,7 +180,7 @@ int Run::PlaceObjectOn(lua_State* lua) {
           (wanted_spot > 0 && wanted_spot != static_cast<lua_Integer>(spot) + 1)) {
         continue;
       }
-      last = stage_.PlaceOn(
+      last = run.stage().PlaceOn(
           CheckObjectId(lua, 1),
           {CheckObjectId(lua, 2), static_cast<int8_t>(surface), static_cast<int8_t>(spot), 0.0f});
       if (last.ok()) {
@@ -202,21 +192,21 @@ int Run::PlaceObjectOn(lua_State* lua) {
 }
 
 // show_object(object, visible)
-int Run::ShowObject(lua_State* lua) {
-  CheckObject(lua).state.visible = lua_toboolean(lua, 2) != 0;
+int ShowObject(ScriptRuntime& run, lua_State* lua) {
+  CheckObject(run, lua).state.visible = lua_toboolean(lua, 2) != 0;
   return 0;
 }
 
 // object_state(object) -> name
-int Run::PushObjectState(lua_State* lua) {
-  const stage::Object& object = CheckObject(lua);
+int PushObjectState(ScriptRuntime& run, lua_State* lua) {
+  const stage::Object& object = CheckObject(run, lua);
   PushText(lua, object.use().states[static_cast<size_t>(object.state.state)]);
   return 1;
 }
 
 // set_object_state(object, name)
-int Run::SetObjectState(lua_State* lua) {
-  const stage::Object& object = CheckObject(lua);
+int SetObjectState(ScriptRuntime& run, lua_State* lua) {
+  const stage::Object& object = CheckObject(run, lua);
   const int state = object.use().FindState(CheckText(lua, 2));
   if (state < 0) {
     std::string known;
@@ -226,18 +216,52 @@ int Run::SetObjectState(lua_State* lua) {
     return luaL_error(lua, "'%s' has no state '%s'; it has %s", object.name.c_str(),
                       lua_tostring(lua, 2), known.c_str());
   }
-  stage_.SetState(CheckObjectId(lua, 1), state);
+  run.stage().SetState(CheckObjectId(lua, 1), state);
   return 0;
 }
 
 // holder(object) -> name of the actor who holds it, or nil
-int Run::PushHolder(lua_State* lua) {
-  if (const stage::Actor* holder = stage_.Find(CheckObject(lua).state.holder)) {
+int PushHolder(ScriptRuntime& run, lua_State* lua) {
+  if (const stage::Actor* holder = run.stage().Find(CheckObject(run, lua).state.holder)) {
     PushText(lua, holder->name);
   } else {
     lua_pushnil(lua);
   }
   return 1;
+}
+
+}  // namespace
+
+stage::Object& CheckObject(ScriptRuntime& run, lua_State* lua, int argument) {
+  stage::Object* object = run.stage().Find(CheckObjectId(lua, argument));
+  if (object == nullptr) {
+    luaL_error(lua, "the object has left the stage");
+  }
+  return *object;
+}
+
+stage::ObjectId CheckObjectId(lua_State* lua, int argument) {
+  return UnpackId<stage::Object>(luaL_checkinteger(lua, argument));
+}
+
+void AddObjectBindings(HostTable& table) {
+  table.AddRecorded<PushTaskState>("task");
+  table.AddRecorded<StopTask>("stop_task");
+  table.AddRecorded<Walk>("walk");
+  table.AddRecorded<Turn>("turn");
+  table.AddRecorded<StandUp>("stand_up");
+  table.AddRecorded<Use>("use");
+  table.AddRecorded<Take>("take");
+  table.AddRecorded<Put>("put");
+  table.AddRecorded<Give>("give");
+  table.AddRecorded<PushObject>("object");
+  table.AddRecorded<PushObjectPose>("object_pose");
+  table.AddRecorded<PlaceObject>("place_object");
+  table.AddRecorded<PlaceObjectOn>("place_object_on");
+  table.AddRecorded<ShowObject>("show_object");
+  table.AddRecorded<PushObjectState>("object_state");
+  table.AddRecorded<SetObjectState>("set_object_state");
+  table.AddRecorded<PushHolder>("holder");
 }
 
 }  // namespace lararium::drama

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "shared/drama/host_bindings.h"
 #include "shared/drama/lua_binding.h"
-#include "shared/drama/run.h"
+#include "shared/drama/script_runtime.h"
 
 namespace lararium::drama {
 namespace {
@@ -64,10 +65,7 @@ double FieldOfPoint(lua_State* lua, const char* key, double otherwise) {
   return NumberField(lua, key, -kMaxSeconds, kMaxSeconds).value_or(otherwise);
 }
 
-}  // namespace
-
-std::vector<TrackSegment>& Run::SegmentsOf(stage::ActorId id) {
-  std::vector<Track>& tracks = declaring_->timeline.tracks;
+std::vector<TrackSegment>& SegmentsOf(std::vector<Track>& tracks, stage::ActorId id) {
   const auto found = std::find_if(tracks.begin(), tracks.end(),
                                   [id](const Track& track) { return track.actor == id; });
   if (found != tracks.end()) {
@@ -78,11 +76,11 @@ std::vector<TrackSegment>& Run::SegmentsOf(stage::ActorId id) {
 }
 
 // segment(actor, begin, length, clip, rate, fade, from, to, heading, ease)
-int Run::AddSegment(lua_State* lua) {
-  if (!declaring_) {
+int AddSegment(ScriptRuntime& run, lua_State* lua) {
+  if (run.declaring() == nullptr) {
     return luaL_error(lua, "track: only while the script loads, not within main()");
   }
-  stage::Actor& actor = CheckActor(lua);
+  stage::Actor& actor = CheckActor(run, lua);
   TrackSegment segment;
   segment.begin = CheckFinite(lua, 2, "at");
   segment.length = CheckFinite(lua, 3, "length");
@@ -93,7 +91,8 @@ int Run::AddSegment(lua_State* lua) {
   segment.to = CheckPoint(lua, 8);
   segment.heading = static_cast<float>(CheckFinite(lua, 9, "heading"));
   segment.ease = CheckEase(lua, luaL_optstring(lua, 10, "linear"));
-  std::vector<TrackSegment>& segments = SegmentsOf(CheckActorId(lua, 1));
+  std::vector<TrackSegment>& segments =
+      SegmentsOf(run.declaring()->timeline.tracks, CheckActorId(lua, 1));
   if (segments.size() >= kMaxItems) {
     return luaL_error(lua, "track: too many clips");
   }
@@ -107,16 +106,16 @@ int Run::AddSegment(lua_State* lua) {
 }
 
 // The object named by field `key` of the item on top of the stack; zero: the field is missing.
-stage::ObjectId Run::CheckObjectNamed(lua_State* lua, const char* key) {
+stage::ObjectId CheckObjectNamed(ScriptRuntime& run, lua_State* lua, const char* key) {
   const std::string name = TextField(lua, key, "");
-  const auto id = stage_.FindObject(name);
+  const auto id = run.stage().FindObject(name);
   if (!name.empty() && !id) {
     luaL_error(lua, "there is no object '%s'", name.c_str());
   }
   return id.value_or(stage::ObjectId());
 }
 
-stage::Attention::Choice Run::CheckGaze(lua_State* lua) {
+stage::Attention::Choice CheckGaze(ScriptRuntime& run, lua_State* lua) {
   using Target = stage::Attention::Target;
   stage::Attention::Choice choice;
   const int type = lua_getfield(lua, -1, "target");
@@ -126,8 +125,8 @@ stage::Attention::Choice Run::CheckGaze(lua_State* lua) {
                     FieldOfPoint(lua, "z", 0.0)};
   } else if (type == LUA_TSTRING) {
     const std::string name = lua_tostring(lua, -1);
-    const auto actor = stage_.Find(name);
-    const auto object = stage_.FindObject(name);
+    const auto actor = run.stage().Find(name);
+    const auto object = run.stage().FindObject(name);
     choice.target = actor ? Target::kActor : object ? Target::kObject : Target::kVisitor;
     choice.actor = actor.value_or(stage::ActorId());
     choice.object = object.value_or(stage::ObjectId());
@@ -142,7 +141,7 @@ stage::Attention::Choice Run::CheckGaze(lua_State* lua) {
 }
 
 // Fields: from = {x=, y=, z=, heading=}, to = {x=, z=, heading=}, hide = true.
-void Run::CheckMotion(lua_State* lua, Cue& cue) {
+void CheckMotion(lua_State* lua, Cue& cue) {
   if (lua_getfield(lua, -1, "from") == LUA_TTABLE) {
     cue.places = true;
     cue.from = {FieldOfPoint(lua, "x", 0.0), FieldOfPoint(lua, "y", 0.0),
@@ -168,14 +167,14 @@ void Run::CheckMotion(lua_State* lua, Cue& cue) {
 }
 
 // Fields: object, action; for put: on, surface, or to; for give: partner.
-void Run::CheckUse(lua_State* lua, Cue& cue) {
+void CheckUse(ScriptRuntime& run, lua_State* lua, Cue& cue) {
   const std::string action = TextField(lua, "action", "");
-  cue.object = CheckObjectNamed(lua, "object");
+  cue.object = CheckObjectNamed(run, lua, "object");
   if (action == "stand") {
     cue.act = Cue::Act::kStand;
     return;
   }
-  const stage::Object* object = stage_.Find(cue.object);
+  const stage::Object* object = run.stage().Find(cue.object);
   if (object == nullptr) {
     luaL_error(lua, "name an object");
     return;
@@ -184,7 +183,7 @@ void Run::CheckUse(lua_State* lua, Cue& cue) {
     cue.act = Cue::Act::kTake;
   } else if (action == "put") {
     cue.act = Cue::Act::kPut;
-    cue.other = CheckObjectNamed(lua, "on");
+    cue.other = CheckObjectNamed(run, lua, "on");
     cue.name = TextField(lua, "surface", "");
     if (!cue.other) {
       CheckMotion(lua, cue);
@@ -193,7 +192,7 @@ void Run::CheckUse(lua_State* lua, Cue& cue) {
   } else if (action == "give") {
     cue.act = Cue::Act::kGive;
     const std::string partner = TextField(lua, "partner", nullptr);
-    const auto id = stage_.Find(partner);
+    const auto id = run.stage().Find(partner);
     if (!id) {
       luaL_error(lua, "there is no '%s' in the cast", partner.c_str());
     }
@@ -211,7 +210,7 @@ void Run::CheckUse(lua_State* lua, Cue& cue) {
 }
 
 // Reads the item on top of the stack.
-Cue Run::CheckCue(lua_State* lua, const CueLane& lane) {
+Cue CheckCue(ScriptRuntime& run, lua_State* lua, const CueLane& lane) {
   Cue cue;
   const auto at = NumberField(lua, "at", 0.0, kMaxSeconds);
   if (!at) {
@@ -222,7 +221,7 @@ Cue Run::CheckCue(lua_State* lua, const CueLane& lane) {
   cue.id = TextField(lua, "id", "");
   cue.fade = static_cast<float>(NumberField(lua, "fade", 0.0, 100.0).value_or(0.4));
   cue.ease = CheckEase(lua, TextField(lua, "ease", "linear"));
-  const stage::Actor* actor = stage_.Find(lane.actor);
+  const stage::Actor* actor = run.stage().Find(lane.actor);
   switch (lane.kind) {
     case LaneKind::kGestures: {
       cue.name = TextField(lua, "clip", nullptr);
@@ -242,17 +241,17 @@ Cue Run::CheckCue(lua_State* lua, const CueLane& lane) {
     case LaneKind::kSpeech:
     case LaneKind::kCaptions: {
       cue.name = TextField(lua, "line", nullptr);
-      const auto speech = stage_.FindSpeech(cue.name);
+      const auto speech = run.stage().FindSpeech(cue.name);
       if (!speech) {
         luaL_error(lua, "there is no line '%s'", cue.name.c_str());
       }
       cue.index = *speech;
       if (lane.kind == LaneKind::kSpeech && cue.length > 0.0 &&
-          stage_.SpeechSeconds(cue.index) > cue.length + 0.05) {
-        on_error_(tick_,
-                  {lane.where + ": track: the line '" + cue.name + "' takes " +
-                       std::to_string(stage_.SpeechSeconds(cue.index)) + " s, longer than its slot",
-                   ""});
+          run.stage().SpeechSeconds(cue.index) > cue.length + 0.05) {
+        run.Report({lane.where + ": track: the line '" + cue.name + "' takes " +
+                        std::to_string(run.stage().SpeechSeconds(cue.index)) +
+                        " s, longer than its slot",
+                    ""});
       }
       break;
     }
@@ -260,10 +259,10 @@ Cue Run::CheckCue(lua_State* lua, const CueLane& lane) {
       CheckMotion(lua, cue);
       break;
     case LaneKind::kUses:
-      CheckUse(lua, cue);
+      CheckUse(run, lua, cue);
       break;
     case LaneKind::kGaze:
-      cue.gaze = CheckGaze(lua);
+      cue.gaze = CheckGaze(run, lua);
       break;
     case LaneKind::kExpressions: {
       cue.name = TextField(lua, "expression", nullptr);
@@ -282,9 +281,9 @@ Cue Run::CheckCue(lua_State* lua, const CueLane& lane) {
 }
 
 // Like CheckCue; errors name the item.
-Cue Run::CheckItem(lua_State* lua, const CueLane& lane, int64_t index) {
+Cue CheckItem(ScriptRuntime& run, lua_State* lua, const CueLane& lane, int64_t index) {
   try {
-    return CheckCue(lua, lane);
+    return CheckCue(run, lua, lane);
   } catch (...) {  // Lua raises its errors as exceptions.
     if (LimitsOf(lua).tripped() || lua_type(lua, -1) != LUA_TSTRING) {
       throw;
@@ -299,8 +298,8 @@ Cue Run::CheckItem(lua_State* lua, const CueLane& lane, int64_t index) {
 }
 
 // lane(name, actor or nil, items)
-int Run::AddLane(lua_State* lua) {
-  if (!declaring_) {
+int AddLane(ScriptRuntime& run, lua_State* lua) {
+  if (run.declaring() == nullptr) {
     return luaL_error(lua, "track: only while the script loads, not within main()");
   }
   const std::string name(CheckText(lua, 1));
@@ -314,7 +313,7 @@ int Run::AddLane(lua_State* lua) {
   if (IsOfActor(*kind)) {
     lane.actor = CheckActorId(lua, 2);
     if (SpecOf(*kind).moves_body) {
-      CheckFreeActor(lua, 2);
+      CheckFreeActor(run, lua, 2);
     }
   }
   luaL_checktype(lua, 3, LUA_TTABLE);
@@ -328,13 +327,20 @@ int Run::AddLane(lua_State* lua) {
     if (lua_rawgeti(lua, 3, i) != LUA_TTABLE) {
       return luaL_error(lua, "track: %s[%I]: write an item {at = 0, ...} here", name.c_str(), i);
     }
-    lane.cues.push_back(CheckItem(lua, lane, i));
+    lane.cues.push_back(CheckItem(run, lua, lane, i));
     lua_settop(lua, 3);
   }
   std::stable_sort(lane.cues.begin(), lane.cues.end(),
                    [](const Cue& a, const Cue& b) { return a.at < b.at; });
-  declaring_->timeline.lanes.push_back(std::move(lane));
+  run.declaring()->timeline.lanes.push_back(std::move(lane));
   return 0;
+}
+
+}  // namespace
+
+void AddTimelineBindings(HostTable& table) {
+  table.AddRecorded<AddSegment>("segment");
+  table.AddRecorded<AddLane>("lane");
 }
 
 }  // namespace lararium::drama

@@ -7,8 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "shared/drama/host_bindings.h"
 #include "shared/drama/lua_binding.h"
-#include "shared/drama/run.h"
+#include "shared/drama/script_runtime.h"
 
 namespace lararium::drama {
 namespace {
@@ -31,27 +32,25 @@ void PushArgument(lua_State* lua, std::string_view argument) {
   }
 }
 
-}  // namespace
-
-const Trigger* Run::FindTrigger(int64_t id) const {
-  const auto found = std::find_if(state_.triggers.begin(), state_.triggers.end(),
+const Trigger* FindTrigger(const ScriptRuntime& run, int64_t id) {
+  const auto found = std::find_if(run.state().triggers.begin(), run.state().triggers.end(),
                                   [id](const Trigger& trigger) { return trigger.id == id; });
-  return found == state_.triggers.end() ? nullptr : &*found;
+  return found == run.state().triggers.end() ? nullptr : &*found;
 }
 
 // Arguments from `argument` on: "none", or "actor", id, or "object", id, or "point", x, y, z.
-TriggerSpec Run::CheckTrigger(lua_State* lua, int argument) {
+TriggerSpec CheckTrigger(ScriptRuntime& run, lua_State* lua, int argument) {
   TriggerSpec spec;
   constexpr const char* kTargets[] = {"none", "actor", "object", "point", nullptr};
   spec.target =
       static_cast<TriggerSpec::Target>(luaL_checkoption(lua, argument, nullptr, kTargets));
   switch (spec.target) {
     case TriggerSpec::Target::kActor:
-      CheckActor(lua, argument + 1);
+      CheckActor(run, lua, argument + 1);
       spec.actor = CheckActorId(lua, argument + 1);
       break;
     case TriggerSpec::Target::kObject:
-      CheckObject(lua, argument + 1);
+      CheckObject(run, lua, argument + 1);
       spec.object = CheckObjectId(lua, argument + 1);
       break;
     case TriggerSpec::Target::kPoint:
@@ -65,14 +64,14 @@ TriggerSpec Run::CheckTrigger(lua_State* lua, int argument) {
 }
 
 // trigger(kind, metres, leave, angle, seconds, text, target...) -> number of the trigger
-int Run::AddTrigger(lua_State* lua) {
+int AddTrigger(ScriptRuntime& run, lua_State* lua) {
   constexpr const char* kKinds[] = {"near",    "leaves",  "looks_at", "looks_away", "stays",
                                     "timeout", "lost",    "back",     "key",        "clock",
                                     "marker",  "message", nullptr};
   static_assert(std::size(kKinds) == TriggerSpec::kKinds + 1);
   const auto kind = static_cast<TriggerSpec::Kind>(luaL_checkoption(lua, 1, nullptr, kKinds));
   Trigger trigger;
-  trigger.spec = CheckTrigger(lua, 7);
+  trigger.spec = CheckTrigger(run, lua, 7);
   trigger.spec.kind = kind;
   trigger.spec.metres = static_cast<float>(CheckFinite(lua, 2, "the distance"));
   trigger.spec.leave =
@@ -83,37 +82,38 @@ int Run::AddTrigger(lua_State* lua) {
   if (const Status status = trigger.spec.Validate(); !status.ok()) {
     return luaL_error(lua, "%s", status.message().c_str());
   }
-  if (state_.triggers.size() >= kMaxTriggers || trigger.spec.text.size() > kMaxName) {
+  if (run.state().triggers.size() >= kMaxTriggers || trigger.spec.text.size() > kMaxName) {
     return luaL_error(lua, "there are more than %d triggers at once, or a name is too long",
                       static_cast<int>(kMaxTriggers));
   }
-  trigger.id = ++state_.last_trigger;
-  trigger.from = state_.visitor.position;
-  trigger.cue = cues_.Find({PlaceNow(lua), kKinds[static_cast<size_t>(kind)], trigger.spec.text});
-  state_.triggers.push_back(std::move(trigger));
-  lua_pushinteger(lua, state_.last_trigger);
+  trigger.id = ++run.state().last_trigger;
+  trigger.from = run.state().visitor.position;
+  trigger.cue =
+      run.cues().Find({run.PlaceNow(lua), kKinds[static_cast<size_t>(kind)], trigger.spec.text});
+  run.state().triggers.push_back(std::move(trigger));
+  lua_pushinteger(lua, run.state().last_trigger);
   return 1;
 }
 
 // drop_trigger(number); ignores unknown numbers
-int Run::DropTrigger(lua_State* lua) {
+int DropTrigger(ScriptRuntime& run, lua_State* lua) {
   const int64_t id = luaL_checkinteger(lua, 1);
-  std::erase_if(state_.triggers, [id](const Trigger& trigger) { return trigger.id == id; });
+  std::erase_if(run.state().triggers, [id](const Trigger& trigger) { return trigger.id == id; });
   return 0;
 }
 
 // fired(number) -> how often it fired
-int Run::PushFired(lua_State* lua) {
-  const Trigger* trigger = FindTrigger(luaL_checkinteger(lua, 1));
+int PushFired(ScriptRuntime& run, lua_State* lua) {
+  const Trigger* trigger = FindTrigger(run, luaL_checkinteger(lua, 1));
   lua_pushinteger(lua, trigger == nullptr ? 0 : trigger->fired);
   return 1;
 }
 
 // heard(address) -> arguments of its last message: numbers, texts, true, false, nil
-int Run::PushHeard(lua_State* lua) {
+int PushHeard(ScriptRuntime& run, lua_State* lua) {
   constexpr int kMaxArguments = 16;
-  const auto found = state_.heard.find(CheckText(lua, 1));
-  if (found == state_.heard.end()) {
+  const auto found = run.state().heard.find(CheckText(lua, 1));
+  if (found == run.state().heard.end()) {
     return 0;
   }
   luaL_checkstack(lua, kMaxArguments, "a message");
@@ -129,7 +129,7 @@ int Run::PushHeard(lua_State* lua) {
 }
 
 // await_fired(numbers, counts): waits until a trigger has fired more often than its count
-int Run::AwaitFired(lua_State* lua) {
+int AwaitFired(ScriptRuntime& run, lua_State* lua) {
   luaL_checktype(lua, 1, LUA_TTABLE);
   luaL_checktype(lua, 2, LUA_TTABLE);
   std::vector<std::pair<int64_t, int64_t>> awaited;
@@ -138,17 +138,17 @@ int Run::AwaitFired(lua_State* lua) {
     awaited.emplace_back(lua_tointeger(lua, -2), lua_tointeger(lua, -1));
     lua_pop(lua, 2);
   }
-  return scheduler_.WaitUntil(lua, "wait_for", [this, awaited = std::move(awaited)] {
-    return std::any_of(awaited.begin(), awaited.end(), [this](const auto& one) {
-      const Trigger* trigger = FindTrigger(one.first);
+  return run.scheduler().WaitUntil(lua, "wait_for", [&run, awaited = std::move(awaited)] {
+    return std::any_of(awaited.begin(), awaited.end(), [&run](const auto& one) {
+      const Trigger* trigger = FindTrigger(run, one.first);
       return trigger != nullptr && trigger->fired > one.second;
     });
   });
 }
 
 // visitor() -> tracked, x, y, z, heading; the last known pose if not tracked
-int Run::PushVisitor(lua_State* lua) {
-  const Visitor& visitor = state_.visitor;
+int PushVisitor(ScriptRuntime& run, lua_State* lua) {
+  const Visitor& visitor = run.state().visitor;
   lua_pushboolean(lua, visitor.tracked ? 1 : 0);
   for (const float value : {visitor.position.x, visitor.position.y, visitor.position.z}) {
     lua_pushnumber(lua, value);
@@ -158,10 +158,10 @@ int Run::PushVisitor(lua_State* lua) {
 }
 
 // distance(target...) -> metres between visitor and target on the floor; nil: unknown
-int Run::PushDistance(lua_State* lua) {
-  const TriggerSpec spec = CheckTrigger(lua, 1);
-  const auto distance = DistanceTo(stage_, spec, state_.visitor.position);
-  if (distance && state_.visitor.tracked) {
+int PushDistance(ScriptRuntime& run, lua_State* lua) {
+  const TriggerSpec spec = CheckTrigger(run, lua, 1);
+  const auto distance = DistanceTo(run.stage(), spec, run.state().visitor.position);
+  if (distance && run.state().visitor.tracked) {
     lua_pushnumber(lua, *distance);
   } else {
     lua_pushnil(lua);
@@ -170,11 +170,11 @@ int Run::PushDistance(lua_State* lua) {
 }
 
 // aside(actor, metres) -> x, z of a nearby place at this distance from the visitor; or nil
-int Run::PushAside(lua_State* lua) {
-  CheckFreeActor(lua);
+int PushAside(ScriptRuntime& run, lua_State* lua) {
+  CheckFreeActor(run, lua);
   const auto metres = static_cast<float>(CheckFinite(lua, 2, "the distance"));
-  const glm::vec3& visitor = state_.visitor.position;
-  const auto place = stage_.FindAway(CheckActorId(lua, 1), {visitor.x, visitor.z}, metres);
+  const glm::vec3& visitor = run.state().visitor.position;
+  const auto place = run.stage().FindAway(CheckActorId(lua, 1), {visitor.x, visitor.z}, metres);
   if (!place) {
     lua_pushnil(lua);
     return 1;
@@ -182,6 +182,19 @@ int Run::PushAside(lua_State* lua) {
   lua_pushnumber(lua, place->x);
   lua_pushnumber(lua, place->y);
   return 2;
+}
+
+}  // namespace
+
+void AddVisitorBindings(HostTable& table) {
+  table.AddOwn<AwaitFired>("await_fired");
+  table.AddRecorded<AddTrigger>("trigger");
+  table.AddRecorded<DropTrigger>("drop_trigger");
+  table.AddRecorded<PushFired>("fired");
+  table.AddRecorded<PushHeard>("heard");
+  table.AddRecorded<PushVisitor>("visitor");
+  table.AddRecorded<PushDistance>("distance");
+  table.AddRecorded<PushAside>("aside");
 }
 
 }  // namespace lararium::drama

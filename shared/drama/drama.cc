@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "shared/drama/recording.h"
-#include "shared/drama/run.h"
 #include "shared/drama/sandbox.h"
+#include "shared/drama/script_runtime.h"
 #include "shared/drama/timeline_text.h"
 
 namespace lararium::drama {
@@ -220,8 +220,8 @@ class LuaDrama : public Drama {
   Result<std::unique_ptr<Sandbox>> MakeSandbox() const {
     return Sandbox::Create(options_.memory_limit, options_.instruction_limit, options_.seed);
   }
-  std::unique_ptr<Run> MakeRun(std::unique_ptr<Sandbox> sandbox) {
-    return std::make_unique<Run>(
+  std::unique_ptr<ScriptRuntime> MakeRun(std::unique_ptr<Sandbox> sandbox) {
+    return std::make_unique<ScriptRuntime>(
         std::move(sandbox), stage_, recording_, cues_,
         [this](int64_t tick, const LuaError& error) { Report(tick, error); },
         [this](TaskRecord record) { tasks_.Add(std::move(record)); });
@@ -323,7 +323,7 @@ class LuaDrama : public Drama {
     if (!sandbox.ok()) {
       return false;
     }
-    std::unique_ptr<Run> run = MakeRun(*std::move(sandbox));
+    std::unique_ptr<ScriptRuntime> run = MakeRun(*std::move(sandbox));
     if (!run->BeginAgain(ScriptOfCoroutines(), place_, run_->declared()).ok() ||
         !run->FollowTo(position)) {
       return false;
@@ -359,7 +359,7 @@ class LuaDrama : public Drama {
   Recording recording_;
   CueLog cues_;
   int changes_ = 0;  // Last value of Recording::changes().
-  std::unique_ptr<Run> run_;
+  std::unique_ptr<ScriptRuntime> run_;
   std::vector<Moment> moments_;  // Sorted by tick.
   int64_t save_ticks_ = kSaveTicks;
   History<ScriptError> errors_{kMaxErrors};

@@ -133,7 +133,8 @@ std::vector<LaneSpec> MakeLanes() {
        .fields = {{.key = "object",
                    .label = TrLater("Object"),
                    .role = FieldRole::kObject,
-                   .initial = "object"},
+                   .initial = "object",
+                   .optional_if_action = "stand"},
                   {.key = "action", .label = TrLater("Action"), .role = FieldRole::kAction},
                   {.key = "on",
                    .label = TrLater("On"),
@@ -386,7 +387,13 @@ std::string ProblemOf(const LaneField& field, const Json& value) {
   return value.is_object() ? "" : "must be a point such as {x = 1, z = -2}";
 }
 
-std::vector<std::string_view> RequiredFields(const LaneSpec& lane) {
+std::vector<std::string_view> RequiredFields(const LaneSpec& lane, const Json& item) {
+  const LaneField* content = FindField(lane, lane.content);
+  const auto action = item.find("action");
+  if (content != nullptr && content->optional_if_action != nullptr && action != item.end() &&
+      *action == content->optional_if_action) {
+    return {};
+  }
   return lane.required.empty() ? std::vector{lane.content} : lane.required;
 }
 

@@ -68,7 +68,9 @@ struct LaneField {
   std::vector<std::string_view> choices = {};  // The valid texts; empty: the role defines them.
   Json initial = nullptr;                      // The value in a new item; null: left out.
   const char* only_if_action = nullptr;        // The value of `action` for which the field is used.
-  const char* unless = nullptr;                // Key of a field that makes this one meaningless.
+  // The value of `action` for which an item is complete without this field.
+  const char* optional_if_action = nullptr;
+  const char* unless = nullptr;  // Key of a field that makes this one meaningless.
 };
 
 // What defines the duration of an item without `length`.
@@ -115,8 +117,9 @@ const LaneField* FindField(const LaneSpec& lane, std::string_view key);
 const LaneField* FindItemField(std::string_view key);
 // What is wrong with the value of a field, such as "must be a number from 0 to 1"; empty: nothing.
 std::string ProblemOf(const LaneField& field, const Json& value);
-// The keys of `required`, or `content` alone.
-std::vector<std::string_view> RequiredFields(const LaneSpec& lane);
+// The keys of which an item with these fields needs one: those of `required`, or `content` alone.
+// Empty: the item needs none of them for its action.
+std::vector<std::string_view> RequiredFields(const LaneSpec& lane, const Json& item);
 
 std::optional<LaneKind> LaneNamed(std::string_view name);
 // The lane that the action of a task belongs to ("walk_to", "say salvete").

@@ -55,6 +55,16 @@ TEST_F(TimelineItems, AreListedByWhoseTheyAre) {
   EXPECT_EQ(Script(), kScript);
 }
 
+TEST_F(TimelineItems, OnlyStandingUpIsAddedWithoutAnObject) {
+  const auto use = [this](std::string action) {
+    return Run({.add = "uses", .actor = "keeper", .at = 1.0, .fields = {"action=" + action}});
+  };
+  EXPECT_THAT(use("sit").message(), HasSubstr("is incomplete"));
+  const auto stands = use("stand");
+  EXPECT_TRUE(stands.ok()) << stands.message();
+  EXPECT_THAT(Script(), HasSubstr("action = \"stand\""));
+}
+
 TEST_F(TimelineItems, OneIsAddedWithItsLaneAndTheTextAroundItStays) {
   const auto added = Run({.add = "walks",
                           .actor = "keeper",

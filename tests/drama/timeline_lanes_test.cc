@@ -54,9 +54,16 @@ TEST_P(EveryLane, HasASpecWhoseFieldsTheReaderAccepts) {
   }
 }
 
+TEST(TimelineLanes, OnlyStandingUpNeedsNoObject) {
+  const LaneSpec& uses = SpecOf(LaneKind::kUses);
+  EXPECT_THAT(RequiredFields(uses, Json{{"action", "stand"}}), IsEmpty());
+  EXPECT_EQ(RequiredFields(uses, Json{{"action", "sit"}}), std::vector<std::string_view>{"object"});
+  EXPECT_EQ(RequiredFields(uses, Json::object()), std::vector<std::string_view>{"object"});
+}
+
 TEST_P(EveryLane, StatesFieldsAndValuesThatExist) {
   EXPECT_NE(FindField(lane_, lane_.content), nullptr);
-  for (const std::string_view key : RequiredFields(lane_)) {
+  for (const std::string_view key : RequiredFields(lane_, Json::object())) {
     EXPECT_NE(FindField(lane_, key), nullptr) << key;
   }
   for (const std::string_view key : lane_.label) {

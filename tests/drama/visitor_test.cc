@@ -417,6 +417,8 @@ TEST_F(VisitorTest, WrongWordsAreBlamedOnTheScript) {
       {"wait_for(3)", "give what start gave"},
       {"wait_for(start(function() wait(1) end), 'middle')", "there is no point 'middle'"},
       {"meet('stroke', {actor('keeper'), 'walk_to'})", "give a point and things like"},
+      {"meet('stroke', {{id = actor('keeper').id}, 'gesture', 'bow'})", "meet: give an actor"},
+      {"meet('stroke', {object('chest'), 'gesture', 'bow'})", "meet: give an actor"},
       {"drama{}", "only while the script loads"},
       {"actor('keeper'):keep_distance(99)", "must be a number from"},
       {"first(1)", "give triggers like"},

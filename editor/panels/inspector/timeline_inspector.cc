@@ -267,8 +267,9 @@ std::vector<std::string> ChoicesOf(const Item& item, const drama::LaneField& fie
       std::vector<std::string> actions;
       if (thing("object") != nullptr) {
         actions = thing("object")->actions;
-        actions.insert(actions.end(), {"take", "put", "give", "stand"});
+        actions.insert(actions.end(), {"take", "put", "give"});
       }
+      actions.emplace_back("stand");
       return actions;
     }
     case kNone:
