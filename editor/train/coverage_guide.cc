@@ -237,13 +237,12 @@ CoverageGuide::Way CoverageGuide::Follow(const CoverageFrame& frame) {
   at_ = view_at_;
   double parallax = 0.0;
   if (HasMoved(turning)) {
-    const auto relative = EstimateRelativePose(pairs, kSampson);
-    if (pose && Explains(*pose, turning, pairs) &&
-        !Leaps(relative->b_from_a.rotation, frame.shift)) {
-      camera_from_view = relative->b_from_a.rotation;
-      parallax = relative->median_angle;
+    const auto pose = EstimateRelativePose(pairs, kSampson);
+    if (pose && Explains(*pose, turning, pairs) && !Leaps(pose->b_from_a.rotation, frame.shift)) {
+      camera_from_view = pose->b_from_a.rotation;
+      parallax = pose->median_angle;
       way.moved = true;
-      at_ = view_at_ + MovedBy(world_from_view_, pairs, *relative);
+      at_ = view_at_ + MovedBy(world_from_view_, pairs, *pose);
     }
   }
   world_from_camera_ = (world_from_view_ * camera_from_view.conjugate()).normalized();

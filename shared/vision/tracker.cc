@@ -228,7 +228,7 @@ class Tracker final : public PoseSource {
     const FollowedPose followed =
         patch_tracker.Follow(pyramid_, tracked.camera, std::span(&rough, 1), before, frames);
     if (followed.reliable && DistancePx(tracked.camera, rough, followed.camera_from_map,
-                                      followed.evidence.depths[1]) < kTwoMeaningsPx) {
+                                        followed.evidence.depths[1]) < kTwoMeaningsPx) {
       Report(followed, tracked);
       return true;
     }
