@@ -376,7 +376,7 @@ void TimelinePanel::ScrollToChosen() {
   }
 }
 
-void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawRows(editor::Workspace& workspace, Input& input, EditorActions& actions) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::BeginChild("rows", ImVec2(0, 0), false,
                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_AlwaysVerticalScrollbar);
@@ -394,7 +394,7 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   const bool hovered = ImGui::IsItemHovered();
-  HandleMouse(workspace, state, origin.y, hovered);
+  HandleMouse(workspace, input, actions, origin.y, hovered);
   const Hit hit = hovered && drag_.kind == Drag::Kind::kNone
                       ? HitAt(workspace, ImGui::GetIO().MousePos, origin.y)
                       : Hit();
@@ -444,7 +444,7 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
     ImGui::OpenPopup("add menu");
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(8), Px(7)));  // The spacing of menus.
-  DrawContextMenu(workspace, state);
+  DrawContextMenu(workspace, actions);
   if (ImGui::BeginPopup("add menu")) {
     DrawAddMenu(workspace);
     ImGui::EndPopup();
@@ -474,7 +474,7 @@ void TimelinePanel::DrawAddMenu(editor::Workspace& workspace) {
   DrawKindMenu(workspace, "");
 }
 
-void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorActions& actions) {
   if (!ImGui::BeginPopup("item menu")) {
     return;
   }
@@ -483,7 +483,7 @@ void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorState& s
     if (ImGui::MenuItem(Tr("Go to the script"), Tr("Enter"))) {
       block_ = context_.block;
       selection_.clear();
-      GoToScript(workspace, state);
+      GoToScript(workspace, actions);
     }
   } else if (context_.item) {
     if (ImGui::MenuItem(Tr("Cut"), "Ctrl+X", false, any)) {
@@ -508,7 +508,7 @@ void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorState& s
     }
     ImGui::Separator();
     if (ImGui::MenuItem(Tr("Go to the script"), Tr("Enter"))) {
-      GoToScript(workspace, state);
+      GoToScript(workspace, actions);
     }
   } else {
     if (ImGui::MenuItem(Tr("Paste"), "Ctrl+V")) {
@@ -530,7 +530,7 @@ void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorState& s
 
 // ---- The panel ----
 
-void TimelinePanel::DrawTools(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawTools(editor::Workspace& workspace, Input& input) {
   PlayButton(workspace);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
@@ -541,7 +541,7 @@ void TimelinePanel::DrawTools(editor::Workspace& workspace, EditorState& state) 
   ImGui::BeginDisabled(workspace.script().timeline() == nullptr);
   if (ImGui::Button(WithIcon(Icon::kAdd, Tr("Add")).c_str())) {
     open_add_ = true;
-    state.focus = Focus::kTimeline;
+    input.focus = Focus::kTimeline;
   }
   ImGui::EndDisabled();
   Tip(WithKey(Tr("Adds an item at the playhead"), KeyAction::kAdd));
@@ -587,9 +587,9 @@ void TimelinePanel::DrawSwitchMenu(const editor::Workspace& workspace) {
   }
 }
 
-void TimelinePanel::Show(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::Show(editor::Workspace& workspace, Input& input, EditorActions& actions) {
   Refresh(workspace);
-  const auto asked = std::exchange(state.timeline_item, std::nullopt);
+  const auto asked = std::exchange(asked_, std::nullopt);
   if (const TimelineText* text = workspace.script().timeline(); asked && text != nullptr) {
     editor::ItemSet still_there = {*asked};
     editor::KeepValid(*text, still_there);
@@ -611,18 +611,16 @@ void TimelinePanel::Show(editor::Workspace& workspace, EditorState& state) {
     ScrollTo(scale_, workspace.time());
   }
   DrawRuler(workspace, Px(kRuler));
-  DrawRows(workspace, state);
+  DrawRows(workspace, input, actions);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::SameLine(0.0f, Px(12));
-  state.keyboard.Before(Region::kItem);
+  input.keyboard.Before(Region::kItem);
   ImGui::BeginChild("item", ImVec2(0, available.y));
-  state.keyboard.Begin(Region::kItem);
-  DrawTimelineInspector(workspace, state, selection_, block_);
-  state.keyboard.End(Region::kItem);
+  input.keyboard.Begin(Region::kItem);
+  DrawTimelineInspector(workspace, actions, selection_, block_, new_language_);
+  input.keyboard.End(Region::kItem);
   ImGui::EndChild();
-  state.walk.item = selection_.size() == 1 ? std::optional(selection_.front()) : std::nullopt;
-  state.walk.task = selection_.empty() ? block_ : std::nullopt;
 }
 
 }  // namespace lararium::panels

@@ -16,7 +16,8 @@
 #include "editor/panels/timeline/timeline_maths.h"
 #include "editor/panels/timeline/timeline_rows.h"
 #include "editor/panels/timeline/timeline_steps.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/widgets/editor_actions.h"
+#include "editor/panels/widgets/input.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -24,11 +25,20 @@ namespace lararium::panels {
 class TimelinePanel {
  public:
   // The buttons beside the tabs, and the panel itself.
-  void DrawTools(editor::Workspace& workspace, EditorState& state);
-  void Show(editor::Workspace& workspace, EditorState& state);
+  void DrawTools(editor::Workspace& workspace, Input& input);
+  void Show(editor::Workspace& workspace, Input& input, EditorActions& actions);
 
-  // Handles the keys of the timeline and removes them from state.keys.
-  void HandleKeys(editor::Workspace& workspace, EditorState& state);
+  // Handles the keys of the timeline and removes them from input.keys.
+  void HandleKeys(editor::Workspace& workspace, Input& input, EditorActions& actions);
+
+  // Selects an item when the panel is shown next.
+  void Select(const drama::TimelineItem& item) { asked_ = item; }
+  // The selection if it is a single item; otherwise nullopt.
+  std::optional<drama::TimelineItem> single_item() const {
+    return selection_.size() == 1 ? std::optional(selection_.front()) : std::nullopt;
+  }
+  // The selected task of the dry run, where no item is selected.
+  std::optional<uint32_t> task() const { return selection_.empty() ? block_ : std::nullopt; }
 
  private:
   static constexpr float kRow = 24.0f;       // Logical pixels, like the following sizes.
@@ -72,7 +82,7 @@ class TimelinePanel {
   void DrawSwitches(const editor::Workspace& workspace);
   void DrawSwitchMenu(const editor::Workspace& workspace);
   void DrawRuler(editor::Workspace& workspace, float height);
-  void DrawRows(editor::Workspace& workspace, EditorState& state);
+  void DrawRows(editor::Workspace& workspace, Input& input, EditorActions& actions);
   void DrawRow(const editor::Workspace& workspace,
                const TimelineRow& row,
                float top,
@@ -106,15 +116,23 @@ class TimelinePanel {
   std::pair<float, float> Extent(const editor::TimeSpan& span) const;
 
   Hit HitAt(const editor::Workspace& workspace, const ImVec2& mouse, float rows_top);
-  void HandleMouse(editor::Workspace& workspace, EditorState& state, float rows_top, bool hovered);
-  void BeginDrag(editor::Workspace& workspace, EditorState& state, const Hit& hit, float rows_top);
+  void HandleMouse(editor::Workspace& workspace,
+                   Input& input,
+                   EditorActions& actions,
+                   float rows_top,
+                   bool hovered);
+  void BeginDrag(editor::Workspace& workspace,
+                 Input& input,
+                 EditorActions& actions,
+                 const Hit& hit,
+                 float rows_top);
   void UpdateDrag(editor::Workspace& workspace, float rows_top);
   void EndDrag(editor::Workspace& workspace);
   void SnapDrag(const editor::Workspace& workspace, double by);
   void SelectBox(const editor::Workspace& workspace, double to, float y);
   void HandleWheel();
   void DrawTooltip(editor::Workspace& workspace, const Hit& hit);
-  void DrawContextMenu(editor::Workspace& workspace, EditorState& state);
+  void DrawContextMenu(editor::Workspace& workspace, EditorActions& actions);
   void DrawAddMenu(editor::Workspace& workspace);
   void DrawKindMenu(editor::Workspace& workspace, const std::string& actor);
 
@@ -141,18 +159,20 @@ class TimelinePanel {
   // Folds all groups, or unfolds all where one is folded.
   void FoldAll();
   void JumpToEdge(editor::Workspace& workspace, int direction);
-  void GoToScript(const editor::Workspace& workspace, EditorState& state);
+  void GoToScript(const editor::Workspace& workspace, EditorActions& actions);
   // Each returns true where the key belongs to it. shift: Shift is held.
   bool HandleTimeKey(editor::Workspace& workspace, KeyAction action, bool shift);
   bool HandleSelectionKey(editor::Workspace& workspace, KeyAction action, bool shift);
   bool HandleEditKey(editor::Workspace& workspace,
-                     EditorState& state,
+                     EditorActions& actions,
                      KeyAction action,
                      bool shift);
   std::vector<double> Naturals(const editor::Workspace& workspace);
   std::string NameOfSelection(const editor::Workspace& workspace);
 
   TimeScale scale_;
+  std::optional<drama::TimelineItem> asked_;  // See Select().
+  std::string new_language_;                  // See DrawTimelineInspector().
   bool fitted_ = false;
   bool snap_ = true;
   bool ripple_ = false;

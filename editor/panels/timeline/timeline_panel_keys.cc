@@ -10,6 +10,8 @@
 #include "editor/panels/timeline/timeline_draw.h"
 #include "editor/panels/timeline/timeline_new_item.h"
 #include "editor/panels/timeline/timeline_panel.h"
+#include "editor/panels/widgets/editor_actions.h"
+#include "editor/panels/widgets/input.h"
 #include "editor/panels/widgets/text.h"
 
 namespace lararium::panels {
@@ -242,7 +244,7 @@ void TimelinePanel::JumpToEdge(editor::Workspace& workspace, int direction) {
   ScrollTo(scale_, best);
 }
 
-void TimelinePanel::GoToScript(const editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::GoToScript(const editor::Workspace& workspace, EditorActions& actions) {
   int line = 0;
   if (!selection_.empty() && workspace.script().timeline() != nullptr) {
     line = static_cast<int>(workspace.script().timeline()->LineOf(selection_.front()));
@@ -251,8 +253,7 @@ void TimelinePanel::GoToScript(const editor::Workspace& workspace, EditorState& 
                        workspace.paths().Drama().filename().string());
   }
   if (line > 0) {
-    state.script_line = line;
-    state.bottom = BottomTab::kScript;
+    actions.push_back(GoToScriptLine{line});
   }
 }
 
@@ -326,7 +327,7 @@ bool TimelinePanel::HandleTimeKey(editor::Workspace& workspace, KeyAction action
 }
 
 bool TimelinePanel::HandleEditKey(editor::Workspace& workspace,
-                                  EditorState& state,
+                                  EditorActions& actions,
                                   KeyAction action,
                                   bool shift) {
   switch (action) {
@@ -371,26 +372,25 @@ bool TimelinePanel::HandleEditKey(editor::Workspace& workspace,
       Delete(workspace);
       return true;
     case KeyAction::kGoToScript:
-      GoToScript(workspace, state);
+      GoToScript(workspace, actions);
       return true;
     default:
       return false;
   }
 }
 
-void TimelinePanel::HandleKeys(editor::Workspace& workspace, EditorState& state) {
-  if (state.focus != Focus::kTimeline || state.bottom != BottomTab::kTimeline ||
-      state.dialog != Dialog::kNone || ImGui::GetIO().WantTextInput ||
+void TimelinePanel::HandleKeys(editor::Workspace& workspace, Input& input, EditorActions& actions) {
+  if (input.focus != Focus::kTimeline || ImGui::GetIO().WantTextInput ||
       workspace.script().timeline() == nullptr) {
     return;
   }
   Refresh(workspace);
-  std::erase_if(state.keys, [&](const KeyPress& press) {
+  std::erase_if(input.keys, [&](const KeyPress& press) {
     const KeyAction action = ActionOf(KeyScope::kTimeline, press);
     const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
     return HandleTimeKey(workspace, action, shift) ||
            HandleSelectionKey(workspace, action, shift) ||
-           HandleEditKey(workspace, state, action, shift);
+           HandleEditKey(workspace, actions, action, shift);
   });
 }
 

@@ -9,6 +9,8 @@
 #include "editor/panels/timeline/timeline_draw.h"
 #include "editor/panels/timeline/timeline_labels.h"
 #include "editor/panels/timeline/timeline_panel.h"
+#include "editor/panels/widgets/editor_actions.h"
+#include "editor/panels/widgets/input.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
@@ -81,11 +83,12 @@ TimelinePanel::Hit TimelinePanel::HitAt(const editor::Workspace& workspace,
 }
 
 void TimelinePanel::BeginDrag(editor::Workspace& workspace,
-                              EditorState& state,
+                              Input& input,
+                              EditorActions& actions,
                               const Hit& hit,
                               float rows_top) {
   const ImGuiIO& io = ImGui::GetIO();
-  state.focus = Focus::kTimeline;
+  input.focus = Focus::kTimeline;
   drag_ = {};
   drag_.from = scale_.TimeAt(io.MousePos.x);
   drag_.from_y = io.MousePos.y - rows_top;
@@ -96,7 +99,7 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
     block_ = hit.block;
     block_group_ = KeyOfGroup(*shown_[static_cast<size_t>(hit.row)]);
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-      GoToScript(workspace, state);
+      GoToScript(workspace, actions);
     }
     return;
   }
@@ -290,7 +293,8 @@ void TimelinePanel::HandleWheel() {
 }
 
 void TimelinePanel::HandleMouse(editor::Workspace& workspace,
-                                EditorState& state,
+                                Input& input,
+                                EditorActions& actions,
                                 float rows_top,
                                 bool hovered) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -307,7 +311,7 @@ void TimelinePanel::HandleMouse(editor::Workspace& workspace,
       drag_.pan_first = scale_.first;
       drag_.from_y = io.MousePos.x;
     } else if (io.MouseClicked[ImGuiMouseButton_Right] && !in_gutter) {
-      state.focus = Focus::kTimeline;
+      input.focus = Focus::kTimeline;
       if (hit.item && !editor::Contains(selection_, *hit.item)) {
         selection_ = {*hit.item};
         block_.reset();
@@ -321,14 +325,14 @@ void TimelinePanel::HandleMouse(editor::Workspace& workspace,
       open_context_ = true;
       drag_ = {};
     } else if (in_gutter) {
-      state.focus = Focus::kTimeline;
+      input.focus = Focus::kTimeline;
       if (hit.row >= 0 &&
           shown_[static_cast<size_t>(hit.row)]->kind == TimelineRow::Kind::kHeading) {
         Fold(*shown_[static_cast<size_t>(hit.row)]);
       }
       drag_ = {};
     } else {
-      BeginDrag(workspace, state, hit, rows_top);
+      BeginDrag(workspace, input, actions, hit, rows_top);
     }
   } else if (active && drag_.kind == Drag::Kind::kPan) {
     scale_.first =
