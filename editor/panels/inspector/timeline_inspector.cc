@@ -149,6 +149,33 @@ void BoolField(Item& item, const char* label, const std::string& key) {
   ImGui::PopID();
 }
 
+// A colour, {red, green, blue}.
+void ColourField(Item& item, const drama::LaneField& field) {
+  const Json* value = item.Find(field.key);
+  PropertyLabel(Tr(field.label));
+  ImGui::PushID(field.key);
+  if (value == nullptr || !drama::ProblemOf(field, *value).empty()) {
+    if (ImGui::Button(Tr("Set"))) {
+      item.Set(field.key, Json::array({1.0, 1.0, 1.0}));
+      item.workspace.EndGesture();
+    }
+    ImGui::PopID();
+    return;
+  }
+  auto colour = value->get<std::array<double, 3>>();
+  ImGui::SetNextItemWidth(WidthBesideClearButton());
+  if (ImGui::DragScalarN("##colour", ImGuiDataType_Double, colour.data(), 3, 0.01f, &field.least,
+                         &field.most, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+    for (double& channel : colour) {
+      channel = std::round(channel * 1000.0) / 1000.0;
+    }
+    item.Set(field.key, colour);
+  }
+  EndGestureWithItem(item.workspace);
+  ClearButton(item, field.key);
+  ImGui::PopID();
+}
+
 // A point on the floor, {x =, z =, heading =}.
 void PointField(Item& item, const char* label, const std::string& key) {
   const Json* value = item.Find(key);
@@ -366,6 +393,9 @@ void DrawField(Item& item, const drama::LaneField& field) {
       break;
     case drama::FieldType::kYesNo:
       BoolField(item, Tr(field.label), field.key);
+      break;
+    case drama::FieldType::kColour:
+      ColourField(item, field);
       break;
     case drama::FieldType::kPoint:
       PointField(item, Tr(field.label), field.key);
