@@ -6,7 +6,6 @@
 #include <string>
 
 #include "editor/panels/dialogs/calibration_dialog.h"
-#include "editor/panels/dialogs/dialog_state.h"
 #include "editor/panels/dialogs/film_dialog.h"
 #include "editor/panels/dialogs/live_camera_dialog.h"
 #include "editor/panels/dialogs/missing_files_panel.h"
@@ -15,14 +14,8 @@
 #include "editor/panels/timeline/timeline_panel.h"
 #include "editor/panels/viewport/camera_view.h"
 #include "editor/panels/viewport/pick_view.h"
-#include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/viewport/portrait_view.h"
 #include "editor/panels/viewport/scene_view.h"
-#include "editor/panels/viewport/view_tools.h"
-#include "editor/panels/widgets/editor_actions.h"
-#include "editor/panels/widgets/input.h"
-#include "editor/panels/widgets/selection.h"
-#include "editor/panels/widgets/view_options.h"
 #include "editor/session/settings.h"
 #include "editor/session/workspace.h"
 #include "editor/window/window_sizes.h"

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "editor/panels/dialogs/calibration_dialog.h"
-#include "editor/panels/dialogs/dialog_state.h"
 #include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/widgets/keys.h"
 #include "editor/session/recent_projects.h"

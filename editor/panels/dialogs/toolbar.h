@@ -1,13 +1,6 @@
 #pragma once
 
-#include "editor/panels/dialogs/dialog_state.h"
-#include "editor/panels/viewport/gizmo_view.h"
-#include "editor/panels/viewport/place_cards.h"
 #include "editor/panels/viewport/view_tools.h"
-#include "editor/panels/widgets/editor_actions.h"
-#include "editor/panels/widgets/input.h"
-#include "editor/panels/widgets/selection.h"
-#include "editor/panels/widgets/view_options.h"
 #include "editor/session/settings.h"
 #include "editor/session/workspace.h"
 

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "editor/panels/dialogs/dialog_state.h"
-#include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/viewport/portrait_view.h"
-#include "editor/panels/widgets/input.h"
 #include "editor/panels/widgets/selection.h"
 #include "editor/session/workspace.h"
 

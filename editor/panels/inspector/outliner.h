@@ -1,9 +1,7 @@
 #pragma once
 
-#include "editor/panels/dialogs/dialog_state.h"
 #include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/picture_textures.h"
-#include "editor/panels/widgets/selection.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {

@@ -461,9 +461,8 @@ void CameraView::Show(editor::Workspace& workspace,
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
     draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
-    if (options.show_compare) {
-      hovered &= !compare_slider_.Show(*picture, rect.origin, rect.size, hovered, draw);
-    }
+    hovered &= !compare_slider_.Show(options.show_compare, *picture, rect.origin, rect.size,
+                                     hovered, draw);
     const bool shows_stage = options.show_stage || tools.align.picking;
     if (picture->camera_from_stage && (shows_stage || options.show_occluders)) {
       overlays_.Show(workspace, selection, options, PictureView(*picture, *workspace.place(), rect),

@@ -9,13 +9,8 @@
 #include "editor/panels/viewport/corner_view.h"
 #include "editor/panels/viewport/light_view.h"
 #include "editor/panels/viewport/overlay_mesh_view.h"
-#include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/viewport/view_tools.h"
 #include "editor/panels/viewport/walk_view.h"
-#include "editor/panels/widgets/editor_actions.h"
-#include "editor/panels/widgets/input.h"
-#include "editor/panels/widgets/selection.h"
-#include "editor/panels/widgets/view_options.h"
 #include "editor/session/onion_skin.h"
 #include "editor/session/workspace.h"
 #include "shared/render/gl/texture.h"
@@ -25,7 +20,7 @@ namespace lararium::panels {
 // The settings of the onion skin: number and spacing of the skins.
 struct OnionSettings {
   editor::OnionSkin skin;
-  bool asked = false;  // Their popup opens with the next frame.
+  bool asked = false;  // Opens the popup of the settings in the next frame.
 };
 
 class CameraView {

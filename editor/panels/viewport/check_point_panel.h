@@ -8,12 +8,7 @@
 #include "editor/jobs/check_points.h"
 #include "editor/panels/dialogs/dialog_state.h"
 #include "editor/panels/viewport/align_panel.h"
-#include "editor/panels/viewport/pick_target.h"
-#include "editor/panels/viewport/view_camera.h"
 #include "editor/panels/widgets/icons.h"
-#include "editor/panels/widgets/input.h"
-#include "editor/panels/widgets/selection.h"
-#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {

@@ -29,13 +29,14 @@ void DrawHandle(float x, const ImVec2& origin, const ImVec2& size, bool lit, ImD
 
 }  // namespace
 
-bool CompareSlider::Show(const editor::PreviewPicture& picture,
+bool CompareSlider::Show(bool shown,
+                         const editor::PreviewPicture& picture,
                          const ImVec2& origin,
                          const ImVec2& size,
                          bool hovered,
                          ImDrawList& draw) {
   dragged_ = dragged_ && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  if (picture.plain.empty()) {
+  if (!shown || picture.plain.empty()) {
     return false;
   }
   if (uploaded_ != &picture) {

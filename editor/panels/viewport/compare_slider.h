@@ -12,9 +12,11 @@ namespace lararium::panels {
 
 class CompareSlider {
  public:
-  // origin, size: the picture on the screen. hovered: the pointer is over the view. Returns true
-  // while the line uses the pointer. Does nothing while the picture has no image to compare with.
-  bool Show(const editor::PreviewPicture& picture,
+  // shown: the comparison is on. origin, size: the picture on the screen. hovered: the pointer is
+  // over the view. Returns true while the line uses the pointer. Does nothing while the picture has
+  // no image to compare with.
+  bool Show(bool shown,
+            const editor::PreviewPicture& picture,
             const ImVec2& origin,
             const ImVec2& size,
             bool hovered,

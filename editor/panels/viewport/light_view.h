@@ -6,8 +6,6 @@
 #include <imgui.h>
 
 #include "editor/panels/inspector/light_panel.h"
-#include "editor/panels/viewport/picture_textures.h"
-#include "editor/panels/widgets/selection.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {

@@ -2,13 +2,8 @@
 
 // Picking of the stage's points: each in two or more training images.
 
-#include "editor/panels/viewport/align_panel.h"
 #include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/corner_view.h"
-#include "editor/panels/viewport/pick_target.h"
-#include "editor/panels/widgets/input.h"
-#include "editor/panels/widgets/selection.h"
-#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 #include "shared/render/gl/texture.h"
 

@@ -5,10 +5,6 @@
 // alone.
 
 #include "editor/panels/viewport/align_panel.h"
-#include "editor/panels/viewport/pick_target.h"
-#include "editor/panels/widgets/input.h"
-#include "editor/panels/widgets/selection.h"
-#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {

@@ -9,16 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "editor/panels/viewport/pick_target.h"
-#include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/viewport/place_cards.h"
 #include "editor/panels/viewport/place_picking.h"
 #include "editor/panels/viewport/view_tools.h"
 #include "editor/panels/viewport/walk_view.h"
-#include "editor/panels/widgets/editor_actions.h"
-#include "editor/panels/widgets/input.h"
-#include "editor/panels/widgets/selection.h"
-#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 #include "shared/render/gl/render_target.h"
 #include "shared/render/overlay.h"

@@ -8,7 +8,6 @@
 
 #include "editor/panels/viewport/pick_target.h"
 #include "editor/panels/viewport/place_cards.h"
-#include "editor/panels/widgets/input.h"
 #include "editor/panels/widgets/selection.h"
 #include "editor/session/workspace.h"
 

@@ -4,10 +4,8 @@
 // settings.
 
 #include "editor/panels/inspector/light_panel.h"
-#include "editor/panels/viewport/align_panel.h"
 #include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/gizmo_view.h"
-#include "editor/panels/viewport/pick_target.h"
 #include "editor/panels/viewport/place_cards.h"
 #include "editor/panels/viewport/walk_view.h"
 

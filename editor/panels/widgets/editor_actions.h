@@ -23,7 +23,7 @@ struct OpenTab {
 };
 // Opens the script and moves its cursor to a line.
 struct GoToScriptLine {
-  int line = 1;  // From 1.
+  int line = 1;  // Counts from 1.
 };
 struct SelectTimelineItem {
   drama::TimelineItem item;
