@@ -44,6 +44,23 @@ Result<Json> ParsePoint(const std::string& option, std::string_view text) {
   return point;
 }
 
+// Parses "red,green,blue".
+Result<Json> ParseColour(const std::string& option, std::string_view text) {
+  Json colour = Json::array();
+  for (bool more = true; more;) {
+    const size_t end = std::min(text.find(','), text.size());
+    const std::optional<double> number = ParseNumber(text.substr(0, end));
+    if (!number) {
+      return Status::Error(option, "is not a colour",
+                           "give linear red,green,blue such as 1,0.5,0.2");
+    }
+    colour.push_back(*number);
+    more = end < text.size();
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return colour;
+}
+
 Result<Json> ParseValue(const std::string& option, FieldType type, std::string_view text) {
   switch (type) {
     case FieldType::kText:
@@ -58,6 +75,8 @@ Result<Json> ParseValue(const std::string& option, FieldType type, std::string_v
         return Json(text == "yes");
       }
       return Status::Error(option, "is neither yes nor no");
+    case FieldType::kColour:
+      return ParseColour(option, text);
     case FieldType::kPoint:
       break;
   }

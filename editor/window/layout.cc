@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "editor/panels/dialogs/checks_panel.h"
 #include "editor/panels/dialogs/dialogs.h"
@@ -111,22 +112,23 @@ Result<std::unique_ptr<Layout>> Layout::Create() {
 }
 
 void Layout::BeginFilming(const std::string& place) {
-  state_.dialog = panels::Dialog::kFilm;
-  state_.fields = {};
-  state_.fields.place = place;
+  dialogs_.shown = panels::Dialog::kFilm;
+  dialogs_.fields = {};
+  dialogs_.fields.place = place;
 }
 
 void Layout::DrawViewport(Workspace& workspace) {
-  switch (state_.view) {
+  switch (options_.view) {
     case panels::ViewKind::kCamera:
-      camera_.Show(workspace, state_);
+      camera_.Show(workspace, selection_, options_, tools_, pictures_, input_, actions_);
       break;
     case panels::ViewKind::kAround:
       PaintPanelAroundRest();
-      around_->Show(workspace, state_);
+      around_->Show(workspace, selection_, options_, tools_, pictures_, input_, actions_);
       break;
     case panels::ViewKind::kPicks:
-      picks_.Show(workspace, state_);
+      picks_.Show(workspace, selection_, options_, tools_.picks, tools_.check, tools_.align,
+                  input_);
       break;
   }
 }
@@ -137,29 +139,31 @@ void Layout::DrawBottom(Workspace& workspace) {
       problems > 0 ? panels::Text(panels::Tr("Checks (%d)"), problems) : panels::Tr("Checks");
   const char* const labels[] = {panels::Tr("Timeline"), panels::Tr("Script"), checks.c_str(),
                                 panels::Tr("Messages")};
-  int tab = static_cast<int>(state_.bottom);
+  int tab = static_cast<int>(bottom_);
   if (panels::Segmented("tabs", labels, tab)) {
-    state_.bottom = static_cast<BottomTab>(tab);
+    bottom_ = static_cast<BottomTab>(tab);
   }
-  if (state_.bottom == BottomTab::kMessages) {
-    state_.messages_read = workspace.messages_told();
+  if (bottom_ == BottomTab::kMessages) {
+    messages_read_ = workspace.messages_told();
   } else {
-    panels::MarkUnread(workspace, state_.messages_read);
+    panels::MarkUnread(workspace, messages_read_);
   }
   ImGui::SameLine(0.0f, Px(20));
-  switch (state_.bottom) {
+  switch (bottom_) {
     case BottomTab::kTimeline:
-      timeline_.DrawTools(workspace, state_);
-      timeline_.Show(workspace, state_);
+      timeline_.DrawTools(workspace, input_);
+      timeline_.Show(workspace, input_, actions_);
+      tools_.walks.item = timeline_.single_item();
+      tools_.walks.task = timeline_.task();
       break;
     case BottomTab::kScript:
-      script_.DrawTools(workspace, state_);
-      script_.Show(workspace, state_);
+      script_.DrawTools(workspace);
+      script_.Show(workspace, input_);
       break;
     case BottomTab::kChecks:
       panels::DrawChecksTools(workspace);
       missing_.Show(workspace);
-      panels::DrawChecks(workspace, state_);
+      panels::DrawChecks(workspace, selection_, input_, actions_);
       break;
     case BottomTab::kMessages:
       ImGui::NewLine();
@@ -178,7 +182,7 @@ void Layout::DrawPanels(Workspace& workspace, PanelSizes& sizes) {
   const float inspector = Fitted(sizes.inspector, kMinPanel, widest);
   const float tallest = available.y / Px(1.0f) - kMinViewportHeight;
   // Keep a reference now, because drawing may change the tab.
-  double& bottom_size = sizes.bottom[static_cast<size_t>(state_.bottom)];
+  double& bottom_size = sizes.bottom[static_cast<size_t>(bottom_)];
   const float bottom = Fitted(bottom_size, kMinBottom, tallest);
   ResizeByKeys(outliner, inspector, bottom, sizes);
 
@@ -187,37 +191,39 @@ void Layout::DrawPanels(Workspace& workspace, PanelSizes& sizes) {
   const ImVec2 spacing(Px(8), Px(7));  // Spacing within the panels.
   const auto panel = [&](Region region, const char* id, const ImVec2& size, auto&& show,
                          ImGuiWindowFlags flags = 0) {
-    state_.keyboard.Before(region);
+    input_.keyboard.Before(region);
     BeginPanel(id, size, flags);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, spacing);
-    state_.keyboard.Begin(region, HasOwnKeys(region, state_.bottom));
-    if (state_.keyboard.TakesOver(region)) {
-      state_.focus = FocusOf(region, state_.bottom);
+    input_.keyboard.Begin(region, HasOwnKeys(region, bottom_));
+    if (input_.keyboard.TakesOver(region)) {
+      input_.focus = FocusOf(region, bottom_);
     }
     show();
-    state_.keyboard.End(region);
+    input_.keyboard.End(region);
     ImGui::PopStyleVar();
     ImGui::EndChild();
   };
   panel(Region::kOutliner, "outliner", ImVec2(Px(outliner), upper),
-        [&] { panels::DrawOutliner(workspace, state_); });
+        [&] { panels::DrawOutliner(workspace, selection_, tools_.check, pictures_, dialogs_); });
   ImGui::SameLine();
   Splitter("split outliner", true, upper, 1.0f, outliner, sizes.outliner);
   ImGui::SameLine();
   const float viewport = available.x - Px(outliner) - Px(inspector) - 2 * Px(kSplitter);
-  const bool covered = state_.view == panels::ViewKind::kAround;
+  const bool covered = options_.view == panels::ViewKind::kAround;
   panel(
       Region::kView, "viewport", ImVec2(viewport, upper), [&] { DrawViewport(workspace); },
       covered ? ImGuiWindowFlags_NoBackground : 0);
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
       ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    state_.focus = panels::Focus::kViews;
+    input_.focus = panels::Focus::kViews;
   }
   ImGui::SameLine();
   Splitter("split inspector", true, upper, -1.0f, inspector, sizes.inspector);
   ImGui::SameLine();
-  panel(Region::kInspector, "inspector", ImVec2(Px(inspector), upper),
-        [&] { panels::DrawInspector(workspace, state_); });
+  panel(Region::kInspector, "inspector", ImVec2(Px(inspector), upper), [&] {
+    panels::DrawInspector(workspace, selection_, options_, tools_, cast_, pictures_, input_,
+                          dialogs_);
+  });
   Splitter("split bottom", false, available.x, -1.0f, bottom, bottom_size);
   panel(Region::kBottom, "bottom", ImVec2(available.x, Px(bottom)), [&] { DrawBottom(workspace); });
   ImGui::Dummy(ImVec2(0, Px(kSplitter)));
@@ -227,7 +233,7 @@ void Layout::DrawPanels(Workspace& workspace, PanelSizes& sizes) {
 
 void Layout::TakeResizing() {
   constexpr float kStep = 24.0f;
-  std::erase_if(state_.keys, [&](const panels::KeyPress& press) {
+  std::erase_if(input_.keys, [&](const panels::KeyPress& press) {
     const panels::KeyAction action = panels::ActionOf(panels::KeyScope::kAlways, press);
     const bool larger = action == panels::KeyAction::kPanelLarger;
     const bool resizes = larger || action == panels::KeyAction::kPanelSmaller;
@@ -242,8 +248,8 @@ void Layout::ResizeByKeys(float outliner, float inspector, float bottom, PanelSi
   if (grow == 0.0f) {
     return;
   }
-  double& bottom_size = sizes.bottom[static_cast<size_t>(state_.bottom)];
-  switch (state_.keyboard.now()) {
+  double& bottom_size = sizes.bottom[static_cast<size_t>(bottom_)];
+  switch (input_.keyboard.now()) {
     case Region::kOutliner:
       sizes.outliner = std::max(outliner + grow, kMinPanel);
       break;
@@ -261,14 +267,14 @@ void Layout::ResizeByKeys(float outliner, float inspector, float bottom, PanelSi
 }
 
 void Layout::HandleKeys(Workspace& workspace) {
-  panels::KeyboardFocus& keyboard = state_.keyboard;
+  panels::KeyboardFocus& keyboard = input_.keyboard;
   keyboard.BeginFrame();
-  const bool dialog = state_.dialog != panels::Dialog::kNone || calibration_.is_open();
+  const bool dialog = dialogs_.shown != panels::Dialog::kNone || calibration_.is_open();
   if (!dialog && (menus_ || panels::KeysBelongToMenus())) {
-    state_.keys.clear();
+    input_.keys.clear();
   } else if (!dialog && keyboard.walks()) {
     const bool idle = !ImGui::GetIO().WantTextInput && !ImGui::IsAnyItemActive();
-    std::erase_if(state_.keys, [&](const panels::KeyPress& press) {
+    std::erase_if(input_.keys, [&](const panels::KeyPress& press) {
       const panels::KeyAction action = panels::ActionOf(panels::KeyScope::kPanels, press);
       if (action == panels::KeyAction::kStopWalking && idle) {
         keyboard.Ask(Region::kView, false);
@@ -279,42 +285,66 @@ void Layout::HandleKeys(Workspace& workspace) {
   if (!dialog) {
     TakeResizing();
   }
-  timeline_.HandleKeys(workspace, state_);
-  panels::HandleShortcuts(workspace, state_);
+  if (bottom_ == BottomTab::kTimeline && dialogs_.shown == panels::Dialog::kNone) {
+    timeline_.HandleKeys(workspace, input_, actions_);
+  }
+  panels::HandleShortcuts(workspace, selection_, options_, tools_, input_, dialogs_, actions_);
+}
+
+void Layout::DrainActions(const Workspace& workspace) {
+  for (const panels::EditorAction& action : std::exchange(actions_, {})) {
+    if (std::holds_alternative<panels::CloseWindow>(action)) {
+      quit_ = true;
+    } else if (std::holds_alternative<panels::CloseProject>(action)) {
+      leave_ = true;
+    } else if (std::holds_alternative<panels::StopWorkAndLeave>(action)) {
+      stops_work_ = true;
+    } else if (std::holds_alternative<panels::StartTour>(action)) {
+      tour_.Begin(panels::FactsOf(workspace, selection_, options_));
+    } else if (const auto* tab = std::get_if<panels::OpenTab>(&action)) {
+      bottom_ = tab->tab;
+    } else if (const auto* script = std::get_if<panels::GoToScriptLine>(&action)) {
+      bottom_ = BottomTab::kScript;
+      script_.GoToLine(script->line);
+    } else if (const auto* chosen = std::get_if<panels::SelectTimelineItem>(&action)) {
+      timeline_.Select(chosen->item);
+    } else if (std::holds_alternative<panels::OpenOnionSettings>(action)) {
+      camera_.OpenOnionSettings();
+    }
+  }
 }
 
 // Closing the question cancels the request.
 void Layout::AskBeforeLeaving(const Workspace& workspace) {
-  may_leave_ = !workspace.AtLongWork() || state_.stops_work;
-  if (!(state_.quit || state_.leave) || may_leave_) {
+  may_leave_ = !workspace.AtLongWork() || stops_work_;
+  if (!(quit_ || leave_) || may_leave_) {
     return;
   }
   if (std::exchange(asked_, true)) {
-    if (state_.dialog != panels::Dialog::kLeave) {
-      state_.quit = state_.leave = asked_ = false;
+    if (dialogs_.shown != panels::Dialog::kLeave) {
+      quit_ = leave_ = asked_ = false;
     }
     return;
   }
-  if (state_.dialog != panels::Dialog::kNone) {
-    state_.left[state_.dialog] = state_.fields;
+  if (dialogs_.shown != panels::Dialog::kNone) {
+    dialogs_.left[dialogs_.shown] = dialogs_.fields;
   }
-  state_.dialog = panels::Dialog::kLeave;
+  dialogs_.shown = panels::Dialog::kLeave;
 }
 
 void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
-  state_.settings = settings;
   missing_.Look(workspace);
   if (!std::exchange(opened_, true) && missing_.count() > 0) {
-    state_.bottom = panels::BottomTab::kChecks;  // Missing files can be located there.
+    bottom_ = panels::BottomTab::kChecks;  // Missing files can be located there.
   }
   if (missing_.locating()) {
-    state_.keys.clear();
+    input_.keys.clear();
   }
   HandleKeys(workspace);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->WorkPos);
   ImGui::SetNextWindowSize(viewport->WorkSize);
-  state_.keyboard.Before(Region::kToolbar);
+  input_.keyboard.Before(Region::kToolbar);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(Px(8), Px(6)));
   // The window already has its background's colour.
   ImGui::Begin("Lararium", nullptr,
@@ -323,27 +353,27 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar |
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
-  state_.keyboard.Begin(Region::kToolbar);
-  panels::DrawMenuBar(workspace, state_);
-  panels::DrawToolbar(workspace, state_);
+  input_.keyboard.Begin(Region::kToolbar);
+  panels::DrawMenuBar(workspace, selection_, options_, tools_.place, input_, dialogs_, actions_,
+                      bottom_, settings);
+  panels::DrawToolbar(workspace, options_, tools_.gizmo, dialogs_);
+  DrainActions(workspace);
+  input_.dialog_open = dialogs_.shown != panels::Dialog::kNone;
   DrawPanels(workspace, sizes);
   if (calibration_.is_open()) {
-    calibration_.Show(workspace.paths(), state_.pictures, state_.fields);
-  } else if (panels::DrawDialogs(workspace, state_)) {
+    calibration_.Show(workspace.paths(), pictures_, dialogs_.fields);
+  } else if (panels::DrawDialogs(workspace, selection_, options_, pictures_, input_, dialogs_,
+                                 actions_)) {
     calibration_.Open();
   }
-  film_.Show(workspace, state_);
-  live_camera_.Show(workspace, state_);
+  film_.Show(workspace, pictures_, dialogs_);
+  live_camera_.Show(workspace, options_, dialogs_);
   AskBeforeLeaving(workspace);
-  if (std::exchange(state_.begin_tour, false)) {
-    tour_.Begin(panels::FactsOf(workspace, state_));
-  }
-  state_.keyboard.End(Region::kToolbar);
+  input_.keyboard.End(Region::kToolbar);
   ImGui::End();
-  panels::DrawTourCard(workspace, state_, tour_);
-  state_.keys.clear();
+  panels::DrawTourCard(workspace, selection_, options_, input_, tour_);
+  input_.keys.clear();
   menus_ = panels::KeysBelongToMenus();
-  settings = state_.settings;
 }
 
 }  // namespace lararium::editor

@@ -14,8 +14,9 @@
 #include "editor/panels/timeline/timeline_panel.h"
 #include "editor/panels/viewport/camera_view.h"
 #include "editor/panels/viewport/pick_view.h"
+#include "editor/panels/viewport/portrait_view.h"
 #include "editor/panels/viewport/scene_view.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/session/settings.h"
 #include "editor/session/workspace.h"
 #include "editor/window/window_sizes.h"
 
@@ -29,22 +30,24 @@ class Layout {
   // Draws the whole interface for one frame. It may change settings and sizes.
   void Show(Workspace& workspace, Settings& settings, PanelSizes& sizes);
 
-  void BeginTour() { state_.begin_tour = true; }
+  void BeginTour() { actions_.emplace_back(panels::StartTour()); }
   // Opens the dialog that films a place.
   void BeginFilming(const std::string& place);
-  void AddKey(const panels::KeyPress& press) { state_.keys.push_back(press); }
+  void AddKey(const panels::KeyPress& press) { input_.keys.push_back(press); }
   // Whether arrows, Enter and Space navigate in the panel with keyboard focus.
-  bool keys_walk() const { return state_.keyboard.walks(); }
-  void RequestQuit() { state_.quit = true; }
+  bool keys_walk() const { return input_.keyboard.walks(); }
+  void RequestQuit() { actions_.emplace_back(panels::CloseWindow()); }
   // True after a request to quit, or to return to the start page, if no long task runs or the user
   // has chosen to stop it.
-  bool quit_requested() const { return state_.quit && may_leave_; }
-  bool leave_requested() const { return state_.leave && may_leave_; }
+  bool quit_requested() const { return quit_ && may_leave_; }
+  bool leave_requested() const { return leave_ && may_leave_; }
 
  private:
   explicit Layout(std::unique_ptr<panels::SceneView> around) : around_(std::move(around)) {}
 
   void HandleKeys(Workspace& workspace);
+  // Carries out what the panels have requested since the last call.
+  void DrainActions(const Workspace& workspace);
   void AskBeforeLeaving(const Workspace& workspace);
   void TakeResizing();
   void ResizeByKeys(float outliner, float inspector, float bottom, PanelSizes& sizes);
@@ -52,7 +55,16 @@ class Layout {
   void DrawViewport(Workspace& workspace);
   void DrawBottom(Workspace& workspace);
 
-  panels::EditorState state_;
+  // Shared by several panels.
+  panels::Selection selection_;
+  panels::ViewOptions options_;
+  panels::ViewTools tools_;
+  panels::CastView cast_;
+  panels::PictureTextures pictures_;
+  panels::Input input_;
+  panels::Dialogs dialogs_;
+  panels::EditorActions actions_;
+
   panels::CameraView camera_;
   panels::PickView picks_;
   std::unique_ptr<panels::SceneView> around_;
@@ -63,8 +75,13 @@ class Layout {
   panels::LiveCameraDialog live_camera_;
   panels::CalibrationDialog calibration_;
   panels::Tour tour_;
-  bool opened_ = false;  // True after the first frame.
-  bool menus_ = false;   // True if menus had the keyboard at the end of the last frame.
+  panels::BottomTab bottom_ = panels::BottomTab::kTimeline;
+  uint64_t messages_read_ = 0;  // See Workspace::messages_told().
+  bool opened_ = false;         // True after the first frame.
+  bool menus_ = false;          // True if menus had the keyboard at the end of the last frame.
+  bool quit_ = false;           // The window was asked to close.
+  bool leave_ = false;          // The project was asked to close.
+  bool stops_work_ = false;     // Leaving may stop long work.
   bool may_leave_ = true;
   bool asked_ = false;  // True after the user was asked to stop a long task.
   float grow_ = 0.0f;   // Growth by keys of the focused panel, logical pixels.

@@ -221,6 +221,11 @@ std::vector<LaneSpec> MakeLanes() {
                    .type = FieldType::kNumber,
                    .most = kMostSeconds,
                    .format = "%.2f s"},
+                  {.key = "colour",
+                   .label = TrLater("Colour"),
+                   .type = FieldType::kColour,
+                   .most = 1e6,
+                   .missing = TrLater("as it was")},
                   {.key = "temperature",
                    .label = TrLater("Temperature"),
                    .type = FieldType::kNumber,
@@ -381,6 +386,15 @@ std::string ProblemOf(const LaneField& field, const Json& value) {
     }
     case FieldType::kYesNo:
       return value.is_boolean() ? "" : "must be true or false";
+    case FieldType::kColour: {
+      const auto is_channel = [&](const Json& channel) {
+        return channel.is_number() && channel.get<double>() >= field.least &&
+               channel.get<double>() <= field.most;
+      };
+      const bool valid = value.is_array() && value.size() == 3 &&
+                         std::all_of(value.begin(), value.end(), is_channel);
+      return valid ? "" : "must be linear red, green and blue of at least 0";
+    }
     case FieldType::kPoint:
       break;
   }

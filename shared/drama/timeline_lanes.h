@@ -31,7 +31,13 @@ enum class LaneKind : uint8_t {
   kMarkers,
 };
 
-enum class FieldType : uint8_t { kText, kNumber, kYesNo, kPoint };
+enum class FieldType : uint8_t {
+  kText,
+  kNumber,
+  kYesNo,
+  kPoint,
+  kColour,  // An array of red, green and blue: linear, at least 0, of any brightness.
+};
 
 // What the value of a field refers to. The editor offers a choice of these.
 enum class FieldRole : uint8_t {

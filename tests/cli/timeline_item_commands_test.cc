@@ -80,6 +80,18 @@ TEST_F(TimelineItems, OneIsAddedWithItsLaneAndTheTextAroundItStays) {
   EXPECT_THAT(Script(), HasSubstr("loop = true"));
 }
 
+TEST_F(TimelineItems, TakeTheColourOfALight) {
+  ASSERT_TRUE(
+      Run({.add = "lights", .at = 1.0, .fields = {"light=lamp", "colour=1,0.5,0.25"}}).ok());
+  EXPECT_THAT(Script(), HasSubstr("colour = {1, 0.5, 0.25}"));
+  for (const char* wrong : {"colour=red", "colour=1,0.5", "colour=1,1,1,1", "colour=1,-1,0"}) {
+    EXPECT_THAT(
+        Run({.add = "lights", .at = 1.0, .fields = {"light=lamp", wrong}}).status().message(),
+        HasSubstr("red"))
+        << wrong;
+  }
+}
+
 TEST_F(TimelineItems, AreMovedTrimmedSetCopiedAndDeleted) {
   ASSERT_TRUE(Run({.items = {"hail"}, .move = 0.5}).ok());
   EXPECT_THAT(Script(), HasSubstr("{id = \"hail\", at = 1.5, length = 2, line = \"salvete\"}"));

@@ -25,6 +25,8 @@ Json SampleOf(const LaneField& field) {
       return field.most;
     case FieldType::kYesNo:
       return true;
+    case FieldType::kColour:
+      return Json::array({1.0, 0.5, 0.25});
     case FieldType::kPoint:
       break;
   }

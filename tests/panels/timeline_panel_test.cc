@@ -7,6 +7,7 @@
 #include "editor/panels/timeline/lua_colours.h"
 #include "editor/panels/timeline/timeline_maths.h"
 #include "editor/panels/timeline/timeline_rows.h"
+#include "editor/panels/timeline/timeline_selection.h"
 #include "editor/panels/timeline/timeline_steps.h"
 
 namespace lararium::panels {
@@ -339,6 +340,41 @@ TEST(LuaColours, TellPartsApart) {
   EXPECT_EQ(ColourLua("a = \"never").back().part, LuaPart::kBad);
   EXPECT_THAT(LineStarts("a\n\nb"), ElementsAre(0u, 2u, 3u));
   EXPECT_THAT(LineStarts(""), ElementsAre(0u));
+}
+
+TEST(TimelineSelection, IsEitherItemsOrATask) {
+  TimelineSelection selection;
+  EXPECT_FALSE(selection.Last().has_value());
+  selection.SelectItem({0, 1});
+  selection.SelectBlock(3, "person keeper");
+  EXPECT_FALSE(selection.HasItems());
+  ASSERT_TRUE(selection.Last().has_value());
+  EXPECT_EQ(selection.Last()->block, 3u);
+  EXPECT_EQ(selection.Last()->group, "person keeper");
+  selection.SelectItem({0, 0});
+  EXPECT_EQ(selection.block(), std::nullopt);
+}
+
+TEST(TimelineSelection, StepsOnFromTheItemThatWasSelectedLast) {
+  TimelineSelection selection;
+  selection.SelectItem({0, 0});
+  selection.SetItems({{0, 0}, {1, 2}});
+  EXPECT_EQ(selection.Last()->item, (drama::TimelineItem{0, 0}));
+  selection.SetItems({{1, 0}, {1, 2}});
+  EXPECT_EQ(selection.Last()->item, (drama::TimelineItem{1, 2}))
+      << "the former one is not selected";
+}
+
+TEST(TimelineSelection, KeepsOnlyItemsThatExist) {
+  TimelineSelection selection;
+  const TimelineText text = MustRead(kScript);
+  selection.SelectAll(text);
+  EXPECT_EQ(selection.items().size(), 6u);
+  selection.SetItems({{0, 0}, {0, 7}});
+  selection.KeepValid(&text);
+  EXPECT_THAT(selection.items(), ElementsAre(drama::TimelineItem{0, 0}));
+  selection.KeepValid(nullptr);
+  EXPECT_FALSE(selection.HasItems());
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 #include "editor/document/project.h"
 #include "editor/jobs/calibrating.h"
+#include "editor/panels/dialogs/dialog_state.h"
 #include "editor/panels/viewport/camera_field.h"
 #include "editor/panels/viewport/picture_textures.h"
-#include "editor/panels/widgets/editor_state.h"
 
 namespace lararium::panels {
 

@@ -77,35 +77,44 @@ std::optional<Selection> NamedThing(const editor::Workspace& workspace,
 
 // Goes to the time of the problem, and to the item of the timeline, otherwise to the line of the
 // script, otherwise to the object.
-void GoTo(editor::Workspace& workspace, EditorState& state, const std::string& problem) {
+void GoTo(editor::Workspace& workspace,
+          Selection& selection,
+          Input& input,
+          EditorActions& actions,
+          const std::string& problem) {
   const ProblemPlace place = PlaceOfProblem(problem, workspace.paths().Drama().filename().string());
   if (place.seconds >= 0.0) {
     workspace.SetPlaying(false);
     workspace.SetTime(place.seconds);
   }
+  std::optional<drama::TimelineItem> item;
   if (const drama::TimelineText* text = workspace.script().timeline()) {
-    state.timeline_item = place.script_line > 0 ? ItemOnLine(*text, place.script_line)
-                          : !place.line.empty() ? ItemSaying(*text, place.line)
-                                                : std::nullopt;
+    item = place.script_line > 0 ? ItemOnLine(*text, place.script_line)
+           : !place.line.empty() ? ItemSaying(*text, place.line)
+                                 : std::nullopt;
   }
-  if (state.timeline_item) {
-    state.bottom = BottomTab::kTimeline;
-    state.focus = Focus::kTimeline;
+  if (item) {
+    actions.push_back(SelectTimelineItem{*item});
+    actions.push_back(OpenTab{BottomTab::kTimeline});
+    input.focus = Focus::kTimeline;
   } else if (place.script_line > 0) {
-    state.script_line = place.script_line;
-    state.bottom = BottomTab::kScript;
+    actions.push_back(GoToScriptLine{place.script_line});
   } else if (const std::optional<Selection> named = NamedThing(workspace, problem)) {
-    state.selection = *named;
+    selection = *named;
   }
 }
 
-void DrawProblem(editor::Workspace& workspace, EditorState& state, const Problem& problem) {
+void DrawProblem(editor::Workspace& workspace,
+                 Selection& selection,
+                 Input& input,
+                 EditorActions& actions,
+                 const Problem& problem) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const std::string text = problem.text.Translated(Tr);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width - Px(30));
   if (ImGui::Selectable("##problem", false, ImGuiSelectableFlags_None, ImVec2(0, size.y + Px(4)))) {
-    GoTo(workspace, state, problem.text.English());
+    GoTo(workspace, selection, input, actions, problem.text.English());
   }
   Tip(Tr("Goes to its place: the item of the timeline, the line of the script, or the thing."));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -139,7 +148,10 @@ void DrawChecksTools(editor::Workspace& workspace) {
   }
 }
 
-void DrawChecks(editor::Workspace& workspace, EditorState& state) {
+void DrawChecks(editor::Workspace& workspace,
+                Selection& selection,
+                Input& input,
+                EditorActions& actions) {
   const std::vector<Problem> problems = Problems(workspace);
   ImGui::BeginChild("list", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
   if (problems.empty()) {
@@ -149,7 +161,7 @@ void DrawChecks(editor::Workspace& workspace, EditorState& state) {
   }
   for (size_t i = 0; i < problems.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    DrawProblem(workspace, state, problems[i]);
+    DrawProblem(workspace, selection, input, actions, problems[i]);
     ImGui::PopID();
   }
   ImGui::EndChild();

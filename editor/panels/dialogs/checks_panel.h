@@ -2,13 +2,18 @@
 
 // The problems of the project, with links to where they are.
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/widgets/editor_actions.h"
+#include "editor/panels/widgets/input.h"
+#include "editor/panels/widgets/selection.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
 
 void DrawChecksTools(editor::Workspace& workspace);
-void DrawChecks(editor::Workspace& workspace, EditorState& state);
+void DrawChecks(editor::Workspace& workspace,
+                Selection& selection,
+                Input& input,
+                EditorActions& actions);
 // The number of known problems.
 int CountProblems(const editor::Workspace& workspace);
 

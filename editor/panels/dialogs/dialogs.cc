@@ -38,11 +38,11 @@ constexpr std::array<const char*, 4> kClips = {".bvh", ".fbx", ".glb", ".gltf"};
 constexpr std::array<const char*, 1> kBones = {".json"};
 
 // The last row of the open dialog; both buttons close it. Returns true when the action was chosen.
-bool DialogDone(EditorState& state, const char* action, const std::string& problem) {
+bool DialogDone(Dialogs& dialogs, const char* action, const std::string& problem) {
   const DialogAnswer answer = DialogButtons(action, problem);
   if (answer != DialogAnswer::kNone) {
-    state.left.erase(state.dialog);
-    state.dialog = Dialog::kNone;
+    dialogs.left.erase(dialogs.shown);
+    dialogs.shown = Dialog::kNone;
   }
   return answer == DialogAnswer::kAct;
 }
@@ -94,8 +94,8 @@ Result<editor::SessionDocument> ChosenRecording(const editor::Workspace& workspa
 }
 
 // Returns true when the user wants to calibrate the camera.
-bool TrainDialog(editor::Workspace& workspace, EditorState& state) {
-  DialogFields& fields = state.fields;
+bool TrainDialog(editor::Workspace& workspace, Dialogs& dialogs) {
+  DialogFields& fields = dialogs.fields;
   Hint(
       Tr("Learns the place from a recording: walk sideways around it, slowly, with everything in "
          "view that visitors will see."));
@@ -116,18 +116,18 @@ bool TrainDialog(editor::Workspace& workspace, EditorState& state) {
               fields.place.c_str()));
   }
   if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
-    state.dialog = Dialog::kFilm;
+    dialogs.shown = Dialog::kFilm;
     return false;
   }
-  if (DialogDone(state, Tr("Train"), TrainProblem(workspace, fields))) {
+  if (DialogDone(dialogs, Tr("Train"), TrainProblem(workspace, fields))) {
     TrainRecording(workspace, fields);
   }
   return calibrate;
 }
 
 // Returns true when the user wants to calibrate the camera.
-bool AddSessionDialog(editor::Workspace& workspace, EditorState& state) {
-  DialogFields& fields = state.fields;
+bool AddSessionDialog(editor::Workspace& workspace, Dialogs& dialogs) {
+  DialogFields& fields = dialogs.fields;
   Hint(
       Tr("Merges a recording of the place in other light into the map, so that "
          "visitors are located in both. The stage stays where it is."));
@@ -137,7 +137,7 @@ bool AddSessionDialog(editor::Workspace& workspace, EditorState& state) {
                                 Tr("Empty: it was filmed with the camera of the map."));
     EndProperties();
   }
-  if (DialogDone(state, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
+  if (DialogDone(dialogs, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
     const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
     if (recording.ok()) {
       workspace.AddSession(*recording);
@@ -183,12 +183,15 @@ void ShapeFields(editor::Workspace& workspace, editor::OccluderShape& shape) {
 }
 
 // A shape or a model. Without a name it is named after its kind.
-void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
+void OccluderDialog(editor::Workspace& workspace,
+                    Selection& selection,
+                    ViewOptions& options,
+                    Dialogs& dialogs) {
   if (workspace.place() == nullptr) {
-    state.dialog = Dialog::kNone;
+    dialogs.shown = Dialog::kNone;
     return;
   }
-  DialogFields& fields = state.fields;
+  DialogFields& fields = dialogs.fields;
   Hint(Tr("It is real, and hides who is behind it."));
   const char* const ways[] = {Tr("Shape"), Tr("Model")};
   int way = fields.own_model ? 1 : 0;
@@ -221,7 +224,7 @@ void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
   if (problem.empty() && fields.own_model && !Exists(workspace.paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   }
-  if (DialogDone(state, Tr("Add"), problem)) {
+  if (DialogDone(dialogs, Tr("Add"), problem)) {
     if (fields.own_model) {
       occluder.file = DocumentPath(workspace, fields.file);
     } else {
@@ -232,12 +235,12 @@ void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
     }
     workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
                         [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
-    state.selection = {Selection::Kind::kOccluder, occluder.name};
+    selection = {Selection::Kind::kOccluder, occluder.name};
   }
   if (workspace.loaded().database != nullptr &&
       ImGui::Button(Tr("Draw it on the training images instead"), ImVec2(-FLT_MIN, 0))) {
-    state.dialog = Dialog::kNone;
-    DrawNewOccluder(workspace, state);
+    dialogs.shown = Dialog::kNone;
+    DrawNewOccluder(workspace, selection, options);
   }
 }
 
@@ -259,8 +262,8 @@ void LoadFigure(editor::Workspace& workspace,
 
 // The presets as pictures; a second click on the selected one deselects it. Returns true when the
 // choice has changed.
-bool PresetGrid(editor::Workspace& workspace, EditorState& state) {
-  DialogFields& fields = state.fields;
+bool PresetGrid(editor::Workspace& workspace, PictureTextures& pictures, Dialogs& dialogs) {
+  DialogFields& fields = dialogs.fields;
   const std::vector<std::string> names = import::CastPresetNames();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const auto columns = static_cast<float>(std::max<size_t>(names.size(), 1));
@@ -273,7 +276,7 @@ bool PresetGrid(editor::Workspace& workspace, EditorState& state) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float height = side + ImGui::GetTextLineHeight() + Px(6);
     ImGui::BeginGroup();
-    DrawThumbnail(state.pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
+    DrawThumbnail(pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
                   side);
     DimText(name);
     ImGui::EndGroup();
@@ -312,13 +315,16 @@ std::string CastProblem(const editor::Workspace& workspace, const DialogFields& 
              : Tr("Choose a file that exists.");
 }
 
-void CastDialog(editor::Workspace& workspace, EditorState& state) {
+void CastDialog(editor::Workspace& workspace,
+                Selection& selection,
+                PictureTextures& pictures,
+                Dialogs& dialogs) {
   Hint(
       Tr("One of the people that come with the editor, a recipe of your own (.json), or a rigged "
          "figure to import. Without any: the plain figure that is built in."));
-  DialogFields& fields = state.fields;
+  DialogFields& fields = dialogs.fields;
   const std::string before = fields.preset;
-  if (PresetGrid(workspace, state) && fields.name == before) {
+  if (PresetGrid(workspace, pictures, dialogs) && fields.name == before) {
     fields.name = fields.preset;
   }
   if (BeginProperties("cast")) {
@@ -328,14 +334,14 @@ void CastDialog(editor::Workspace& workspace, EditorState& state) {
     PathField("file", fields.file, workspace.paths().folder, kFigures);
     EndProperties();
   }
-  if (DialogDone(state, Tr("Add"), CastProblem(workspace, fields))) {
+  if (DialogDone(dialogs, Tr("Add"), CastProblem(workspace, fields))) {
     editor::CastDocument member;
     member.name = fields.name;
     member.preset = fields.preset;
     LoadFigure(workspace, fields.file, member);
     workspace.Edit(Text(Tr("add %s"), member.name.c_str()),
                    [&](editor::ProjectDocument& document) { document.cast.push_back(member); });
-    state.selection = {Selection::Kind::kActor, member.name};
+    selection = {Selection::Kind::kActor, member.name};
   }
 }
 
@@ -350,9 +356,9 @@ void BuiltInObject(DialogFields& fields) {
 }
 
 // A built-in object or a model. Without a name it is named after its model.
-void ObjectDialog(editor::Workspace& workspace, EditorState& state) {
+void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& dialogs) {
   Hint(Tr("A thing that people of the drama use. Where it stands is chosen afterwards."));
-  DialogFields& fields = state.fields;
+  DialogFields& fields = dialogs.fields;
   const char* const ways[] = {Tr("Built in"), Tr("A model of your own")};
   int way = fields.own_model ? 1 : 0;
   if (Segmented("way", ways, way)) {
@@ -391,18 +397,18 @@ void ObjectDialog(editor::Workspace& workspace, EditorState& state) {
   } else if (problem.empty() && Taken(known, object.name)) {
     problem = Tr("That name is taken.");
   }
-  if (DialogDone(state, Tr("Add"), problem)) {
+  if (DialogDone(dialogs, Tr("Add"), problem)) {
     workspace.Edit(Text(Tr("add %s"), object.name.c_str()),
                    [&](editor::ProjectDocument& document) { document.objects.push_back(object); });
-    state.selection = {Selection::Kind::kObject, object.name};
+    selection = {Selection::Kind::kObject, object.name};
   }
 }
 
-void ProbeDialog(editor::Workspace& workspace, EditorState& state) {
+void ProbeDialog(editor::Workspace& workspace, Selection& selection, Dialogs& dialogs) {
   Hint(
       Tr("An equirectangular HDR photograph, twice as wide as high, its centre looking along the "
          "stage's -Z. Where and when it was taken is said afterwards."));
-  DialogFields& fields = state.fields;
+  DialogFields& fields = dialogs.fields;
   if (BeginProperties("probe")) {
     PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
@@ -417,25 +423,18 @@ void ProbeDialog(editor::Workspace& workspace, EditorState& state) {
   if (problem.empty() && !Exists(workspace.paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   }
-  if (DialogDone(state, Tr("Add"), problem)) {
+  if (DialogDone(dialogs, Tr("Add"), problem)) {
     editor::ProbeDocument probe;
     probe.name = fields.name;
     probe.file = DocumentPath(workspace, fields.file);
     workspace.EditPlace(Text(Tr("add %s"), probe.name.c_str()),
                         [&](editor::PlaceDocument& place) { place.probes.push_back(probe); });
-    state.selection = {Selection::Kind::kProbe, probe.name};
+    selection = {Selection::Kind::kProbe, probe.name};
   }
 }
 
-// Adapts a dialog that never calibrates a camera.
-template <void (*show)(editor::Workspace&, EditorState&)>
-bool Plain(editor::Workspace& workspace, EditorState& state) {
-  show(workspace, state);
-  return false;
-}
-
 // Asks before long work is stopped.
-void LeaveDialog(editor::Workspace& workspace, EditorState& state) {
+void LeaveDialog(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
   Hint(workspace.tasks().Running(editor::Workspace::kTraining)
            ? Tr("The place is being trained. Leaving stops that: the place keeps the map that it "
                 "has.")
@@ -444,10 +443,10 @@ void LeaveDialog(editor::Workspace& workspace, EditorState& state) {
     case DialogAnswer::kNone:
       break;
     case DialogAnswer::kAct:
-      state.dialog = Dialog::kNone;
+      dialogs.shown = Dialog::kNone;
       break;
     case DialogAnswer::kCancel:
-      state.stops_work = true;
+      actions.push_back(StopWorkAndLeave{});
       break;
   }
 }
@@ -455,20 +454,59 @@ void LeaveDialog(editor::Workspace& workspace, EditorState& state) {
 struct DialogEntry {
   Dialog dialog;
   const char* title;
-  bool (*show)(editor::Workspace&, EditorState&);
 };
 
-constexpr DialogEntry kDialogs[] = {
-    {Dialog::kTrain, TrLater("Train a place"), TrainDialog},
-    {Dialog::kTrainingReport, TrLater("The training's report"), Plain<TrainingReportDialog>},
-    {Dialog::kAddSession, TrLater("Add a session"), AddSessionDialog},
-    {Dialog::kExport, TrLater("Export the show"), Plain<ExportDialog>},
-    {Dialog::kOccluder, TrLater("Add an occluder"), Plain<OccluderDialog>},
-    {Dialog::kProbe, TrLater("Light probe"), Plain<ProbeDialog>},
-    {Dialog::kCast, TrLater("Add a person"), Plain<CastDialog>},
-    {Dialog::kObject, TrLater("Add an object"), Plain<ObjectDialog>},
-    {Dialog::kCheckPoint, TrLater("Add a check point"), Plain<CheckPointDialog>},
-    {Dialog::kLeave, TrLater("Work is not done"), Plain<LeaveDialog>}};
+// The dialogs that are drawn here, with their titles.
+constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, TrLater("Train a place")},
+                                    {Dialog::kTrainingReport, TrLater("The training's report")},
+                                    {Dialog::kAddSession, TrLater("Add a session")},
+                                    {Dialog::kExport, TrLater("Export the show")},
+                                    {Dialog::kOccluder, TrLater("Add an occluder")},
+                                    {Dialog::kProbe, TrLater("Light probe")},
+                                    {Dialog::kCast, TrLater("Add a person")},
+                                    {Dialog::kObject, TrLater("Add an object")},
+                                    {Dialog::kCheckPoint, TrLater("Add a check point")},
+                                    {Dialog::kLeave, TrLater("Work is not done")}};
+
+// Returns true when the user wants to calibrate the camera.
+bool DrawContent(editor::Workspace& workspace,
+                 Selection& selection,
+                 ViewOptions& options,
+                 PictureTextures& pictures,
+                 Dialogs& dialogs,
+                 EditorActions& actions) {
+  switch (dialogs.shown) {
+    case Dialog::kTrain:
+      return TrainDialog(workspace, dialogs);
+    case Dialog::kAddSession:
+      return AddSessionDialog(workspace, dialogs);
+    case Dialog::kTrainingReport:
+      TrainingReportDialog(workspace, dialogs);
+      break;
+    case Dialog::kExport:
+      ExportDialog(workspace, dialogs, actions);
+      break;
+    case Dialog::kOccluder:
+      OccluderDialog(workspace, selection, options, dialogs);
+      break;
+    case Dialog::kProbe:
+      ProbeDialog(workspace, selection, dialogs);
+      break;
+    case Dialog::kCast:
+      CastDialog(workspace, selection, pictures, dialogs);
+      break;
+    case Dialog::kObject:
+      ObjectDialog(workspace, selection, dialogs);
+      break;
+    case Dialog::kCheckPoint:
+      CheckPointDialog(workspace, selection, options, dialogs);
+      break;
+    default:
+      LeaveDialog(workspace, dialogs, actions);
+      break;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -551,35 +589,34 @@ void TrainRecording(editor::Workspace& workspace, const DialogFields& fields) {
   workspace.TrainFrom(fields.place, *recording);
 }
 
-bool OpenDialog(EditorState& state, Dialog dialog) {
-  state.dialog = dialog;
-  const auto left = state.left.find(dialog);
-  state.fields = left != state.left.end() ? left->second : DialogFields();
-  return left != state.left.end();
-}
-
-bool DrawDialogs(editor::Workspace& workspace, EditorState& state) {
-  if (state.dialog == Dialog::kNone && workspace.TakeNewReport()) {
-    state.dialog = Dialog::kTrainingReport;
+bool DrawDialogs(editor::Workspace& workspace,
+                 Selection& selection,
+                 ViewOptions& options,
+                 PictureTextures& pictures,
+                 Input& input,
+                 Dialogs& dialogs,
+                 EditorActions& actions) {
+  if (dialogs.shown == Dialog::kNone && workspace.TakeNewReport()) {
+    dialogs.shown = Dialog::kTrainingReport;
   }
-  if (state.dialog == Dialog::kKeys && !DrawKeyList(state.keys)) {
-    state.dialog = Dialog::kNone;
+  if (dialogs.shown == Dialog::kKeys && !DrawKeyList(input.keys)) {
+    dialogs.shown = Dialog::kNone;
   }
   for (const DialogEntry& entry : kDialogs) {
-    if (state.dialog != entry.dialog) {
+    if (dialogs.shown != entry.dialog) {
       continue;
     }
     bool open = true;
     bool calibrate = false;
     // Copied before Escape restores the text of a field.
-    const DialogFields typed = state.fields;
+    const DialogFields typed = dialogs.fields;
     DrawModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
-      calibrate = entry.show(workspace, state);
-      open = state.dialog == entry.dialog && !calibrate;
+      calibrate = DrawContent(workspace, selection, options, pictures, dialogs, actions);
+      open = dialogs.shown == entry.dialog && !calibrate;
     });
-    if (!open && !calibrate && state.dialog == entry.dialog) {  // A dialog can open another one.
-      state.left[entry.dialog] = typed;
-      state.dialog = Dialog::kNone;
+    if (!open && !calibrate && dialogs.shown == entry.dialog) {  // A dialog can open another one.
+      dialogs.left[entry.dialog] = typed;
+      dialogs.shown = Dialog::kNone;
     }
     return calibrate;
   }

@@ -5,8 +5,13 @@
 #include <string>
 
 #include "editor/document/missing_files.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/dialogs/dialog_state.h"
+#include "editor/panels/viewport/picture_textures.h"
+#include "editor/panels/widgets/editor_actions.h"
+#include "editor/panels/widgets/input.h"
+#include "editor/panels/widgets/selection.h"
 #include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -14,7 +19,13 @@ namespace lararium::panels {
 // Shows the open dialog, if there is one. The dialog reports invalid input; Cancel always closes
 // it. Returns true when the user wants to calibrate the camera of its recording (CalibrationDialog)
 // and then return.
-bool DrawDialogs(editor::Workspace& workspace, EditorState& state);
+bool DrawDialogs(editor::Workspace& workspace,
+                 Selection& selection,
+                 ViewOptions& options,
+                 PictureTextures& pictures,
+                 Input& input,
+                 Dialogs& dialogs,
+                 EditorActions& actions);
 
 // The extensions of a kind of file, with the dot, lower case; empty for folders.
 std::span<const char* const> ExtensionsOf(editor::FileKind kind);

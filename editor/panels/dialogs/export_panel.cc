@@ -56,8 +56,8 @@ void DrawContentsTable(const editor::BundleSummary& contents, bool written) {
   ImGui::EndTable();
 }
 
-void DrawWarnings(editor::Workspace& workspace, EditorState& state) {
-  if (const int unbaked = state.fields.contents->unbaked(); unbaked > 0) {
+void DrawWarnings(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
+  if (const int unbaked = dialogs.fields.contents->unbaked(); unbaked > 0) {
     DimText(TrCount("%d thing is baked first; that takes a while.",
                     "%d things are baked first; that takes a while.", unbaked));
   }
@@ -75,8 +75,8 @@ void DrawWarnings(editor::Workspace& workspace, EditorState& state) {
     if (problems == 0) {
       workspace.Check();
     }
-    state.bottom = BottomTab::kChecks;
-    state.dialog = Dialog::kNone;
+    actions.push_back(OpenTab{BottomTab::kChecks});
+    dialogs.shown = Dialog::kNone;
   }
 }
 
@@ -137,8 +137,8 @@ std::string DrawProblem(const editor::Workspace& workspace, const DialogFields& 
   return workspace.document().places.empty() ? Tr("A show needs a place: train one first.") : "";
 }
 
-void DrawBefore(editor::Workspace& workspace, EditorState& state) {
-  DialogFields& fields = state.fields;
+void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
+  DialogFields& fields = dialogs.fields;
   Hint(
       Tr("Packs what visitors need into one file. The project is saved and what is stale is "
          "baked first."));
@@ -149,7 +149,7 @@ void DrawBefore(editor::Workspace& workspace, EditorState& state) {
   }
   Heading(Tr("What goes in"));
   DrawContentsTable(*fields.contents, false);
-  DrawWarnings(workspace, state);
+  DrawWarnings(workspace, dialogs, actions);
   if (fields.exporting && !workspace.export_problem().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", workspace.export_problem().c_str());
@@ -157,7 +157,7 @@ void DrawBefore(editor::Workspace& workspace, EditorState& state) {
   }
   const DialogAnswer answer = DialogButtons(Tr("Export"), DrawProblem(workspace, fields));
   if (answer == DialogAnswer::kCancel) {
-    state.dialog = Dialog::kNone;
+    dialogs.shown = Dialog::kNone;
   }
   if (answer == DialogAnswer::kAct) {
     editor::ExportRequest request{.out = workspace.paths().Resolve(fields.file)};
@@ -179,7 +179,7 @@ editor::BackgroundTask* Exporting(editor::Workspace& workspace) {
   return nullptr;
 }
 
-void DrawDuring(editor::BackgroundTask& task, EditorState& state) {
+void DrawDuring(editor::BackgroundTask& task, Dialogs& dialogs) {
   const editor::BackgroundTask::State now = task.state();
   Hint(Tr("The window can be used meanwhile: the export goes on when this is closed."));
   ImGui::Dummy(ImVec2(0, Px(6)));
@@ -189,7 +189,7 @@ void DrawDuring(editor::BackgroundTask& task, EditorState& state) {
   ImGui::ProgressBar(static_cast<float>(now.fraction), ImVec2(-FLT_MIN, Px(8)), "");
   switch (DialogButtons(Tr("Close"), "", Tr("Stop"))) {
     case DialogAnswer::kAct:
-      state.dialog = Dialog::kNone;
+      dialogs.shown = Dialog::kNone;
       break;
     case DialogAnswer::kCancel:
       task.Cancel();
@@ -199,7 +199,7 @@ void DrawDuring(editor::BackgroundTask& task, EditorState& state) {
   }
 }
 
-void DrawAfter(editor::Workspace& workspace, EditorState& state) {
+void DrawAfter(editor::Workspace& workspace, Dialogs& dialogs) {
   const editor::Workspace::ExportedShow& shown = *workspace.exported();
   Hint(Text(Tr("Wrote %s."), shown.file.c_str()));
   Heading(Tr("What went in"));
@@ -217,7 +217,7 @@ void DrawAfter(editor::Workspace& workspace, EditorState& state) {
       }
       break;
     case DialogAnswer::kCancel:
-      state.dialog = Dialog::kNone;
+      dialogs.shown = Dialog::kNone;
       break;
     case DialogAnswer::kNone:
       break;
@@ -226,20 +226,20 @@ void DrawAfter(editor::Workspace& workspace, EditorState& state) {
 
 }  // namespace
 
-void ExportDialog(editor::Workspace& workspace, EditorState& state) {
-  DialogFields& fields = state.fields;
+void ExportDialog(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
+  DialogFields& fields = dialogs.fields;
   if (fields.file.empty()) {
     const std::filesystem::path folder = workspace.paths().folder;
     fields.file = (folder.parent_path() / folder.stem()).string() + ".larshow";
   }
   if (editor::BackgroundTask* task = Exporting(workspace)) {
     fields.exporting = true;
-    DrawDuring(*task, state);
+    DrawDuring(*task, dialogs);
   } else if (fields.exporting && workspace.export_problem().empty() &&
              workspace.exported() != nullptr) {
-    DrawAfter(workspace, state);
+    DrawAfter(workspace, dialogs);
   } else {
-    DrawBefore(workspace, state);
+    DrawBefore(workspace, dialogs, actions);
   }
 }
 

@@ -90,7 +90,7 @@ void DrawShares(const train::CoverageShares& shares) {
 }
 
 // The picture with the next step written over it.
-void DrawPicture(EditorState& state, const editor::FilmMoment& moment, const ImVec2& size) {
+void DrawPicture(PictureTextures& pictures, const editor::FilmMoment& moment, const ImVec2& size) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 corner(at.x + size.x, at.y + size.y);
@@ -101,8 +101,7 @@ void DrawPicture(EditorState& state, const editor::FilmMoment& moment, const ImV
     const ImVec2 half(0.5f * scale * static_cast<float>(moment.bgr->cols),
                       0.5f * scale * static_cast<float>(moment.bgr->rows));
     const ImVec2 middle(at.x + 0.5f * size.x, at.y + 0.5f * size.y);
-    draw.AddImage(state.pictures.Show("film", moment.bgr),
-                  ImVec2(middle.x - half.x, middle.y - half.y),
+    draw.AddImage(pictures.Show("film", moment.bgr), ImVec2(middle.x - half.x, middle.y - half.y),
                   ImVec2(middle.x + half.x, middle.y + half.y));
     const std::string fault = editor::FaultText(moment.coverage.fault, true);
     ImGui::PushFont(ThemeFonts().strong);
@@ -128,16 +127,16 @@ bool DiscardButton() {
 
 }  // namespace
 
-void FilmDialog::Close(EditorState& state) {
+void FilmDialog::Close(Dialogs& dialogs) {
   film_.reset();
   problem_.clear();
   asks_ = false;
-  state.dialog = Dialog::kNone;
+  dialogs.shown = Dialog::kNone;
 }
 
-void FilmDialog::Discard(EditorState& state) {
+void FilmDialog::Discard(Dialogs& dialogs) {
   film_->Discard();
-  Close(state);
+  Close(dialogs);
 }
 
 void FilmDialog::Begin(editor::Workspace& workspace, const std::string& place) {
@@ -154,33 +153,33 @@ void FilmDialog::Begin(editor::Workspace& workspace, const std::string& place) {
   }
 }
 
-void FilmDialog::DrawStart(editor::Workspace& workspace, EditorState& state) {
+void FilmDialog::DrawStart(editor::Workspace& workspace, Dialogs& dialogs) {
   Hint(
       Tr("While you film it says what to do next and how much of the place visitors need is there. "
          "It follows corners in the images; what it says is no map, and training may still find "
          "gaps."));
   if (BeginProperties("film")) {
     PropertyLabel(Tr("Place"));
-    ImGui::InputText("##place", &state.fields.place);
+    ImGui::InputText("##place", &dialogs.fields.place);
     field_.Show(camera_, workspace.paths().folder);
     EndProperties();
   }
   field_.DrawHint();
   WarningText(problem_);
-  const DialogAnswer answer = DialogButtons(Tr("Film"), NameProblem(state.fields.place));
+  const DialogAnswer answer = DialogButtons(Tr("Film"), NameProblem(dialogs.fields.place));
   if (answer == DialogAnswer::kCancel) {
-    Close(state);
+    Close(dialogs);
   }
   if (answer == DialogAnswer::kAct) {
-    Begin(workspace, state.fields.place);
+    Begin(workspace, dialogs.fields.place);
   }
 }
 
-void FilmDialog::Train(editor::Workspace& workspace, EditorState& state) {
+void FilmDialog::Train(editor::Workspace& workspace, Dialogs& dialogs) {
   DialogFields fields;
   fields.place = place_;
   fields.file = film_->file().string();
-  Close(state);
+  Close(dialogs);
   TrainRecording(workspace, fields);
 }
 
@@ -200,7 +199,7 @@ void FilmDialog::DrawButtons() {
   }
 }
 
-void FilmDialog::DrawQuestion(EditorState& state) {
+void FilmDialog::DrawQuestion(Dialogs& dialogs) {
   ImGui::TextWrapped("%s", Text(Tr("%.0f s are filmed. Train from them, or discard them?"),
                                 film_->moment().seconds)
                                .c_str());
@@ -211,12 +210,12 @@ void FilmDialog::DrawQuestion(EditorState& state) {
   }
   asks_ = answer == DialogAnswer::kNone;
   if (discard) {
-    Discard(state);
+    Discard(dialogs);
   }
 }
 
 // Filming ended by itself: the camera failed, the disk is full, or the recording is over.
-void FilmDialog::DrawEnded(const editor::Filmed& filmed, EditorState& state) {
+void FilmDialog::DrawEnded(const editor::Filmed& filmed, Dialogs& dialogs) {
   if (!filmed.stopped.ok()) {
     WarningText(Text(Tr("Filming has stopped: %s"), filmed.stopped.message().c_str()));
   }
@@ -231,30 +230,32 @@ void FilmDialog::DrawEnded(const editor::Filmed& filmed, EditorState& state) {
   if (answer == DialogAnswer::kCancel) {
     film_.reset();
   } else if (discard) {
-    Discard(state);
+    Discard(dialogs);
   }
 }
 
 // Filming failed, and there is nothing to keep.
-void FilmDialog::DrawFailed(const std::string& problem, EditorState& state) {
+void FilmDialog::DrawFailed(const std::string& problem, Dialogs& dialogs) {
   WarningText(problem);
   const DialogAnswer answer = DialogButtons(Tr("Film again"), "");
   if (answer == DialogAnswer::kCancel) {
-    Close(state);
+    Close(dialogs);
   }
   if (answer == DialogAnswer::kAct) {
     film_.reset();
   }
 }
 
-void FilmDialog::DrawFilming(editor::Workspace& workspace, EditorState& state) {
+void FilmDialog::DrawFilming(editor::Workspace& workspace,
+                             PictureTextures& pictures,
+                             Dialogs& dialogs) {
   const editor::FilmMoment moment = film_->moment();
   const std::optional<Result<editor::Filmed>> outcome = film_->outcome();
   const float available = ImGui::GetContentRegionAvail().x;
   const float side = std::min(Px(320), 0.45f * available);
   ImVec2 picture(available - side - Px(14), 0.0f);
   picture.y = std::min(0.75f * picture.x, 0.6f * ImGui::GetMainViewport()->WorkSize.y);
-  DrawPicture(state, moment, picture);
+  DrawPicture(pictures, moment, picture);
   ImGui::SameLine(0.0f, Px(14));
   ImGui::BeginGroup();
   ImGui::PushItemWidth(side);
@@ -269,37 +270,37 @@ void FilmDialog::DrawFilming(editor::Workspace& workspace, EditorState& state) {
   ImGui::EndGroup();
 
   if (outcome && !outcome->ok()) {
-    DrawFailed(outcome->message(), state);
+    DrawFailed(outcome->message(), dialogs);
   } else if (outcome && film_->finishing()) {
-    Train(workspace, state);
+    Train(workspace, dialogs);
   } else if (outcome) {
-    DrawEnded(**outcome, state);
+    DrawEnded(**outcome, dialogs);
   } else if (asks_) {
-    DrawQuestion(state);
+    DrawQuestion(dialogs);
   } else {
     DrawButtons();
   }
 }
 
-void FilmDialog::Leave(editor::Workspace& workspace, EditorState& state) {
+void FilmDialog::Leave(editor::Workspace& workspace, Dialogs& dialogs) {
   if (film_ != nullptr && film_->outcome() && film_->outcome()->ok()) {
     workspace.Tell(editor::Message::Level::kInfo,
                    Text(Tr("What was filmed is kept in %s."), film_->file().c_str()));
-    Close(state);
+    Close(dialogs);
   } else if (film_ != nullptr && !film_->outcome() && film_->moment().frames > 0) {
     const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     asks_ = !(asks_ && escape);  // Escape in the question means to continue.
   } else if (film_ != nullptr) {
-    Discard(state);  // Nothing was filmed yet.
+    Discard(dialogs);  // Nothing was filmed yet.
   } else {
-    Close(state);
+    Close(dialogs);
   }
 }
 
-void FilmDialog::Show(editor::Workspace& workspace, EditorState& state) {
-  if (state.dialog != Dialog::kFilm) {
-    if (film_ != nullptr && state.dialog == Dialog::kNone) {
-      state.dialog = Dialog::kFilm;  // Returns from another dialog, such as the list of keys.
+void FilmDialog::Show(editor::Workspace& workspace, PictureTextures& pictures, Dialogs& dialogs) {
+  if (dialogs.shown != Dialog::kFilm) {
+    if (film_ != nullptr && dialogs.shown == Dialog::kNone) {
+      dialogs.shown = Dialog::kFilm;  // Returns from another dialog, such as the list of keys.
     }
     return;
   }
@@ -307,11 +308,11 @@ void FilmDialog::Show(editor::Workspace& workspace, EditorState& state) {
   const bool filming = film_ != nullptr;
   DrawModal(Label(Tr("Film a place"), filming ? "filming" : "film").c_str(),
             filming ? 1000.0f : 520.0f, open, [&] {
-              filming ? DrawFilming(workspace, state) : DrawStart(workspace, state);
-              open = state.dialog == Dialog::kFilm && filming == (film_ != nullptr);
+              filming ? DrawFilming(workspace, pictures, dialogs) : DrawStart(workspace, dialogs);
+              open = dialogs.shown == Dialog::kFilm && filming == (film_ != nullptr);
             });
-  if (!open && state.dialog == Dialog::kFilm && filming == (film_ != nullptr)) {
-    Leave(workspace, state);
+  if (!open && dialogs.shown == Dialog::kFilm && filming == (film_ != nullptr)) {
+    Leave(workspace, dialogs);
   }
 }
 

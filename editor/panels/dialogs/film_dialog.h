@@ -7,8 +7,9 @@
 #include <string>
 
 #include "editor/jobs/filming.h"
+#include "editor/panels/dialogs/dialog_state.h"
 #include "editor/panels/viewport/camera_field.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/viewport/picture_textures.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -17,22 +18,22 @@ class FilmDialog {
  public:
   // Shows the dialog while Dialog::kFilm is open. It stays open until the user has decided what to
   // do with the film. state.fields.place: the suggested place. Closing it keeps the film.
-  void Show(editor::Workspace& workspace, EditorState& state);
+  void Show(editor::Workspace& workspace, PictureTextures& pictures, Dialogs& dialogs);
 
  private:
-  void DrawStart(editor::Workspace& workspace, EditorState& state);
+  void DrawStart(editor::Workspace& workspace, Dialogs& dialogs);
   void Begin(editor::Workspace& workspace, const std::string& place);
-  void DrawFilming(editor::Workspace& workspace, EditorState& state);
+  void DrawFilming(editor::Workspace& workspace, PictureTextures& pictures, Dialogs& dialogs);
   void DrawButtons();
-  void DrawQuestion(EditorState& state);
-  void DrawEnded(const editor::Filmed& filmed, EditorState& state);
-  void DrawFailed(const std::string& problem, EditorState& state);
-  void Train(editor::Workspace& workspace, EditorState& state);
+  void DrawQuestion(Dialogs& dialogs);
+  void DrawEnded(const editor::Filmed& filmed, Dialogs& dialogs);
+  void DrawFailed(const std::string& problem, Dialogs& dialogs);
+  void Train(editor::Workspace& workspace, Dialogs& dialogs);
   // Handles Escape and the close button.
-  void Leave(editor::Workspace& workspace, EditorState& state);
-  void Discard(EditorState& state);
+  void Leave(editor::Workspace& workspace, Dialogs& dialogs);
+  void Discard(Dialogs& dialogs);
   // Keeps the film.
-  void Close(EditorState& state);
+  void Close(Dialogs& dialogs);
 
   CameraField field_;
   std::string camera_ = "0";

@@ -1,7 +1,7 @@
 #pragma once
 
 // Dialogs that a button of an inspector opens, by ImGui::OpenPopup() with their title. Dialogs that
-// are opened from anywhere are in dialogs.h. Their input is in EditorState::fields.
+// are opened from anywhere are in dialogs.h. Their input is in Dialogs::fields.
 
 #include <functional>
 #include <string>

@@ -6,11 +6,13 @@
 
 namespace lararium::panels {
 
-void LiveCameraDialog::DrawContent(editor::Workspace& workspace, EditorState& state) {
+void LiveCameraDialog::DrawContent(editor::Workspace& workspace,
+                                   ViewOptions& options,
+                                   Dialogs& dialogs) {
   Hint(
       Tr("Through the camera then shows what the camera sees now, with people in it. It must be "
          "of the lens and proportions that the place was trained with. Nothing of it is saved."));
-  std::string& camera = state.fields.camera;
+  std::string& camera = dialogs.fields.camera;
   if (BeginProperties("live")) {
     field_.Show(camera, workspace.paths().folder);
     EndProperties();
@@ -25,27 +27,27 @@ void LiveCameraDialog::DrawContent(editor::Workspace& workspace, EditorState& st
   const DialogAnswer answer = DialogButtons(Tr("Show"), problem);
   if (answer == DialogAnswer::kAct) {
     workspace.PreviewLiveCamera(camera);
-    state.view = ViewKind::kCamera;
+    options.view = ViewKind::kCamera;
   }
   if (answer != DialogAnswer::kNone) {
-    state.left.erase(Dialog::kLiveCamera);
-    state.dialog = Dialog::kNone;
+    dialogs.left.erase(Dialog::kLiveCamera);
+    dialogs.shown = Dialog::kNone;
   }
 }
 
-void LiveCameraDialog::Show(editor::Workspace& workspace, EditorState& state) {
-  if (state.dialog != Dialog::kLiveCamera) {
+void LiveCameraDialog::Show(editor::Workspace& workspace, ViewOptions& options, Dialogs& dialogs) {
+  if (dialogs.shown != Dialog::kLiveCamera) {
     return;
   }
   bool open = true;
-  const DialogFields typed = state.fields;  // Copied before Escape restores the text of a field.
+  const DialogFields typed = dialogs.fields;  // Copied before Escape restores the text of a field.
   DrawModal(Label(Tr("Live camera"), "live").c_str(), 520.0f, open, [&] {
-    DrawContent(workspace, state);
-    open = state.dialog == Dialog::kLiveCamera;
+    DrawContent(workspace, options, dialogs);
+    open = dialogs.shown == Dialog::kLiveCamera;
   });
-  if (!open && state.dialog == Dialog::kLiveCamera) {
-    state.left[Dialog::kLiveCamera] = typed;
-    state.dialog = Dialog::kNone;
+  if (!open && dialogs.shown == Dialog::kLiveCamera) {
+    dialogs.left[Dialog::kLiveCamera] = typed;
+    dialogs.shown = Dialog::kNone;
   }
 }
 

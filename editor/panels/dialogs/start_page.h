@@ -12,7 +12,7 @@
 
 #include "editor/panels/dialogs/calibration_dialog.h"
 #include "editor/panels/viewport/picture_textures.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/widgets/keys.h"
 #include "editor/session/recent_projects.h"
 
 namespace lararium::panels {

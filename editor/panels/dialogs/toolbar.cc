@@ -14,7 +14,6 @@
 #include "editor/panels/dialogs/look.h"
 #include "editor/panels/inspector/light_panel.h"
 #include "editor/panels/viewport/pick_view.h"
-#include "editor/panels/viewport/place_cards.h"
 #include "editor/panels/widgets/icons.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
@@ -29,16 +28,16 @@ bool MenuItem(const char* label, KeyAction key, bool chosen = false, bool possib
   return ImGui::MenuItem(label, KeyText(key).c_str(), chosen, possible);
 }
 
-void OpenTrainDialog(const editor::Workspace& workspace, EditorState& state) {
-  if (OpenDialog(state, Dialog::kTrain)) {
+void OpenTrainDialog(const editor::Workspace& workspace, Dialogs& dialogs) {
+  if (dialogs.Open(Dialog::kTrain)) {
     return;
   }
-  state.fields.place = "place";
+  dialogs.fields.place = "place";
   if (const editor::PlaceDocument* place = workspace.place()) {
-    state.fields.place = place->name;
-    state.fields.file = place->training.path;
-    state.fields.images = place->training.kind == editor::SourceDocument::Kind::kImages;
-    state.fields.intrinsics = place->intrinsics ? editor::IntrinsicsText(*place->intrinsics) : "";
+    dialogs.fields.place = place->name;
+    dialogs.fields.file = place->training.path;
+    dialogs.fields.images = place->training.kind == editor::SourceDocument::Kind::kImages;
+    dialogs.fields.intrinsics = place->intrinsics ? editor::IntrinsicsText(*place->intrinsics) : "";
   }
 }
 
@@ -59,19 +58,19 @@ std::string RedoLabel(const editor::Workspace& workspace) {
              : Tr("Redo");
 }
 
-void FileMenu(editor::Workspace& workspace, EditorState& state) {
+void FileMenu(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
   if (MenuItem(Tr("New or open\xe2\x80\xa6"), KeyAction::kLeave)) {
-    state.leave = true;
+    actions.push_back(CloseProject{});
   }
   if (MenuItem(Tr("Save"), KeyAction::kSave)) {
     workspace.Save();
   }
   if (ImGui::MenuItem(Tr("Export\xe2\x80\xa6"))) {
-    OpenDialog(state, Dialog::kExport);
+    dialogs.Open(Dialog::kExport);
   }
   ImGui::Separator();
   if (MenuItem(Tr("Quit"), KeyAction::kQuit)) {
-    state.quit = true;
+    actions.push_back(CloseWindow{});
   }
 }
 
@@ -86,17 +85,20 @@ void EditMenu(editor::Workspace& workspace) {
   }
 }
 
-void PlaceMenu(editor::Workspace& workspace, EditorState& state) {
+void PlaceMenu(editor::Workspace& workspace,
+               Selection& selection,
+               ViewOptions& options,
+               Dialogs& dialogs) {
   const bool training = workspace.tasks().Running(editor::Workspace::kTraining);
   if (ImGui::MenuItem(Tr("Train\xe2\x80\xa6"), nullptr, false, !training)) {
-    OpenTrainDialog(workspace, state);
+    OpenTrainDialog(workspace, dialogs);
   }
   if (ImGui::MenuItem(Tr("Add a session\xe2\x80\xa6"), nullptr, false, CanAddSession(workspace))) {
-    OpenDialog(state, Dialog::kAddSession);
+    dialogs.Open(Dialog::kAddSession);
   }
   if (ImGui::MenuItem(Tr("The training's report\xe2\x80\xa6"), nullptr, false,
                       workspace.loaded().report != nullptr)) {
-    OpenDialog(state, Dialog::kTrainingReport);
+    dialogs.Open(Dialog::kTrainingReport);
   }
   if (ImGui::MenuItem(Tr("Put the former map back"), nullptr, false,
                       workspace.loaded().has_previous && !training)) {
@@ -112,30 +114,30 @@ void PlaceMenu(editor::Workspace& workspace, EditorState& state) {
   ImGui::Separator();
   const bool any = workspace.place() != nullptr;
   if (ImGui::MenuItem(Tr("Add an occluder\xe2\x80\xa6"), nullptr, false, any)) {
-    OpenDialog(state, Dialog::kOccluder);
+    dialogs.Open(Dialog::kOccluder);
   }
   if (ImGui::MenuItem(Tr("Draw an occluder"), nullptr, false,
                       any && workspace.loaded().database != nullptr)) {
-    DrawNewOccluder(workspace, state);
+    DrawNewOccluder(workspace, selection, options);
   }
   if (ImGui::MenuItem(Tr("Add a light probe\xe2\x80\xa6"), nullptr, false, any)) {
-    OpenDialog(state, Dialog::kProbe);
+    dialogs.Open(Dialog::kProbe);
   }
   if (ImGui::MenuItem(Tr("Add a check point\xe2\x80\xa6"), nullptr, false, any)) {
-    OpenDialog(state, Dialog::kCheckPoint);
+    dialogs.Open(Dialog::kCheckPoint);
   }
   if (ImGui::MenuItem(Tr("Add a person\xe2\x80\xa6"))) {
-    OpenDialog(state, Dialog::kCast);
+    dialogs.Open(Dialog::kCast);
   }
 }
 
-void DrawTab(EditorState& state, BottomTab tab) {
-  state.bottom = tab;
-  state.focus = tab == BottomTab::kTimeline ? Focus::kTimeline : Focus::kViews;
+void DrawTab(Input& input, EditorActions& actions, BottomTab tab) {
+  actions.push_back(OpenTab{tab});
+  input.focus = tab == BottomTab::kTimeline ? Focus::kTimeline : Focus::kViews;
 }
 
 // The menu of the camera view's source.
-void ViewSourceMenu(editor::Workspace& workspace, EditorState& state) {
+void ViewSourceMenu(editor::Workspace& workspace, Dialogs& dialogs) {
   using Source = editor::Workspace::ViewSource;
   const Source now = workspace.view_source();
   if (!ImGui::BeginMenu(Label(Tr("The camera is"), "source").c_str(),
@@ -150,26 +152,33 @@ void ViewSourceMenu(editor::Workspace& workspace, EditorState& state) {
     workspace.SetViewSource(Source::kTraining);
   }
   if (ImGui::MenuItem(Tr("A live camera\xe2\x80\xa6"), nullptr, now == Source::kLive)) {
-    OpenDialog(state, Dialog::kLiveCamera);
+    dialogs.Open(Dialog::kLiveCamera);
   }
   ImGui::EndMenu();
 }
 
 // Opens the settings of the onion skin, and switches it on so that the result is visible.
-void AskForOnionMore(EditorState& state) {
-  state.view = ViewKind::kCamera;
-  state.show_onion = true;
-  state.open_onion = true;
+void AskForOnionMore(ViewOptions& options, EditorActions& actions) {
+  options.view = ViewKind::kCamera;
+  options.show_onion = true;
+  actions.push_back(OpenOnionSettings{});
 }
 
-void ViewMenu(editor::Workspace& workspace, EditorState& state) {
+void ViewMenu(editor::Workspace& workspace,
+              ViewOptions& options,
+              PlaceView& place_view,
+              Input& input,
+              Dialogs& dialogs,
+              EditorActions& actions,
+              BottomTab bottom,
+              editor::Settings& settings) {
   const std::tuple<const char*, KeyAction, ViewKind> views[] = {
       {Tr("Through the camera"), KeyAction::kCameraView, ViewKind::kCamera},
       {Tr("Around the place"), KeyAction::kAroundView, ViewKind::kAround},
       {Tr("Picks"), KeyAction::kPickView, ViewKind::kPicks}};
   for (const auto& [label, key, view] : views) {
-    if (MenuItem(label, key, state.view == view)) {
-      state.view = view;
+    if (MenuItem(label, key, options.view == view)) {
+      options.view = view;
     }
   }
   ImGui::Separator();
@@ -179,18 +188,18 @@ void ViewMenu(editor::Workspace& workspace, EditorState& state) {
       {Tr("Checks"), KeyAction::kChecksTab, BottomTab::kChecks},
       {Tr("Messages"), KeyAction::kMessagesTab, BottomTab::kMessages}};
   for (const auto& [label, key, tab] : tabs) {
-    if (MenuItem(label, key, state.bottom == tab)) {
-      DrawTab(state, tab);
+    if (MenuItem(label, key, bottom == tab)) {
+      DrawTab(input, actions, tab);
     }
   }
   ImGui::Separator();
-  ImGui::MenuItem(Tr("Stage over the picture"), nullptr, &state.show_stage);
-  ImGui::MenuItem(Tr("Points"), nullptr, &state.show_points);
-  if (MenuItem(Tr("Matches over the picture"), KeyAction::kMatches, state.show_matches)) {
-    state.show_matches = !state.show_matches;
+  ImGui::MenuItem(Tr("Stage over the picture"), nullptr, &options.show_stage);
+  ImGui::MenuItem(Tr("Points"), nullptr, &options.show_points);
+  if (MenuItem(Tr("Matches over the picture"), KeyAction::kMatches, options.show_matches)) {
+    options.show_matches = !options.show_matches;
   }
-  if (MenuItem(Tr("Occluders over the picture"), KeyAction::kOccluders, state.show_occluders)) {
-    state.show_occluders = !state.show_occluders;
+  if (MenuItem(Tr("Occluders over the picture"), KeyAction::kOccluders, options.show_occluders)) {
+    options.show_occluders = !options.show_occluders;
   }
   ImGui::Separator();
   if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.shows_evidence())) {
@@ -200,50 +209,50 @@ void ViewMenu(editor::Workspace& workspace, EditorState& state) {
     workspace.SetSound(!workspace.sound());
   }
   ImGui::Separator();
-  LookMenu(state.settings);
+  LookMenu(settings);
   ImGui::Separator();
   if (ImGui::BeginMenu(Label(Tr("Colour the points by"), "point colours").c_str())) {
     for (int i = 0; i < kPointColours; ++i) {
       const auto colour = static_cast<PointColour>(i);
-      if (ImGui::MenuItem(PointColourName(colour), nullptr, state.place.colours == colour)) {
-        state.place.colours = colour;
-        state.view = ViewKind::kAround;
+      if (ImGui::MenuItem(PointColourName(colour), nullptr, place_view.colours == colour)) {
+        place_view.colours = colour;
+        options.view = ViewKind::kAround;
       }
     }
     ImGui::EndMenu();
   }
-  if (MenuItem(Tr("Measure"), KeyAction::kMeasure, state.place.measure)) {
-    state.place.measure = !state.place.measure;
+  if (MenuItem(Tr("Measure"), KeyAction::kMeasure, place_view.measure)) {
+    place_view.measure = !place_view.measure;
   }
-  if (MenuItem(Tr("Handles move in steps"), KeyAction::kSnapHandles, state.place.snap)) {
-    state.place.snap = !state.place.snap;
+  if (MenuItem(Tr("Handles move in steps"), KeyAction::kSnapHandles, options.snap)) {
+    options.snap = !options.snap;
   }
   ImGui::Separator();
-  if (MenuItem(Tr("Before and after"), KeyAction::kWipe, state.show_compare)) {
-    state.show_compare = !state.show_compare;
+  if (MenuItem(Tr("Before and after"), KeyAction::kWipe, options.show_compare)) {
+    options.show_compare = !options.show_compare;
   }
-  if (MenuItem(Tr("Onion skin"), KeyAction::kOnion, state.show_onion)) {
-    state.show_onion = !state.show_onion;
+  if (MenuItem(Tr("Onion skin"), KeyAction::kOnion, options.show_onion)) {
+    options.show_onion = !options.show_onion;
   }
   if (MenuItem(Tr("Onion skin's moments\xe2\x80\xa6"), KeyAction::kOnionMore)) {
-    AskForOnionMore(state);
+    AskForOnionMore(options, actions);
   }
-  ViewSourceMenu(workspace, state);
+  ViewSourceMenu(workspace, dialogs);
   ImGui::Separator();
   if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.descriptions())) {
     workspace.SetDescriptions(!workspace.descriptions());
   }
 }
 
-void SetGizmo(EditorState& state, GizmoMode mode) {
-  state.gizmo = mode;
-  state.drag.reset();
+void SetGizmo(GizmoTool& gizmo, GizmoMode mode) {
+  gizmo.mode = mode;
+  gizmo.drag.reset();
 }
 
-void SelectLight(const editor::Workspace& workspace, EditorState& state) {
+void SelectLight(const editor::Workspace& workspace, Selection& selection, ViewOptions& options) {
   if (workspace.place() != nullptr && !workspace.place()->probes.empty()) {
-    state.selection = {Selection::Kind::kProbe, workspace.place()->probes.front().name};
-    state.view = ViewKind::kCamera;
+    selection = {Selection::Kind::kProbe, workspace.place()->probes.front().name};
+    options.view = ViewKind::kCamera;
   }
 }
 
@@ -329,9 +338,13 @@ bool DrawChoice(const char* id, std::span<const Tool> tools, bool words, int& ch
 }
 
 // Performs an action that is available everywhere.
-void Do(editor::Workspace& workspace, EditorState& state, KeyAction action) {
+void Do(editor::Workspace& workspace,
+        Input& input,
+        Dialogs& dialogs,
+        EditorActions& actions,
+        KeyAction action) {
   const bool own_undo =
-      ImGui::GetIO().WantTextInput && state.focus != Focus::kScript && !TypesIntoWrappedField();
+      ImGui::GetIO().WantTextInput && input.focus != Focus::kScript && !TypesIntoWrappedField();
   switch (action) {
     case KeyAction::kSave:
       workspace.Save();
@@ -343,96 +356,101 @@ void Do(editor::Workspace& workspace, EditorState& state, KeyAction action) {
       }
       break;
     case KeyAction::kLeave:
-      state.leave = true;
+      actions.push_back(CloseProject{});
       break;
     case KeyAction::kQuit:
-      state.quit = true;
+      actions.push_back(CloseWindow{});
       break;
     case KeyAction::kKeyList:
-      OpenDialog(state, Dialog::kKeys);
+      dialogs.Open(Dialog::kKeys);
       break;
     case KeyAction::kEvidence:
       workspace.SetEvidence(!workspace.shows_evidence());
       break;
     case KeyAction::kTimelineTab:
-      DrawTab(state, BottomTab::kTimeline);
+      DrawTab(input, actions, BottomTab::kTimeline);
       break;
     case KeyAction::kScriptTab:
-      DrawTab(state, BottomTab::kScript);
+      DrawTab(input, actions, BottomTab::kScript);
       break;
     case KeyAction::kChecksTab:
-      DrawTab(state, BottomTab::kChecks);
+      DrawTab(input, actions, BottomTab::kChecks);
       break;
     case KeyAction::kMessagesTab:
-      DrawTab(state, BottomTab::kMessages);
+      DrawTab(input, actions, BottomTab::kMessages);
       break;
     case KeyAction::kPlay:
       workspace.SetPlaying(!workspace.playing());
       break;
     case KeyAction::kPanelAfter:
     case KeyAction::kPanelBefore:
-      state.keyboard.Step(action == KeyAction::kPanelBefore);
+      input.keyboard.Step(action == KeyAction::kPanelBefore);
       break;
     case KeyAction::kMenus:
-      state.keyboard.AskForMenus();
+      input.keyboard.AskForMenus();
       break;
     default:
       break;
   }
 }
 
-void DoInViews(editor::Workspace& workspace, EditorState& state, KeyAction action) {
+void DoInViews(editor::Workspace& workspace,
+               Selection& selection,
+               ViewOptions& options,
+               ViewTools& tools,
+               EditorActions& actions,
+               KeyAction action) {
   switch (action) {
     case KeyAction::kCameraView:
-      state.view = ViewKind::kCamera;
+      options.view = ViewKind::kCamera;
       break;
     case KeyAction::kAroundView:
-      state.view = ViewKind::kAround;
+      options.view = ViewKind::kAround;
       break;
     case KeyAction::kPickView:
-      state.view = ViewKind::kPicks;
+      options.view = ViewKind::kPicks;
       break;
     case KeyAction::kMove:
-      SetGizmo(state, GizmoMode::kMove);
+      SetGizmo(tools.gizmo, GizmoMode::kMove);
       break;
     case KeyAction::kTurn:
-      SetGizmo(state, GizmoMode::kTurn);
+      SetGizmo(tools.gizmo, GizmoMode::kTurn);
       break;
     case KeyAction::kScale:
-      SetGizmo(state, GizmoMode::kScale);
+      SetGizmo(tools.gizmo, GizmoMode::kScale);
       break;
     case KeyAction::kLayOnFloor:
       workspace.LayStageOnFloor();
       break;
     case KeyAction::kLight:
-      SelectLight(workspace, state);
+      SelectLight(workspace, selection, options);
       break;
     case KeyAction::kMatches:
-      state.show_matches = !state.show_matches;
+      options.show_matches = !options.show_matches;
       break;
     case KeyAction::kOccluders:
-      state.show_occluders = !state.show_occluders;
+      options.show_occluders = !options.show_occluders;
       break;
     case KeyAction::kWipe:
-      state.show_compare = !state.show_compare;
+      options.show_compare = !options.show_compare;
       break;
     case KeyAction::kOnion:
-      state.show_onion = !state.show_onion;
+      options.show_onion = !options.show_onion;
       break;
     case KeyAction::kOnionMore:
-      AskForOnionMore(state);
+      AskForOnionMore(options, actions);
       break;
     case KeyAction::kSound:
       workspace.SetSound(!workspace.sound());
       break;
     case KeyAction::kPointColours:
-      state.place.colours = After(state.place.colours);
+      tools.place.colours = After(tools.place.colours);
       break;
     case KeyAction::kMeasure:
-      state.place.measure = !state.place.measure;
+      tools.place.measure = !tools.place.measure;
       break;
     case KeyAction::kSnapHandles:
-      state.place.snap = !state.place.snap;
+      options.snap = !options.snap;
       break;
     case KeyAction::kFrameBack:
     case KeyAction::kFrameOn:
@@ -440,10 +458,10 @@ void DoInViews(editor::Workspace& workspace, EditorState& state, KeyAction actio
       workspace.StepFrames(action == KeyAction::kFrameOn ? 1 : -1);
       break;
     case KeyAction::kUnselect:
-      if (state.align.picking) {
-        state.align.picking = false;
+      if (tools.align.picking) {
+        tools.align.picking = false;
       } else {
-        ChooseNoPoints(state);
+        ChooseNoPoints(tools.place);
       }
       break;
     default:
@@ -451,8 +469,8 @@ void DoInViews(editor::Workspace& workspace, EditorState& state, KeyAction actio
   }
 }
 
-bool Pressed(const EditorState& state, KeyAction walking) {
-  return std::any_of(state.keys.begin(), state.keys.end(), [&](const KeyPress& press) {
+bool Pressed(const Input& input, KeyAction walking) {
+  return std::any_of(input.keys.begin(), input.keys.end(), [&](const KeyPress& press) {
     return ActionOf(KeyScope::kPanels, press) == walking;
   });
 }
@@ -465,12 +483,20 @@ bool IsNoTyping(const KeyPress& press) {
 
 }  // namespace
 
-void DrawMenuBar(editor::Workspace& workspace, EditorState& state) {
+void DrawMenuBar(editor::Workspace& workspace,
+                 Selection& selection,
+                 ViewOptions& options,
+                 PlaceView& place_view,
+                 Input& input,
+                 Dialogs& dialogs,
+                 EditorActions& actions,
+                 BottomTab bottom,
+                 editor::Settings& settings) {
   if (!ImGui::BeginMenuBar()) {
     return;
   }
   if (ImGui::BeginMenu(Label(Tr("File"), "file").c_str())) {
-    FileMenu(workspace, state);
+    FileMenu(workspace, dialogs, actions);
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(Label(Tr("Edit"), "edit").c_str())) {
@@ -478,35 +504,38 @@ void DrawMenuBar(editor::Workspace& workspace, EditorState& state) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(Label(Tr("Place"), "place").c_str())) {
-    PlaceMenu(workspace, state);
+    PlaceMenu(workspace, selection, options, dialogs);
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(Label(Tr("View"), "view").c_str())) {
-    ViewMenu(workspace, state);
+    ViewMenu(workspace, options, place_view, input, dialogs, actions, bottom, settings);
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(Label(Tr("Help"), "help").c_str())) {
     if (MenuItem(Tr("Keys"), KeyAction::kKeyList)) {
-      OpenDialog(state, Dialog::kKeys);
+      dialogs.Open(Dialog::kKeys);
     }
     if (ImGui::MenuItem(Tr("Guided tour"))) {
-      state.begin_tour = true;
+      actions.push_back(StartTour{});
     }
     ImGui::EndMenu();
   }
   ImGui::EndMenuBar();
 }
 
-void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
+void DrawToolbar(editor::Workspace& workspace,
+                 ViewOptions& options,
+                 GizmoTool& gizmo,
+                 Dialogs& dialogs) {
   const float gap = Px(22);
   const bool words = WordsFit(gap);
   const editor::TaskList& tasks = workspace.tasks();
   if (DrawTool(kTrain, words, !tasks.Running(editor::Workspace::kTraining))) {
-    OpenTrainDialog(workspace, state);
+    OpenTrainDialog(workspace, dialogs);
   }
   ImGui::SameLine();
   if (DrawTool(kAddSession, words, CanAddSession(workspace))) {
-    OpenDialog(state, Dialog::kAddSession);
+    dialogs.Open(Dialog::kAddSession);
   }
   ImGui::SameLine();
   if (DrawTool(kBake, words, !tasks.Running(editor::Workspace::kBaking))) {
@@ -514,17 +543,17 @@ void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
   }
   ImGui::SameLine();
   if (DrawTool(kExport, words, !tasks.Running(editor::Workspace::kExporting))) {
-    OpenDialog(state, Dialog::kExport);
+    dialogs.Open(Dialog::kExport);
   }
   ImGui::SameLine(0.0f, gap);
-  int view = static_cast<int>(state.view);
+  int view = static_cast<int>(options.view);
   if (DrawChoice("view", kViews, words, view)) {
-    state.view = static_cast<ViewKind>(view);
+    options.view = static_cast<ViewKind>(view);
   }
   ImGui::SameLine(0.0f, gap);
-  int mode = static_cast<int>(state.gizmo);
+  int mode = static_cast<int>(gizmo.mode);
   if (DrawChoice("gizmo", kModes, words, mode)) {
-    SetGizmo(state, static_cast<GizmoMode>(mode));
+    SetGizmo(gizmo, static_cast<GizmoMode>(mode));
   }
   ImGui::SameLine(0.0f, gap);
   if (DrawTool(kUndo, words, workspace.commands().CanUndo())) {
@@ -536,22 +565,28 @@ void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
   }
 }
 
-void HandleShortcuts(editor::Workspace& workspace, EditorState& state) {
-  if (state.dialog != Dialog::kNone) {
+void HandleShortcuts(editor::Workspace& workspace,
+                     Selection& selection,
+                     ViewOptions& options,
+                     ViewTools& tools,
+                     Input& input,
+                     Dialogs& dialogs,
+                     EditorActions& actions) {
+  if (dialogs.shown != Dialog::kNone) {
     return;
   }
-  if (ImGui::GetIO().WantTextInput && Pressed(state, KeyAction::kStopWalking)) {
+  if (ImGui::GetIO().WantTextInput && Pressed(input, KeyAction::kStopWalking)) {
     // Escape restores the old text as a separate command, so that undo brings the typed text back.
     workspace.EndGesture();
   }
-  for (const KeyPress& press : state.keys) {
+  for (const KeyPress& press : input.keys) {
     if (ImGui::GetIO().WantTextInput && !IsNoTyping(press)) {
       continue;
     }
     if (const KeyAction action = ActionOf(KeyScope::kAlways, press); action != KeyAction::kNone) {
-      Do(workspace, state, action);
-    } else if (!HandleLightKey(workspace, state, press)) {
-      DoInViews(workspace, state, ActionOf(KeyScope::kViews, press));
+      Do(workspace, input, dialogs, actions, action);
+    } else if (!HandleLightKey(workspace, selection, options, tools.light, press)) {
+      DoInViews(workspace, selection, options, tools, actions, ActionOf(KeyScope::kViews, press));
     }
   }
 }

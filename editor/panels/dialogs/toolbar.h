@@ -1,14 +1,32 @@
 #pragma once
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/viewport/view_tools.h"
+#include "editor/session/settings.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
 
-void DrawMenuBar(editor::Workspace& workspace, EditorState& state);
-void DrawToolbar(editor::Workspace& workspace, EditorState& state);
+void DrawMenuBar(editor::Workspace& workspace,
+                 Selection& selection,
+                 ViewOptions& options,
+                 PlaceView& place_view,
+                 Input& input,
+                 Dialogs& dialogs,
+                 EditorActions& actions,
+                 BottomTab bottom,
+                 editor::Settings& settings);
+void DrawToolbar(editor::Workspace& workspace,
+                 ViewOptions& options,
+                 GizmoTool& gizmo,
+                 Dialogs& dialogs);
 
 // Ctrl+S, Ctrl+Z, Ctrl+Shift+Z, W, E, R, 1, 2, 3, Space.
-void HandleShortcuts(editor::Workspace& workspace, EditorState& state);
+void HandleShortcuts(editor::Workspace& workspace,
+                     Selection& selection,
+                     ViewOptions& options,
+                     ViewTools& tools,
+                     Input& input,
+                     Dialogs& dialogs,
+                     EditorActions& actions);
 
 }  // namespace lararium::panels

@@ -32,14 +32,16 @@ void DrawStep(const TourStep& step) {
 
 }  // namespace
 
-TourFacts FactsOf(const editor::Workspace& workspace, const EditorState& state) {
+TourFacts FactsOf(const editor::Workspace& workspace,
+                  const Selection& selection,
+                  const ViewOptions& options) {
   TourFacts facts;
   facts.trained = workspace.loaded().database != nullptr;
   facts.picture = workspace.picture() != nullptr;
   facts.playing = workspace.playing();
-  facts.around = state.view == ViewKind::kAround;
-  facts.matches = state.show_matches;
-  facts.person = state.selection.kind == Selection::Kind::kActor;
+  facts.around = options.view == ViewKind::kAround;
+  facts.matches = options.show_matches;
+  facts.person = selection.kind == Selection::Kind::kActor;
   facts.script = workspace.script().revision();
   facts.can_redo = workspace.commands().CanRedo();
   facts.checked = workspace.checked();
@@ -58,11 +60,15 @@ TourFacts FactsOf(const editor::Workspace& workspace, const EditorState& state) 
   return facts;
 }
 
-void DrawTourCard(const editor::Workspace& workspace, EditorState& state, Tour& tour) {
+void DrawTourCard(const editor::Workspace& workspace,
+                  const Selection& selection,
+                  const ViewOptions& options,
+                  Input& input,
+                  Tour& tour) {
   if (tour.step() == nullptr) {
     return;
   }
-  const TourFacts facts = FactsOf(workspace, state);
+  const TourFacts facts = FactsOf(workspace, selection, options);
   tour.Update(facts);
   // Placed over the end of the timeline's tracks, where it hides neither picture nor map nor the
   // beginnings of lists. The user can move it.
@@ -74,7 +80,7 @@ void DrawTourCard(const editor::Workspace& workspace, EditorState& state, Tour& 
   ImGui::SetNextWindowSize(ImVec2(Px(kCardWidth), 0));
   const std::string title = Label(Tr("Tour"), "tour");
   bool open = true;
-  state.keyboard.Before(Region::kTour);
+  input.keyboard.Before(Region::kTour);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, Colours().panel);
   ImGui::PushStyleColor(ImGuiCol_Border, Colours().accent);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6));
@@ -82,7 +88,7 @@ void DrawTourCard(const editor::Workspace& workspace, EditorState& state, Tour& 
   if (ImGui::Begin(title.c_str(), &open,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoSavedSettings)) {
-    state.keyboard.Begin(Region::kTour);
+    input.keyboard.Begin(Region::kTour);
     DrawProgress(tour);
     if (tour.finished()) {
       ImGui::TextWrapped("%s", Tr("That was the tour. Film a place of your own and begin with New "
@@ -97,7 +103,7 @@ void DrawTourCard(const editor::Workspace& workspace, EditorState& state, Tour& 
       ImGui::SameLine();
       open &= !ImGui::Button(Tr("End the tour"));
     }
-    state.keyboard.End(Region::kTour);
+    input.keyboard.End(Region::kTour);
   }
   ImGui::End();
   ImGui::PopStyleVar(2);

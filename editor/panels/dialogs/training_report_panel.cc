@@ -72,10 +72,10 @@ bool DrawEnd(editor::Workspace& workspace) {
 
 }  // namespace
 
-void TrainingReportDialog(editor::Workspace& workspace, EditorState& state) {
+void TrainingReportDialog(editor::Workspace& workspace, Dialogs& dialogs) {
   const std::shared_ptr<const editor::TrainingReport> report = workspace.loaded().report;
   if (report == nullptr || workspace.place() == nullptr) {
-    state.dialog = Dialog::kNone;
+    dialogs.shown = Dialog::kNone;
     return;
   }
   Heading(workspace.place()->name.c_str());
@@ -83,7 +83,7 @@ void TrainingReportDialog(editor::Workspace& workspace, EditorState& state) {
   ImGui::Dummy(ImVec2(0, Px(4)));
   DrawAdvice(*report);
   if (DrawEnd(workspace)) {
-    state.dialog = Dialog::kNone;
+    dialogs.shown = Dialog::kNone;
   }
 }
 

@@ -35,11 +35,11 @@ void Choose(editor::Workspace& workspace,
                  });
 }
 
-void JointCell(EditorState& state, const editor::BoneRow& row) {
+void JointCell(CastView& cast_view, const editor::BoneRow& row) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, ColourOf(row));
-  if (ImGui::Selectable(row.joint.c_str(), state.cast.joint == row.joint)) {
-    state.cast.joint = row.joint;
+  if (ImGui::Selectable(row.joint.c_str(), cast_view.joint == row.joint)) {
+    cast_view.joint = row.joint;
   }
   ImGui::PopStyleColor();
   if (!row.problem.empty() && ImGui::IsItemHovered()) {
@@ -48,7 +48,7 @@ void JointCell(EditorState& state, const editor::BoneRow& row) {
 }
 
 void BoneCell(editor::Workspace& workspace,
-              EditorState& state,
+              CastView& cast_view,
               const editor::CastDocument& member,
               const editor::BoneReview& review,
               const editor::BoneRow& row) {
@@ -57,7 +57,7 @@ void BoneCell(editor::Workspace& workspace,
                          ImGuiComboFlags_HeightLarge)) {
     return;
   }
-  state.cast.joint = row.joint;
+  cast_view.joint = row.joint;
   if (member.bones.contains(row.joint) && ImGui::Selectable(Tr("as it is found"))) {
     Choose(workspace, member, row.joint, std::nullopt);
   }
@@ -108,15 +108,15 @@ void FoundCell(const editor::CastDocument& member, const editor::BoneRow& row) {
 }
 
 // Shows joints that were found and those that a person needs; others only on request.
-bool IsShown(const EditorState& state,
+bool IsShown(const CastView& cast_view,
              const editor::CastDocument& member,
              const editor::BoneRow& row) {
-  return state.cast.all_joints || !row.bone.empty() || !row.problem.empty() ||
+  return cast_view.all_joints || !row.bone.empty() || !row.problem.empty() ||
          member.bones.contains(row.joint);
 }
 
 void DrawTable(editor::Workspace& workspace,
-               EditorState& state,
+               CastView& cast_view,
                const editor::CastDocument& member,
                const editor::BoneReview& review) {
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg;
@@ -128,15 +128,15 @@ void DrawTable(editor::Workspace& workspace,
   ImGui::TableSetupColumn(Tr("Found by"), ImGuiTableColumnFlags_WidthFixed, Px(66));
   ImGui::TableHeadersRow();
   for (const editor::BoneRow& row : review.rows) {
-    if (!IsShown(state, member, row)) {
+    if (!IsShown(cast_view, member, row)) {
       continue;
     }
     ImGui::PushID(row.joint.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    JointCell(state, row);
+    JointCell(cast_view, row);
     ImGui::TableNextColumn();
-    BoneCell(workspace, state, member, review, row);
+    BoneCell(workspace, cast_view, member, review, row);
     ImGui::TableNextColumn();
     FoundCell(member, row);
     ImGui::PopID();
@@ -165,7 +165,7 @@ void DrawVerdict(const editor::BoneReview& review) {
 }  // namespace
 
 void DrawBones(editor::Workspace& workspace,
-               EditorState& state,
+               CastView& cast_view,
                const editor::CastDocument& member) {
   if (!Fold(Label(Tr("Bones"), "bones"), true)) {
     return;
@@ -178,8 +178,8 @@ void DrawBones(editor::Workspace& workspace,
     return;
   }
   DrawVerdict(*review);
-  CheckRow(Tr("All joints that people can have"), state.cast.all_joints);
-  DrawTable(workspace, state, member, *review);
+  CheckRow(Tr("All joints that people can have"), cast_view.all_joints);
+  DrawTable(workspace, cast_view, member, *review);
   for (const std::string& note : review->notes) {
     Hint(note);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/viewport/portrait_view.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -8,7 +8,7 @@ namespace lararium::panels {
 // A table of the joints and bones of an imported figure: how each was found and what is doubtful.
 // Each row can be changed.
 void DrawBones(editor::Workspace& workspace,
-               EditorState& state,
+               CastView& cast_view,
                const editor::CastDocument& member);
 
 }  // namespace lararium::panels

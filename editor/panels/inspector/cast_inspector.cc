@@ -11,7 +11,6 @@
 #include "editor/panels/inspector/clips_panel.h"
 #include "editor/panels/inspector/recipe_panel.h"
 #include "editor/panels/inspector/voice_panel.h"
-#include "editor/panels/viewport/portrait_view.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
@@ -28,14 +27,14 @@ bool DrawPlainFigure(editor::Workspace& workspace, editor::CastDocument& member)
 
 // With the first change, a preset becomes the project's own recipe.
 RecipeChange DrawRecipeOf(editor::Workspace& workspace,
-                          EditorState& state,
+                          CastView& cast_view,
                           editor::CastDocument& member) {
   Result<std::optional<import::CastRecipe>> recipe = editor::RecipeOf(member);
   if (!recipe.ok()) {
     Hint(recipe.message());
     return {};
   }
-  RecipeChange change = DrawRecipe(workspace, state, **recipe);
+  RecipeChange change = DrawRecipe(workspace, cast_view, **recipe);
   if (change.any()) {
     member.recipe = **recipe;
     member.preset.clear();
@@ -55,14 +54,14 @@ std::string KindOf(const editor::CastDocument& member) {
 }
 
 RecipeChange DrawFigure(editor::Workspace& workspace,
-                        EditorState& state,
+                        CastView& cast_view,
                         editor::CastDocument& member) {
   if (member.recipe || !member.preset.empty()) {
-    return DrawRecipeOf(workspace, state, member);
+    return DrawRecipeOf(workspace, cast_view, member);
   }
   RecipeChange change;
   if (!member.model.empty()) {
-    DrawBones(workspace, state, member);
+    DrawBones(workspace, cast_view, member);
   } else if (BeginProperties("plain figure")) {
     if (DrawPlainFigure(workspace, member)) {
       change.Drag(Tr("figure"));
@@ -75,17 +74,21 @@ RecipeChange DrawFigure(editor::Workspace& workspace,
 }  // namespace
 
 void DrawActor(editor::Workspace& workspace,
-               EditorState& state,
+               Selection& selection,
+               CastView& cast_view,
+               PictureTextures& pictures,
+               const Input& input,
+               Dialogs& dialogs,
                const editor::CastDocument& member) {
   Heading(member.name.c_str());
   Hint(KindOf(member));
-  DrawPortrait(workspace, state, member, !member.model.empty());
+  DrawPortrait(workspace, cast_view, pictures, input, member, !member.model.empty());
   // The rest scrolls below the portrait, so that changes are always visible.
   constexpr float kLeast = 220.0f;  // logical pixels
   const float height = std::max(ImGui::GetContentRegionAvail().y, Px(kLeast));
   ImGui::BeginChild("figure", ImVec2(0, height), false, ImGuiWindowFlags_NavFlattened);
   editor::CastDocument edited = member;
-  RecipeChange change = DrawFigure(workspace, state, edited);
+  RecipeChange change = DrawFigure(workspace, cast_view, edited);
   DrawVoice(workspace, edited, change);
   if (change.any()) {
     workspace.Edit(
@@ -97,14 +100,14 @@ void DrawActor(editor::Workspace& workspace,
         },
         change.gesture);
   }
-  DrawClips(workspace, state, member);
+  DrawClips(workspace, dialogs, member);
   Hint(Tr("Where people stand and what they do is written in the drama."));
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.Edit(Text(Tr("remove %s"), member.name.c_str()),
                    [name = member.name](editor::ProjectDocument& document) {
                      std::erase_if(document.cast, [&](const auto& m) { return m.name == name; });
                    });
-    state.selection = {};
+    selection = {};
   }
   ImGui::EndChild();
 }

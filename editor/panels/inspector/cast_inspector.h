@@ -1,6 +1,8 @@
 #pragma once
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/dialogs/dialog_state.h"
+#include "editor/panels/viewport/portrait_view.h"
+#include "editor/panels/widgets/selection.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -8,7 +10,11 @@ namespace lararium::panels {
 // The inspector of a cast member: its figure, voice and recorded motions. The camera's picture
 // shows changes after the figure was built again.
 void DrawActor(editor::Workspace& workspace,
-               EditorState& state,
+               Selection& selection,
+               CastView& cast_view,
+               PictureTextures& pictures,
+               const Input& input,
+               Dialogs& dialogs,
                const editor::CastDocument& member);
 
 }  // namespace lararium::panels

@@ -37,8 +37,8 @@ std::string LinesOf(const editor::Workspace& workspace, const std::string& word)
 
 class ClipsPanel {
  public:
-  ClipsPanel(editor::Workspace& workspace, EditorState& state, const editor::CastDocument& member)
-      : workspace_(workspace), state_(state), member_(member) {}
+  ClipsPanel(editor::Workspace& workspace, DialogFields& fields, const editor::CastDocument& member)
+      : workspace_(workspace), fields_(fields), member_(member) {}
 
   void Show() {
     for (const editor::ClipDocument& clip : member_.clips) {
@@ -159,13 +159,13 @@ class ClipsPanel {
   // ---- Adding a motion ----
 
   std::string NewName() const {
-    const DialogFields& fields = state_.fields;
+    const DialogFields& fields = fields_;
     return fields.name.empty() ? std::filesystem::path(fields.file).stem().string() : fields.name;
   }
 
   // Why it cannot be added yet; empty: it can.
   std::string NewProblem() const {
-    const std::string& file = state_.fields.file;
+    const std::string& file = fields_.file;
     std::error_code ignored;
     if (file.empty()) {
       return Tr("It needs a file: BVH, FBX, glTF or VRM.");
@@ -181,7 +181,7 @@ class ClipsPanel {
 
   void DrawAdding() {
     if (ImGui::Button(Tr("Add a clip\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
-      state_.fields = {};
+      fields_ = {};
       ImGui::OpenPopup("new clip");
     }
     Tip(Tr("A recorded motion of a BVH, FBX, glTF or VRM file, carried over to the figure"));
@@ -193,7 +193,7 @@ class ClipsPanel {
   }
 
   void DrawNewClip() {
-    DialogFields& fields = state_.fields;
+    DialogFields& fields = fields_;
     if (BeginProperties("new clip")) {
       PropertyLabel(Tr("File"));
       PathField("file", fields.file, workspace_.paths().folder, kMotions);
@@ -213,24 +213,22 @@ class ClipsPanel {
   }
 
   void Add() {
-    const std::filesystem::path file = workspace_.paths().Resolve(state_.fields.file);
+    const std::filesystem::path file = workspace_.paths().Resolve(fields_.file);
     const editor::ClipDocument clip{NewName(), workspace_.paths().Shorten(file), false};
     Edit(Text(Tr("add the clip %s"), clip.name.c_str()),
          [&](editor::CastDocument& known) { return editor::AddClip(clip, known); });
   }
 
   editor::Workspace& workspace_;
-  EditorState& state_;
+  DialogFields& fields_;
   const editor::CastDocument& member_;
 };
 
 }  // namespace
 
-void DrawClips(editor::Workspace& workspace,
-               EditorState& state,
-               const editor::CastDocument& member) {
+void DrawClips(editor::Workspace& workspace, Dialogs& dialogs, const editor::CastDocument& member) {
   if (Fold(Label(Tr("Clips"), "clips"), false)) {
-    ClipsPanel(workspace, state, member).Show();
+    ClipsPanel(workspace, dialogs.fields, member).Show();
   }
 }
 

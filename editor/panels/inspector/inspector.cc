@@ -35,7 +35,7 @@ namespace {
 
 using geometry::Similarity3;
 
-void DrawProject(editor::Workspace& workspace, EditorState& state) {
+void DrawProject(editor::Workspace& workspace, Dialogs& dialogs) {
   Heading(Tr("Project"));
   if (!BeginProperties("project")) {
     return;
@@ -62,7 +62,7 @@ void DrawProject(editor::Workspace& workspace, EditorState& state) {
   PropertyText(Tr("Drama"), workspace.paths().Drama().filename().string());
   EndProperties();
   DrawLanguages(workspace);
-  DrawSounds(workspace, state);
+  DrawSounds(workspace, dialogs);
 }
 
 std::string SourceText(const editor::SourceDocument& source) {
@@ -272,10 +272,10 @@ void RemoveSessionButton(editor::Workspace& workspace, uint32_t session, const s
   ImGui::PopID();
 }
 
-void DrawTraining(editor::Workspace& workspace, EditorState& state) {
+void DrawTraining(editor::Workspace& workspace, Dialogs& dialogs) {
   if (workspace.loaded().report != nullptr &&
       ImGui::Button(Tr("The training's report\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
-    state.dialog = Dialog::kTrainingReport;
+    dialogs.shown = Dialog::kTrainingReport;
   }
   if (workspace.loaded().has_previous) {
     ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kTraining));
@@ -314,7 +314,9 @@ void DrawSessions(editor::Workspace& workspace,
 }
 
 void DrawPlace(editor::Workspace& workspace,
-               EditorState& state,
+               Selection& selection,
+               ViewOptions& options,
+               Dialogs& dialogs,
                const editor::PlaceDocument& place) {
   Heading(place.name.c_str());
   const auto database = workspace.loaded().database;
@@ -328,21 +330,23 @@ void DrawPlace(editor::Workspace& workspace,
     }
     EndProperties();
   }
-  DrawRecordingToLookAt(workspace, state, place);
+  DrawRecordingToLookAt(workspace, options, dialogs, place);
   if (database != nullptr) {
-    DrawTraining(workspace, state);
+    DrawTraining(workspace, dialogs);
     DrawSessions(workspace, place, *workspace.loaded().statistics);
     DrawScale(workspace, place);
     DrawFloor(workspace, place);
   }
-  DrawPlaceSound(workspace, state, place);
+  DrawPlaceSound(workspace, dialogs, place);
   ImGui::Dummy(ImVec2(0, Px(6)));
-  DrawPlaceName(workspace, state, place);
+  DrawPlaceName(workspace, selection, dialogs, place);
   DrawOtherPlaces(workspace, place);
 }
 
 void DrawStage(editor::Workspace& workspace,
-               EditorState& state,
+               Selection& selection,
+               const ViewOptions& options,
+               const OrbitCamera& orbit,
                const editor::PlaceDocument& place) {
   Heading(Tr("Stage"));
   Hint(Tr("Moved by hand on top of the picks, in their metres."));
@@ -352,13 +356,13 @@ void DrawStage(editor::Workspace& workspace,
     changed = TransformProperties(workspace, transform);
     EndProperties();
   }
-  changed |= DrawTrackball(workspace, state, transform.rotation);
+  changed |= DrawTrackball(workspace, options, orbit, transform.rotation);
   if (changed) {
-    MoveSelected(workspace, state.selection, transform, "inspector stage");
+    MoveSelected(workspace, selection, transform, "inspector stage");
   }
   LayOnFloorButton(workspace);
   if (ImGui::Button(Tr("Back to the picks"), ImVec2(-FLT_MIN, 0))) {
-    MoveSelected(workspace, state.selection, Similarity3(), "");
+    MoveSelected(workspace, selection, Similarity3(), "");
   }
 }
 
@@ -374,7 +378,8 @@ const stage::AnchorReport* FindReport(const editor::Workspace& workspace, const 
 
 // Columns: anchor, number of picks, residual, largest angle.
 void DrawAnchorTable(editor::Workspace& workspace,
-                     EditorState& state,
+                     ViewOptions& options,
+                     PickTarget& picks,
                      const editor::PlaceDocument& place) {
   if (!ImGui::BeginTable("anchors", 4, ImGuiTableFlags_SizingStretchProp)) {
     return;
@@ -391,10 +396,10 @@ void DrawAnchorTable(editor::Workspace& workspace,
     const stage::Anchor& anchor = place.picks.*entries[i].anchor;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    if (ImGui::Selectable(Tr(entries[i].label), state.anchor == static_cast<int>(i),
+    if (ImGui::Selectable(Tr(entries[i].label), picks.anchor == static_cast<int>(i),
                           ImGuiSelectableFlags_SpanAllColumns)) {
-      state.anchor = static_cast<int>(i);
-      state.view = ViewKind::kPicks;
+      picks.anchor = static_cast<int>(i);
+      options.view = ViewKind::kPicks;
     }
     ImGui::TableNextColumn();
     ImGui::Text("%zu", anchor.picks.size());
@@ -426,11 +431,15 @@ void DrawLeftOut(const editor::Workspace& workspace) {
 }
 
 void DrawPicks(editor::Workspace& workspace,
-               EditorState& state,
+               const Selection& selection,
+               ViewOptions& options,
+               PickTarget& picks,
+               const AlignView& align,
+               Input& input,
                const editor::PlaceDocument& place) {
   Heading(Tr("Picks"));
   Hint(Tr("Points of the place, clicked in two or more training images, tie the stage to it."));
-  DrawAnchorTable(workspace, state, place);
+  DrawAnchorTable(workspace, options, picks, place);
   if (BeginProperties("length")) {
     double length = place.picks.length_m;
     if (NumberProperty(workspace, Tr("Length"), length, 0.01, 1e-3, 1e4, "%.3f m")) {
@@ -451,13 +460,13 @@ void DrawPicks(editor::Workspace& workspace,
   Hint(Tr(
       "The length lies between the two length points; without them, between origin and forward."));
   DrawLeftOut(workspace);
-  DrawPicksList(workspace, state);
-  if (state.view != ViewKind::kPicks) {
+  DrawPicksList(workspace, selection, options, picks, align, input);
+  if (options.view != ViewKind::kPicks) {
     if (ImGui::Button(Tr("Pick in the training images"), ImVec2(-FLT_MIN, 0))) {
-      state.view = ViewKind::kPicks;
+      options.view = ViewKind::kPicks;
     }
   } else {
-    const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(state.anchor)];
+    const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(picks.anchor)];
     const bool any = !(place.picks.*entry.anchor).picks.empty();
     ImGui::BeginDisabled(!any);
     const std::string label = Text(Tr("Clear the picks of %s"), Tr(entry.label));
@@ -489,7 +498,12 @@ void DrawNudge(editor::Workspace& workspace, const editor::PlaceDocument& place)
   }
 }
 
-void DrawProbe(editor::Workspace& workspace, EditorState& state, editor::ProbeDocument probe) {
+void DrawProbe(editor::Workspace& workspace,
+               Selection& selection,
+               ViewOptions& options,
+               LightView& light,
+               PictureTextures& pictures,
+               editor::ProbeDocument probe) {
   Heading(probe.name.c_str());
   Hint(Tr(
       "The light at a point of the stage and a time of day. Between probes it is blended, by where "
@@ -513,12 +527,12 @@ void DrawProbe(editor::Workspace& workspace, EditorState& state, editor::ProbeDo
         },
         "probe " + probe.name);
   }
-  DrawLightPanel(workspace, state, probe);
+  DrawLightPanel(workspace, options, light, pictures, probe);
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), probe.name.c_str()), [&](editor::PlaceDocument& p) {
       std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });
     });
-    state.selection = {};
+    selection = {};
   }
 }
 
@@ -531,28 +545,35 @@ const Entry* FindByName(const std::vector<Entry>& entries, const std::string& na
 
 }  // namespace
 
-void DrawInspector(editor::Workspace& workspace, EditorState& state) {
+void DrawInspector(editor::Workspace& workspace,
+                   Selection& selection,
+                   ViewOptions& options,
+                   ViewTools& tools,
+                   CastView& cast_view,
+                   PictureTextures& pictures,
+                   Input& input,
+                   Dialogs& dialogs) {
   using Kind = Selection::Kind;
   // Keeps the document alive: an edit below can replace it.
   const auto document = workspace.commands().snapshot();
   const editor::PlaceDocument* place = workspace.place();
-  const std::string& name = state.selection.name;
-  if (state.selection.kind != Kind::kActor) {
+  const std::string& name = selection.name;
+  if (selection.kind != Kind::kActor) {
     workspace.cast_pictures().Look("", {}, {});
   }
-  if (state.selection.kind == Kind::kProject) {
-    DrawProject(workspace, state);
+  if (selection.kind == Kind::kProject) {
+    DrawProject(workspace, dialogs);
     return;
   }
-  if (state.selection.kind == Kind::kActor) {
+  if (selection.kind == Kind::kActor) {
     if (const auto* member = FindByName(document->cast, name)) {
-      DrawActor(workspace, state, *member);
+      DrawActor(workspace, selection, cast_view, pictures, input, dialogs, *member);
     }
     return;
   }
-  if (state.selection.kind == Kind::kObject) {
+  if (selection.kind == Kind::kObject) {
     if (const auto* object = FindByName(document->objects, name)) {
-      DrawObject(workspace, state, *object);
+      DrawObject(workspace, selection, *object);
     }
     return;
   }
@@ -560,32 +581,34 @@ void DrawInspector(editor::Workspace& workspace, EditorState& state) {
     Hint(Tr("Add a place to begin: choose Train\xe2\x80\xa6 and name a recording of it."));
     return;
   }
-  switch (state.selection.kind) {
+  switch (selection.kind) {
     case Kind::kPlace:
-      DrawPlace(workspace, state, *place);
+      DrawPlace(workspace, selection, options, dialogs, *place);
       break;
     case Kind::kStage:
-      DrawStage(workspace, state, *place);
+      DrawStage(workspace, selection, options, tools.place.orbit, *place);
       break;
     case Kind::kPicks:
-      DrawPicks(workspace, state, *place);
+      DrawPicks(workspace, selection, options, tools.picks, tools.align, input, *place);
       break;
     case Kind::kNudge:
       DrawNudge(workspace, *place);
       break;
     case Kind::kProbe:
       if (const auto* probe = FindByName(place->probes, name)) {
-        DrawProbe(workspace, state, *probe);
+        DrawProbe(workspace, selection, options, tools.light, pictures, *probe);
       }
       break;
     case Kind::kOccluder:
       if (const auto* occluder = FindByName(place->occluders, name)) {
-        DrawOccluder(workspace, state, *occluder);
+        DrawOccluder(workspace, selection, options, tools.picks, tools.place.orbit, tools.align,
+                     input, *occluder);
       }
       break;
     case Kind::kCheckPoint:
       if (const auto* point = FindByName(document->check_points, name)) {
-        DrawCheckPoint(workspace, state, *point);
+        DrawCheckPoint(workspace, selection, options, tools.picks, tools.check, tools.align, input,
+                       *point);
       }
       break;
     case Kind::kProject:

@@ -45,12 +45,11 @@ void EditProbe(editor::Workspace& workspace,
 
 // Handles a drag over the panorama: the point under the pointer follows it.
 void DragPanorama(editor::Workspace& workspace,
-                  EditorState& state,
+                  LightView& light,
                   const ProbeDocument& probe,
                   const glm::vec3& under_pointer,
                   const glm::vec3& sun_in_probe,
                   bool at_sun) {
-  LightView& light = state.light;
   const glm::quat now = Rotation(probe);
   if (ImGui::IsItemActivated()) {
     light.dragged_in_probe = at_sun ? sun_in_probe : glm::conjugate(now) * under_pointer;
@@ -83,15 +82,20 @@ void DrawSun(const ImVec2& at, bool is_sun, ImDrawList& draw) {
   }
 }
 
-void ClickPanorama(EditorState& state, const ProbeDocument& probe, const glm::vec3& in_stage) {
-  state.light.in_probe = glm::conjugate(Rotation(probe)) * in_stage;
-  state.light.picking = ProbePicking::kOnStage;
-  state.view = ViewKind::kCamera;
+void ClickPanorama(ViewOptions& options,
+                   LightView& light,
+                   const ProbeDocument& probe,
+                   const glm::vec3& in_stage) {
+  light.in_probe = glm::conjugate(Rotation(probe)) * in_stage;
+  light.picking = ProbePicking::kOnStage;
+  options.view = ViewKind::kCamera;
 }
 
 // The panorama of the probe in stage directions, with straight ahead in the middle.
 void DrawPanorama(editor::Workspace& workspace,
-                  EditorState& state,
+                  ViewOptions& options,
+                  LightView& light,
+                  PictureTextures& pictures,
                   const ProbeDocument& probe,
                   const editor::ProbePicture& picture) {
   const float width = ImGui::GetContentRegionAvail().x;
@@ -105,8 +109,8 @@ void DrawPanorama(editor::Workspace& workspace,
       std::make_shared<const cv::Mat>(editor::DrawPanorama(picture, look, kPanoramaWidth));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 end(corner.x + size.x, corner.y + size.y);
-  draw.AddImageRounded(state.pictures.Show("panorama", shown), corner, end, ImVec2(0, 0),
-                       ImVec2(1, 1), IM_COL32_WHITE, Px(4));
+  draw.AddImageRounded(pictures.Show("panorama", shown), corner, end, ImVec2(0, 0), ImVec2(1, 1),
+                       IM_COL32_WHITE, Px(4));
   const auto place = [&](const glm::vec3& in_stage) {
     const Eigen::Vector2d point = PanoramaPoint(in_stage);
     return ImVec2(corner.x + static_cast<float>(point.x()) * size.x,
@@ -115,21 +119,21 @@ void DrawPanorama(editor::Workspace& workspace,
   draw.PushClipRect(corner, end, true);
   const ImVec2 sun = place(look.stage_from_probe * picture.brightest);
   DrawSun(sun, picture.is_sun, draw);
-  for (const bake::DirectionPair& pair : state.light.pairs) {
+  for (const bake::DirectionPair& pair : light.pairs) {
     draw.AddCircle(place(look.stage_from_probe * pair.in_probe), Px(4),
                    Packed(OverPicture().warning), 0, Px(2));
   }
-  if (state.light.in_probe) {
-    draw.AddCircleFilled(place(look.stage_from_probe * *state.light.in_probe), Px(4),
+  if (light.in_probe) {
+    draw.AddCircleFilled(place(look.stage_from_probe * *light.in_probe), Px(4),
                          Packed(OverPicture().warning));
   }
   draw.PopClipRect();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const glm::vec3 under = PanoramaDirection(std::clamp((mouse.x - corner.x) / size.x, 0.0f, 1.0f),
                                             std::clamp((mouse.y - corner.y) / size.y, 0.0f, 1.0f));
-  if (state.light.picking == ProbePicking::kOnProbe) {
+  if (light.picking == ProbePicking::kOnProbe) {
     if (ImGui::IsItemActivated()) {
-      ClickPanorama(state, probe, under);
+      ClickPanorama(options, light, probe, under);
     }
     return;
   }
@@ -139,7 +143,7 @@ void DrawPanorama(editor::Workspace& workspace,
            "ahead, the top the sky."));
   }
   const bool at_sun = std::hypot(mouse.x - sun.x, mouse.y - sun.y) < Px(14);
-  DragPanorama(workspace, state, probe, under, picture.brightest, at_sun);
+  DragPanorama(workspace, light, probe, under, picture.brightest, at_sun);
 }
 
 std::string SunText(const ProbeDocument& probe, const editor::ProbePicture& picture) {
@@ -150,8 +154,8 @@ std::string SunText(const ProbeDocument& probe, const editor::ProbePicture& pict
               kDegreesPerRadian * std::asin(std::clamp(d.y, -1.0f, 1.0f)));
 }
 
-bool PickButton(EditorState& state, const char* label, ProbePicking mode, const char* tip) {
-  const bool on = state.light.picking == mode;
+bool PickButton(const LightView& light, const char* label, ProbePicking mode, const char* tip) {
+  const bool on = light.picking == mode;
   if (on) {
     ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
   }
@@ -163,18 +167,19 @@ bool PickButton(EditorState& state, const char* label, ProbePicking mode, const 
   return pressed;
 }
 
-void BeginPicking(EditorState& state, ProbePicking mode) {
-  LightView& light = state.light;
+void BeginPicking(ViewOptions& options, LightView& light, ProbePicking mode) {
   light.picking = light.picking == mode ? ProbePicking::kNothing : mode;
   light.problem.clear();
   light.in_probe.reset();
   if (light.picking == ProbePicking::kGrey) {
-    state.view = ViewKind::kCamera;
+    options.view = ViewKind::kCamera;
   }
 }
 
-void DrawDirections(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
-  LightView& light = state.light;
+void DrawDirections(editor::Workspace& workspace,
+                    ViewOptions& options,
+                    LightView& light,
+                    const ProbeDocument& probe) {
   CheckRow(Tr("Keep the probe level"), light.level);
   Tip(Tr("Turn about the vertical only: for probes that were photographed level."));
   if (BeginProperties("turn")) {
@@ -187,11 +192,11 @@ void DrawDirections(editor::Workspace& workspace, EditorState& state, const Prob
   }
   const bool matching =
       light.picking == ProbePicking::kOnProbe || light.picking == ProbePicking::kOnStage;
-  if (PickButton(state, Tr("Match a direction  (M)"),
+  if (PickButton(light, Tr("Match a direction  (M)"),
                  matching ? light.picking : ProbePicking::kOnProbe,
                  Tr("Click the same thing on the probe's picture and in the camera view. One pair "
                     "turns the probe; two fix it, and say how far they disagree."))) {
-    BeginPicking(state, matching ? light.picking : ProbePicking::kOnProbe);
+    BeginPicking(options, light, matching ? light.picking : ProbePicking::kOnProbe);
   }
   if (light.picking == ProbePicking::kOnProbe) {
     Hint(Tr("1. Click something on the picture above that the camera sees too."));
@@ -206,8 +211,10 @@ void DrawDirections(editor::Workspace& workspace, EditorState& state, const Prob
   }
 }
 
-void DrawBrightness(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
-  LightView& light = state.light;
+void DrawBrightness(editor::Workspace& workspace,
+                    ViewOptions& options,
+                    LightView& light,
+                    const ProbeDocument& probe) {
   if (BeginProperties("brightness")) {
     ProbeDocument changed = probe;
     double stops = std::log2(std::max(probe.scale, 1e-9));
@@ -231,10 +238,10 @@ void DrawBrightness(editor::Workspace& workspace, EditorState& state, const Prob
     }
     EndProperties();
   }
-  if (PickButton(state, Tr("Pick a grey surface  (G)"), ProbePicking::kGrey,
+  if (PickButton(light, Tr("Pick a grey surface  (G)"), ProbePicking::kGrey,
                  Tr("Click a matte surface of that albedo in the camera view that nothing shades. "
                     "Several picks are matched together."))) {
-    BeginPicking(state, ProbePicking::kGrey);
+    BeginPicking(options, light, ProbePicking::kGrey);
   }
   if (light.picking == ProbePicking::kGrey) {
     Hint(Tr("Click the surface in the camera view. Escape ends."));
@@ -251,11 +258,10 @@ void DrawBrightness(editor::Workspace& workspace, EditorState& state, const Prob
   }
 }
 
-void DrawViews(editor::Workspace& workspace, EditorState& state) {
-  LightView& light = state.light;
+void DrawViews(editor::Workspace& workspace, ViewOptions& options, LightView& light) {
   CheckRow(Tr("Balls at the probe"), light.balls);
   Tip(Tr("A mirror ball and a grey one in the camera view. Drag the mirror to turn the probe."));
-  CheckRow(Tr("Before and after  (B)"), state.show_compare);
+  CheckRow(Tr("Before and after  (B)"), options.show_compare);
   Tip(Tr("The camera's image alone to the left of a line that you drag."));
   CheckRow(Tr("Histogram"), light.histogram);
   Tip(Tr("How bright the camera's image is, and how bright people are in it."));
@@ -294,13 +300,13 @@ void KeepPicksOf(LightView& light, const ProbeDocument& probe) {
 
 }  // namespace
 
-const ProbeDocument* SelectedProbe(const editor::Workspace& workspace, const EditorState& state) {
+const ProbeDocument* SelectedProbe(const editor::Workspace& workspace, const Selection& selection) {
   const editor::PlaceDocument* place = workspace.place();
-  if (place == nullptr || state.selection.kind != Selection::Kind::kProbe) {
+  if (place == nullptr || selection.kind != Selection::Kind::kProbe) {
     return nullptr;
   }
   const auto found = std::find_if(place->probes.begin(), place->probes.end(),
-                                  [&](const auto& p) { return p.name == state.selection.name; });
+                                  [&](const auto& p) { return p.name == selection.name; });
   return found == place->probes.end() ? nullptr : &*found;
 }
 
@@ -316,10 +322,9 @@ void TurnProbe(editor::Workspace& workspace,
 }
 
 void AddGreyPatch(editor::Workspace& workspace,
-                  EditorState& state,
+                  LightView& light,
                   const ProbeDocument& probe,
                   const bake::GreyPatch& patch) {
-  LightView& light = state.light;
   const editor::ProbePicture* picture = workspace.probe_picture(probe);
   if (picture == nullptr) {
     light.problem = Tr("The probe is still being read.");
@@ -345,10 +350,9 @@ void AddGreyPatch(editor::Workspace& workspace,
 }
 
 void AddDirection(editor::Workspace& workspace,
-                  EditorState& state,
+                  LightView& light,
                   const ProbeDocument& probe,
                   const glm::vec3& in_stage) {
-  LightView& light = state.light;
   if (!light.in_probe) {
     return;
   }
@@ -392,11 +396,14 @@ editor::ProbeLook LookAtProbe(const editor::Workspace& workspace, const ProbeDoc
   return look;
 }
 
-void DrawLightPanel(editor::Workspace& workspace, EditorState& state, const ProbeDocument& probe) {
-  LightView& light = state.light;
+void DrawLightPanel(editor::Workspace& workspace,
+                    ViewOptions& options,
+                    LightView& light,
+                    PictureTextures& pictures,
+                    const ProbeDocument& probe) {
   KeepPicksOf(light, probe);
   if (const editor::ProbePicture* picture = workspace.probe_picture(probe)) {
-    DrawPanorama(workspace, state, probe, *picture);
+    DrawPanorama(workspace, options, light, pictures, probe, *picture);
     DimText(SunText(probe, *picture));
     for (const std::string& warning : picture->warnings) {
       Hint(warning);
@@ -409,18 +416,22 @@ void DrawLightPanel(editor::Workspace& workspace, EditorState& state, const Prob
   } else {
     Hint(Tr("Reading the probe\xe2\x80\xa6"));
   }
-  DrawDirections(workspace, state, probe);
-  DrawBrightness(workspace, state, probe);
+  DrawDirections(workspace, options, light, probe);
+  DrawBrightness(workspace, options, light, probe);
   if (!light.problem.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
     ImGui::TextWrapped("%s", light.problem.c_str());
     ImGui::PopStyleColor();
   }
-  DrawViews(workspace, state);
+  DrawViews(workspace, options, light);
 }
 
-bool HandleLightKey(editor::Workspace& workspace, EditorState& state, const KeyPress& press) {
-  const ProbeDocument* probe = SelectedProbe(workspace, state);
+bool HandleLightKey(editor::Workspace& workspace,
+                    const Selection& selection,
+                    ViewOptions& options,
+                    LightView& light,
+                    const KeyPress& press) {
+  const ProbeDocument* probe = SelectedProbe(workspace, selection);
   if (probe == nullptr) {
     return false;
   }
@@ -458,14 +469,14 @@ bool HandleLightKey(editor::Workspace& workspace, EditorState& state, const KeyP
       brighten(1.0);
       return true;
     case KeyAction::kPickGrey:
-      BeginPicking(state, ProbePicking::kGrey);
+      BeginPicking(options, light, ProbePicking::kGrey);
       return true;
     case KeyAction::kPickDirection:
-      BeginPicking(state, ProbePicking::kOnProbe);
+      BeginPicking(options, light, ProbePicking::kOnProbe);
       return true;
     case KeyAction::kStopPicking:
-      state.light.picking = ProbePicking::kNothing;
-      state.light.in_probe.reset();
+      light.picking = ProbePicking::kNothing;
+      light.in_probe.reset();
       return true;
     default:
       return false;

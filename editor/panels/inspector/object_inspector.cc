@@ -12,7 +12,7 @@
 namespace lararium::panels {
 
 void DrawObject(editor::Workspace& workspace,
-                EditorState& state,
+                Selection& selection,
                 const editor::ObjectDocument& object) {
   Heading(object.name.c_str());
   Hint(Tr("Where it is at the beginning. What people do with it is written in the drama."));
@@ -41,7 +41,7 @@ void DrawObject(editor::Workspace& workspace,
                    [name = object.name](editor::ProjectDocument& document) {
                      std::erase_if(document.objects, [&](const auto& o) { return o.name == name; });
                    });
-    state.selection = {};
+    selection = {};
   }
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "editor/jobs/drawn_occluder.h"
-#include "editor/panels/viewport/align_panel.h"
 #include "editor/panels/viewport/gizmo_view.h"
 #include "editor/panels/viewport/picks_list.h"
 #include "editor/panels/viewport/trackball_view.h"
@@ -32,7 +31,7 @@ void DrawSizes(editor::Workspace& workspace, const editor::OccluderDocument& occ
 
 // The pose of a model or a shape.
 void DrawPlaced(editor::Workspace& workspace,
-                const EditorState& state,
+                const Selection& selection,
                 const editor::OccluderDocument& occluder) {
   Similarity3 transform = occluder.stage_from_mesh;
   bool changed = false;
@@ -46,21 +45,23 @@ void DrawPlaced(editor::Workspace& workspace,
     EndProperties();
   }
   if (changed) {
-    MoveSelected(workspace, state.selection, workspace.place()->picked_from_stage * transform,
+    MoveSelected(workspace, selection, workspace.place()->picked_from_stage * transform,
                  "inspector occluder");
   }
 }
 
 // A trackball for rotation in the axes of the view.
 void DrawBall(editor::Workspace& workspace,
-              const EditorState& state,
+              const Selection& selection,
+              const ViewOptions& options,
+              const OrbitCamera& orbit,
               const editor::OccluderDocument& occluder) {
   if (!Fold(Label(Tr("Turn by hand"), "ball"), false)) {
     return;
   }
   Similarity3 world_from_mesh = workspace.place()->picked_from_stage * occluder.stage_from_mesh;
-  if (DrawTrackball(workspace, state, world_from_mesh.rotation)) {
-    MoveSelected(workspace, state.selection, world_from_mesh, "ball of an occluder");
+  if (DrawTrackball(workspace, options, orbit, world_from_mesh.rotation)) {
+    MoveSelected(workspace, selection, world_from_mesh, "ball of an occluder");
   }
 }
 
@@ -90,7 +91,11 @@ void DrawCornerTable(const editor::OccluderDocument& occluder,
 
 // The corners of a drawn occluder.
 void DrawCorners(editor::Workspace& workspace,
-                 EditorState& state,
+                 const Selection& selection,
+                 ViewOptions& options,
+                 PickTarget& picks,
+                 const AlignView& align,
+                 Input& input,
                  const editor::OccluderDocument& occluder) {
   const double units = workspace.loaded().picks.map_from_picked.scale *
                        workspace.place()->picked_from_stage.scale;  // Map units per metre.
@@ -124,10 +129,10 @@ void DrawCorners(editor::Workspace& workspace,
       ImGui::PopStyleColor();
     }
   }
-  DrawPicksList(workspace, state);
-  if (state.view != ViewKind::kPicks &&
+  DrawPicksList(workspace, selection, options, picks, align, input);
+  if (options.view != ViewKind::kPicks &&
       ImGui::Button(Tr("Draw on the training images"), ImVec2(-FLT_MIN, 0))) {
-    state.view = ViewKind::kPicks;
+    options.view = ViewKind::kPicks;
   }
   ImGui::BeginDisabled(occluder.corners.empty());
   if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
@@ -175,28 +180,33 @@ bool ShapeSizes(editor::Workspace& workspace, editor::OccluderShape& shape) {
 }
 
 void DrawOccluder(editor::Workspace& workspace,
-                  EditorState& state,
+                  Selection& selection,
+                  ViewOptions& options,
+                  PickTarget& picks,
+                  const OrbitCamera& orbit,
+                  AlignView& align,
+                  Input& input,
                   const editor::OccluderDocument& occluder) {
   Heading(occluder.name.c_str());
   Hint(Tr("It is real, and hides who is behind it."));
   if (occluder.drawn()) {
-    DrawCorners(workspace, state, occluder);
+    DrawCorners(workspace, selection, options, picks, align, input, occluder);
   } else {
-    DrawPlaced(workspace, state, occluder);
+    DrawPlaced(workspace, selection, occluder);
   }
   if (occluder.kind() == editor::OccluderDocument::Kind::kModel) {
-    DrawAlignment(workspace, state, occluder);
+    DrawAlignment(workspace, selection, options, picks, align, input, occluder);
   }
   DrawEffects(workspace, occluder);
   if (!occluder.drawn()) {
-    DrawBall(workspace, state, occluder);
+    DrawBall(workspace, selection, options, orbit, occluder);
   }
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
     workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
                         [name = occluder.name](editor::PlaceDocument& p) {
                           std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
                         });
-    state.selection = {};
+    selection = {};
   }
 }
 

@@ -58,7 +58,7 @@ std::string LookedAtProblem(const editor::ProjectPaths& paths, const DialogField
 // Sets the recording of the camera view, as one edit. Where it cannot be opened, only shows a
 // message.
 void LookAt(editor::Workspace& workspace,
-            EditorState& state,
+            ViewOptions& options,
             const editor::SourceDocument& recording) {
   if (!recording.empty()) {
     const auto source = editor::OpenSource(workspace.paths(), recording);
@@ -73,7 +73,7 @@ void LookAt(editor::Workspace& workspace,
                         [&](editor::PlaceDocument& place) { place.preview = recording; });
   }
   workspace.SetViewSource(editor::Workspace::ViewSource::kRecording);
-  state.view = ViewKind::kCamera;
+  options.view = ViewKind::kCamera;
 }
 
 // gesture: see CommandStack::Edit.
@@ -209,8 +209,8 @@ void AddAmbienceCombo(editor::Workspace& workspace, const stage::Acoustics& acou
 }
 
 // Returns true when the dialog is finished.
-bool RecordingToLookAtDialog(editor::Workspace& workspace, EditorState& state) {
-  DialogFields& fields = state.fields;
+bool RecordingToLookAtDialog(editor::Workspace& workspace, ViewOptions& options, Dialogs& dialogs) {
+  DialogFields& fields = dialogs.fields;
   bool& other = fields.own_model;  // Uses another recording than the training.
   Hint(Tr(
       "The camera view plays it, with people in it. Another recording than the training's has to "
@@ -234,7 +234,7 @@ bool RecordingToLookAtDialog(editor::Workspace& workspace, EditorState& state) {
   const DialogAnswer answer =
       DialogButtons(Tr("Show"), other ? LookedAtProblem(workspace.paths(), fields) : "");
   if (answer == DialogAnswer::kAct) {
-    LookAt(workspace, state,
+    LookAt(workspace, options,
            other ? editor::RecordingAt(workspace.paths(), fields.file) : editor::SourceDocument());
   }
   return answer != DialogAnswer::kNone;
@@ -242,7 +242,7 @@ bool RecordingToLookAtDialog(editor::Workspace& workspace, EditorState& state) {
 
 // Renames the place as one edit. The folder has both names, so undo works.
 void Rename(editor::Workspace& workspace,
-            EditorState& state,
+            Selection& selection,
             const std::string& from,
             const std::string& to) {
   const Status status = editor::GiveFolderOtherName(workspace.paths(), from, to);
@@ -254,12 +254,15 @@ void Rename(editor::Workspace& workspace,
     editor::RenamePlaceInDocument(workspace.paths(), from, to, document);
   });
   workspace.SelectPlace(to);
-  state.selection = {Selection::Kind::kPlace, to};
+  selection = {Selection::Kind::kPlace, to};
 }
 
 // Returns true when the dialog is finished.
-bool RenameDialog(editor::Workspace& workspace, EditorState& state, const std::string& place) {
-  std::string& name = state.fields.name;
+bool RenameDialog(editor::Workspace& workspace,
+                  Selection& selection,
+                  Dialogs& dialogs,
+                  const std::string& place) {
+  std::string& name = dialogs.fields.name;
   Hint(
       Tr("Its folder gets the name too, and keeps the old one beside it, so that undo finds the "
          "files."));
@@ -276,7 +279,7 @@ bool RenameDialog(editor::Workspace& workspace, EditorState& state, const std::s
   }
   const DialogAnswer answer = DialogButtons(Tr("Rename"), problem);
   if (answer == DialogAnswer::kAct) {
-    Rename(workspace, state, place, name);
+    Rename(workspace, selection, place, name);
   }
   return answer != DialogAnswer::kNone;
 }
@@ -284,24 +287,25 @@ bool RenameDialog(editor::Workspace& workspace, EditorState& state, const std::s
 }  // namespace
 
 void DrawRecordingToLookAt(editor::Workspace& workspace,
-                           EditorState& state,
+                           ViewOptions& options,
+                           Dialogs& dialogs,
                            const editor::PlaceDocument& place) {
   const std::string title = Label(Tr("Recording to look at"), "looked at");
   if (ImGui::Button(Tr("Recording to look at\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
-    state.fields = {};
-    state.fields.own_model = !place.preview.empty();
-    state.fields.images = place.preview.kind == editor::SourceDocument::Kind::kImages;
-    state.fields.file = place.preview.path;
+    dialogs.fields = {};
+    dialogs.fields.own_model = !place.preview.empty();
+    dialogs.fields.images = place.preview.kind == editor::SourceDocument::Kind::kImages;
+    dialogs.fields.file = place.preview.path;
     ImGui::OpenPopup(title.c_str());
   }
   Tooltip(
       Tr("What the camera view plays: the recording that the place was trained from, or another "
          "one of it"));
-  DrawInspectorDialog(title, [&] { return RecordingToLookAtDialog(workspace, state); });
+  DrawInspectorDialog(title, [&] { return RecordingToLookAtDialog(workspace, options, dialogs); });
 }
 
 void DrawPlaceSound(editor::Workspace& workspace,
-                    EditorState& state,
+                    Dialogs& dialogs,
                     const editor::PlaceDocument& place) {
   Heading(Tr("Sound"));
   const stage::Acoustics acoustics = place.acoustics;  // Copied, because edits replace the place.
@@ -315,11 +319,12 @@ void DrawPlaceSound(editor::Workspace& workspace,
     ImGui::PopID();
   }
   AddAmbienceCombo(workspace, acoustics);
-  BringInSoundButton(workspace, state);
+  BringInSoundButton(workspace, dialogs);
 }
 
 void DrawPlaceName(editor::Workspace& workspace,
-                   EditorState& state,
+                   Selection& selection,
+                   Dialogs& dialogs,
                    const editor::PlaceDocument& place) {
   const std::shared_ptr<const editor::ProjectDocument> document = workspace.commands().snapshot();
   const std::string name = place.name;
@@ -329,14 +334,14 @@ void DrawPlaceName(editor::Workspace& workspace,
                     workspace.tasks().Running(editor::Workspace::kKeeping);
   ImGui::BeginDisabled(busy);
   if (ImGui::Button(Text(Tr("Rename %s\xe2\x80\xa6"), name.c_str()).c_str(), wide)) {
-    state.fields = {};
-    state.fields.name = name;
+    dialogs.fields = {};
+    dialogs.fields.name = name;
     ImGui::OpenPopup(title.c_str());
   }
   ImGui::EndDisabled();
   Tooltip(busy ? Tr("Its map is being made or written. Try again when that is done.")
                : Tr("Its folder gets the name too"));
-  DrawInspectorDialog(title, [&] { return RenameDialog(workspace, state, name); });
+  DrawInspectorDialog(title, [&] { return RenameDialog(workspace, selection, dialogs, name); });
   if (document->places.front().name == name) {
     return;
   }

@@ -3,24 +3,28 @@
 // The properties of a place besides its map: the recording of the camera view, its name, its
 // acoustics.
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/dialogs/dialog_state.h"
+#include "editor/panels/widgets/selection.h"
+#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
 
 // A button that opens the dialog for the recording of the camera view.
 void DrawRecordingToLookAt(editor::Workspace& workspace,
-                           EditorState& state,
+                           ViewOptions& options,
+                           Dialogs& dialogs,
                            const editor::PlaceDocument& place);
 
 // The reverberation and the background sound.
 void DrawPlaceSound(editor::Workspace& workspace,
-                    EditorState& state,
+                    Dialogs& dialogs,
                     const editor::PlaceDocument& place);
 
 // Buttons that rename the place and move it to the front.
 void DrawPlaceName(editor::Workspace& workspace,
-                   EditorState& state,
+                   Selection& selection,
+                   Dialogs& dialogs,
                    const editor::PlaceDocument& place);
 
 }  // namespace lararium::panels

@@ -108,11 +108,11 @@ std::string SoundProblem(const editor::ProjectPaths& paths,
 }
 
 // Returns true when the dialog is finished.
-bool SoundDialog(editor::Workspace& workspace, EditorState& state) {
+bool SoundDialog(editor::Workspace& workspace, Dialogs& dialogs) {
   Hint(
       Tr("A recording of one channel, close to what sounds and without reverberation, is best. It "
          "is copied into the project's audio folder; places and the drama call it by its name."));
-  DialogFields& fields = state.fields;
+  DialogFields& fields = dialogs.fields;
   const std::string usual_name = PlainStem(fields.file);
   if (BeginProperties("sound")) {
     PropertyLabel(Tr("File"));
@@ -160,7 +160,7 @@ void DrawLanguages(editor::Workspace& workspace) {
   }
 }
 
-void DrawSounds(editor::Workspace& workspace, EditorState& state) {
+void DrawSounds(editor::Workspace& workspace, Dialogs& dialogs) {
   Heading(Tr("Sounds"));
   Languages names;
   for (const editor::SoundFile& sound : editor::FindSounds(workspace.paths())) {
@@ -170,17 +170,17 @@ void DrawSounds(editor::Workspace& workspace, EditorState& state) {
   }
   Hint(names.empty() ? Tr("None was brought in; there are only those that are built in.")
                      : Joined(names));
-  BringInSoundButton(workspace, state);
+  BringInSoundButton(workspace, dialogs);
 }
 
-void BringInSoundButton(editor::Workspace& workspace, EditorState& state) {
+void BringInSoundButton(editor::Workspace& workspace, Dialogs& dialogs) {
   const std::string title = Label(Tr("Bring in a sound"), "bring in");
   if (ImGui::Button(Tr("Bring in a sound\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
-    state.fields = {};
+    dialogs.fields = {};
     ImGui::OpenPopup(title.c_str());
   }
   Tooltip(Tr("Copies a recording into the project, for places, the timeline and the drama"));
-  DrawInspectorDialog(title, [&] { return SoundDialog(workspace, state); });
+  DrawInspectorDialog(title, [&] { return SoundDialog(workspace, dialogs); });
 }
 
 }  // namespace lararium::panels

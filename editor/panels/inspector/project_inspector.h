@@ -2,7 +2,7 @@
 
 // The properties of the whole project besides its title: its languages and its sounds.
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/dialogs/dialog_state.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -11,7 +11,7 @@ namespace lararium::panels {
 void DrawLanguages(editor::Workspace& workspace);
 
 // The project's own sounds, and a button that adds one.
-void DrawSounds(editor::Workspace& workspace, EditorState& state);
-void BringInSoundButton(editor::Workspace& workspace, EditorState& state);
+void DrawSounds(editor::Workspace& workspace, Dialogs& dialogs);
+void BringInSoundButton(editor::Workspace& workspace, Dialogs& dialogs);
 
 }  // namespace lararium::panels

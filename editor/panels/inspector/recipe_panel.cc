@@ -48,8 +48,11 @@ constexpr RecipeSlider kSkinSliders[] = {
 
 class RecipePanel {
  public:
-  RecipePanel(editor::Workspace& workspace, EditorState& state, CastRecipe& recipe)
-      : workspace_(workspace), state_(state), recipe_(recipe), catalogue_(workspace.catalogue()) {}
+  RecipePanel(editor::Workspace& workspace, std::string& search, CastRecipe& recipe)
+      : workspace_(workspace),
+        search_(search),
+        recipe_(recipe),
+        catalogue_(workspace.catalogue()) {}
 
   RecipeChange Show() {
     if (Fold(Label(Tr("Body"), "body"), true)) {
@@ -120,7 +123,7 @@ class RecipePanel {
     if (!HasCatalogue()) {
       return;
     }
-    std::string& search = state_.cast.search;
+    std::string& search = search_;
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##search", Tr("Search: nose, lip, thigh\xe2\x80\xa6"), &search);
     bool any = false;
@@ -140,7 +143,7 @@ class RecipePanel {
 
   // During a search, groups with results are open and others are hidden.
   bool DrawGroup(const editor::CastSliderGroup& group) {
-    const std::string& search = state_.cast.search;
+    const std::string& search = search_;
     std::vector<const editor::CastSlider*> shown;
     int set = 0;
     for (const editor::CastSlider& slider : group.sliders) {
@@ -319,7 +322,7 @@ class RecipePanel {
   }
 
   editor::Workspace& workspace_;
-  EditorState& state_;
+  std::string& search_;  // The text to find among the features.
   CastRecipe& recipe_;
   const editor::CastCatalogue* catalogue_;
   RecipeChange change_;
@@ -327,8 +330,8 @@ class RecipePanel {
 
 }  // namespace
 
-RecipeChange DrawRecipe(editor::Workspace& workspace, EditorState& state, CastRecipe& recipe) {
-  return RecipePanel(workspace, state, recipe).Show();
+RecipeChange DrawRecipe(editor::Workspace& workspace, CastView& cast_view, CastRecipe& recipe) {
+  return RecipePanel(workspace, cast_view.search, recipe).Show();
 }
 
 }  // namespace lararium::panels

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "editor/import/cast/cast_recipe.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/viewport/portrait_view.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -23,7 +23,7 @@ struct RecipeChange {
 
 // Shows the recipe and edits it.
 RecipeChange DrawRecipe(editor::Workspace& workspace,
-                        EditorState& state,
+                        CastView& cast_view,
                         import::CastRecipe& recipe);
 
 // Shows the part of the recipe below "Clothes".

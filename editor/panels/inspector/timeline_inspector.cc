@@ -31,7 +31,7 @@ namespace {
 // The item that is shown, with its present fields.
 struct Item {
   editor::Workspace& workspace;
-  EditorState& state;
+  std::string& new_language;
   TimelineItem at;
   LaneKind kind = LaneKind::kMarkers;
   std::string actor;
@@ -146,6 +146,33 @@ void BoolField(Item& item, const char* label, const std::string& key) {
     }
     item.workspace.EndGesture();
   }
+  ImGui::PopID();
+}
+
+// A colour, {red, green, blue}.
+void ColourField(Item& item, const drama::LaneField& field) {
+  const Json* value = item.Find(field.key);
+  PropertyLabel(Tr(field.label));
+  ImGui::PushID(field.key);
+  if (value == nullptr || !drama::ProblemOf(field, *value).empty()) {
+    if (ImGui::Button(Tr("Set"))) {
+      item.Set(field.key, Json::array({1.0, 1.0, 1.0}));
+      item.workspace.EndGesture();
+    }
+    ImGui::PopID();
+    return;
+  }
+  auto colour = value->get<std::array<double, 3>>();
+  ImGui::SetNextItemWidth(WidthBesideClearButton());
+  if (ImGui::DragScalarN("##colour", ImGuiDataType_Double, colour.data(), 3, 0.01f, &field.least,
+                         &field.most, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+    for (double& channel : colour) {
+      channel = std::round(channel * 1000.0) / 1000.0;
+    }
+    item.Set(field.key, colour);
+  }
+  EndGestureWithItem(item.workspace);
+  ClearButton(item, field.key);
   ImGui::PopID();
 }
 
@@ -308,7 +335,7 @@ void LineText(Item& item, const bake::LineTable& table, const std::string& langu
 
 // A field for the tag of a new language; Enter adds it.
 void NewLanguage(Item& item, const bake::LineTable& table) {
-  std::string& tag = item.state.new_language;
+  std::string& tag = item.new_language;
   PropertyLabel(Tr("Language"));
   ImGui::InputTextWithHint("##language", Tr("la, it, en: then Enter"), &tag);
   if (ImGui::IsItemDeactivatedAfterEdit() && stage::IsLanguageTag(tag)) {
@@ -368,6 +395,9 @@ void DrawField(Item& item, const drama::LaneField& field) {
     case drama::FieldType::kYesNo:
       BoolField(item, Tr(field.label), field.key);
       break;
+    case drama::FieldType::kColour:
+      ColourField(item, field);
+      break;
     case drama::FieldType::kPoint:
       PointField(item, Tr(field.label), field.key);
       break;
@@ -382,10 +412,13 @@ void DrawField(Item& item, const drama::LaneField& field) {
   }
 }
 
-void DrawItem(editor::Workspace& workspace, EditorState& state, const TimelineItem& at) {
+void DrawItem(editor::Workspace& workspace,
+              EditorActions& actions,
+              std::string& new_language,
+              const TimelineItem& at) {
   const drama::TimelineText& text = *workspace.script().timeline();
   const drama::TimelineLane& lane = text.lanes()[at.lane];
-  Item item{workspace, state, at, lane.kind, lane.actor, text.Fields(at)};
+  Item item{workspace, new_language, at, lane.kind, lane.actor, text.Fields(at)};
   Heading(ItemTitle(lane.kind));
   if (!lane.actor.empty()) {
     ImGui::SameLine();
@@ -408,12 +441,13 @@ void DrawItem(editor::Workspace& workspace, EditorState& state, const TimelineIt
   const size_t line =
       workspace.script().timeline() != nullptr ? workspace.script().timeline()->LineOf(at) : 0;
   if (line > 0 && ImGui::Button(Text(Tr("Show line %zu of the script"), line).c_str())) {
-    state.script_line = static_cast<int>(line);
-    state.bottom = BottomTab::kScript;
+    actions.push_back(GoToScriptLine{static_cast<int>(line)});
   }
 }
 
-void DrawBlock(editor::Workspace& workspace, EditorState& state, const drama::TaskRecord& task) {
+void DrawBlock(editor::Workspace& workspace,
+               EditorActions& actions,
+               const drama::TaskRecord& task) {
   Heading(task.from_timeline ? Tr("As it was played") : Tr("Of the script"));
   if (BeginProperties("block", 84.0f)) {
     PropertyText(Tr("Who"), task.actor);
@@ -429,8 +463,7 @@ void DrawBlock(editor::Workspace& workspace, EditorState& state, const drama::Ta
   }
   const int line = LineOfPlace(task.where, workspace.paths().Drama().filename().string());
   if (line > 0 && ImGui::Button(Text(Tr("Show line %d of the script"), line).c_str())) {
-    state.script_line = line;
-    state.bottom = BottomTab::kScript;
+    actions.push_back(GoToScriptLine{line});
   }
   Hint(
       Tr("The script does this when it runs. Change it there; what is written in track{...} can "
@@ -440,9 +473,10 @@ void DrawBlock(editor::Workspace& workspace, EditorState& state, const drama::Ta
 }  // namespace
 
 void DrawTimelineInspector(editor::Workspace& workspace,
-                           EditorState& state,
+                           EditorActions& actions,
                            const editor::ItemSet& selection,
-                           std::optional<uint32_t> block) {
+                           std::optional<uint32_t> block,
+                           std::string& new_language) {
   const drama::TimelineText* text = workspace.script().timeline();
   const editor::DramaRun* run = workspace.drama_run();
   if (text == nullptr) {
@@ -451,7 +485,7 @@ void DrawTimelineInspector(editor::Workspace& workspace,
     return;
   }
   if (selection.size() == 1) {
-    DrawItem(workspace, state, selection.front());
+    DrawItem(workspace, actions, new_language, selection.front());
   } else if (selection.size() > 1) {
     const editor::TimeSpan span = editor::SpanOf(*text, selection);
     Heading(TrCount("%d item", "%d items", static_cast<int>(selection.size())).c_str());
@@ -460,7 +494,7 @@ void DrawTimelineInspector(editor::Workspace& workspace,
         Tr("Drag to move them, drag an end to trim them, Delete to remove them, Ctrl+D to "
            "duplicate them."));
   } else if (block && run != nullptr && *block < run->tasks.size()) {
-    DrawBlock(workspace, state, run->tasks[*block]);
+    DrawBlock(workspace, actions, run->tasks[*block]);
   } else {
     Hint(Tr("Choose an item to see what it says. Double-click a lane, or press A, to add one."));
   }

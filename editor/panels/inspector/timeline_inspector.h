@@ -6,15 +6,17 @@
 #include <optional>
 
 #include "editor/check/timeline_edits.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/widgets/editor_actions.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
 
-// block: a task of the dry run, where no item is selected.
+// block: a task of the dry run, where no item is selected. new_language: the tag that is being
+// typed for a new language of the lines.
 void DrawTimelineInspector(editor::Workspace& workspace,
-                           EditorState& state,
+                           EditorActions& actions,
                            const editor::ItemSet& selection,
-                           std::optional<uint32_t> block);
+                           std::optional<uint32_t> block,
+                           std::string& new_language);
 
 }  // namespace lararium::panels

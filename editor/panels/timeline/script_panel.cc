@@ -209,7 +209,7 @@ void ScriptPanel::Refresh(editor::Workspace& workspace) {
   }
 }
 
-void ScriptPanel::DrawField(editor::Workspace& workspace, EditorState& state) {
+void ScriptPanel::DrawField(editor::Workspace& workspace, Input& input) {
   ScriptFieldTask task;
   task.go_to = std::exchange(go_to_, -1);
   Refresh(workspace);
@@ -248,7 +248,7 @@ void ScriptPanel::DrawField(editor::Workspace& workspace, EditorState& state) {
     focus_field_ = true;
   }
   if (active) {
-    state.focus = Focus::kScript;
+    input.focus = Focus::kScript;
     cursor_ = task.cursor;
   }
   if (edited && buffer_ != workspace.script().text()) {
@@ -271,9 +271,9 @@ void ScriptPanel::DrawField(editor::Workspace& workspace, EditorState& state) {
   if (const ImGuiWindow* window = ImGui::FindWindowByName(name)) {
     scroll = window->Scroll;
   }
-  const ImGuiInputTextState* input = ImGui::GetInputTextState(id);
-  if (input != nullptr && active) {
-    scroll.x = input->ScrollX;
+  const ImGuiInputTextState* field = ImGui::GetInputTextState(id);
+  if (field != nullptr && active) {
+    scroll.x = field->ScrollX;
   }
   view.text = ImVec2(view.at.x + view.gutter - scroll.x, view.at.y - scroll.y);
   view.first =
@@ -284,8 +284,8 @@ void ScriptPanel::DrawField(editor::Workspace& workspace, EditorState& state) {
   draw.PushClipRect(ImVec2(view.at.x + view.gutter, view.at.y),
                     ImVec2(view.at.x + view.size.x, view.at.y + view.size.y), true);
   DrawText(view);
-  if (active && input != nullptr &&
-      (input->CursorAnim <= 0.0f || std::fmod(input->CursorAnim, 1.2f) <= 0.8f)) {
+  if (active && field != nullptr &&
+      (field->CursorAnim <= 0.0f || std::fmod(field->CursorAnim, 1.2f) <= 0.8f)) {
     const size_t line = LineAt(std::min(cursor_, buffer_.size()));
     const float x = view.text.x +
                     ImGui::CalcTextSize(buffer_.data() + lines_[line], buffer_.data() + cursor_).x;
@@ -298,7 +298,7 @@ void ScriptPanel::DrawField(editor::Workspace& workspace, EditorState& state) {
   draw.PopClipRect();
 }
 
-void ScriptPanel::DrawTools(editor::Workspace& workspace, EditorState& state) {
+void ScriptPanel::DrawTools(editor::Workspace& workspace) {
   Refresh(workspace);
   ImGui::AlignTextToFramePadding();
   const size_t offset = std::min(cursor_, buffer_.size());
@@ -313,20 +313,20 @@ void ScriptPanel::DrawTools(editor::Workspace& workspace, EditorState& state) {
       // The next problem behind the cursor, or the first one.
       auto next = problems_.upper_bound(static_cast<int>(line) + 1);
       next = next == problems_.end() ? problems_.begin() : next;
-      state.script_line = next->first;
+      asked_line_ = next->first;
     }
   }
 }
 
-void ScriptPanel::Show(editor::Workspace& workspace, EditorState& state) {
+void ScriptPanel::Show(editor::Workspace& workspace, Input& input) {
   CollectProblems(workspace);
-  focus_field_ |= state.keyboard.TakesOver(Region::kBottom);
-  if (state.script_line > 0) {
+  focus_field_ |= input.keyboard.TakesOver(Region::kBottom);
+  if (asked_line_ > 0) {
     Refresh(workspace);
-    const auto line = std::min(static_cast<size_t>(state.script_line), lines_.size());
+    const auto line = std::min(static_cast<size_t>(asked_line_), lines_.size());
     go_to_ = static_cast<int64_t>(lines_[line - 1]);
     focus_field_ = true;
-    state.script_line = 0;
+    asked_line_ = 0;
     EndTyping(workspace);
   }
   since_typed_ += ImGui::GetIO().DeltaTime;
@@ -336,7 +336,7 @@ void ScriptPanel::Show(editor::Workspace& workspace, EditorState& state) {
   ImGui::PushFont(ThemeFonts().code);
   ImGui::BeginChild("script", ImGui::GetContentRegionAvail(), false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  DrawField(workspace, state);
+  DrawField(workspace, input);
   ImGui::EndChild();
   ImGui::PopFont();
 }

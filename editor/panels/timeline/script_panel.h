@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "editor/panels/timeline/lua_colours.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/widgets/input.h"
 #include "editor/session/workspace.h"
 #include "shared/core/sentence.h"
 
@@ -17,13 +17,15 @@ namespace lararium::panels {
 
 class ScriptPanel {
  public:
-  void DrawTools(editor::Workspace& workspace, EditorState& state);
-  void Show(editor::Workspace& workspace, EditorState& state);
+  void DrawTools(editor::Workspace& workspace);
+  // Moves the cursor to a line, from 1, when the panel is shown next.
+  void GoToLine(int line) { asked_line_ = line; }
+  void Show(editor::Workspace& workspace, Input& input);
 
  private:
   void Refresh(editor::Workspace& workspace);
   void CollectProblems(const editor::Workspace& workspace);
-  void DrawField(editor::Workspace& workspace, EditorState& state);
+  void DrawField(editor::Workspace& workspace, Input& input);
   void DrawText(const struct FieldView& view);
   void DrawGutter(const struct FieldView& view);
   void EndTyping(editor::Workspace& workspace);
@@ -42,6 +44,7 @@ class ScriptPanel {
   double since_typed_ = 0.0;  // Seconds.
   bool typing_ = false;
   int64_t go_to_ = -1;  // Byte to which the cursor moves next.
+  int asked_line_ = 0;  // See GoToLine(); 0: none.
   bool focus_field_ = false;
 };
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "editor/document/timeline_fields.h"
 #include "editor/panels/inspector/timeline_inspector.h"
+#include "editor/panels/timeline/timeline_commands.h"
 #include "editor/panels/timeline/timeline_draw.h"
 #include "editor/panels/timeline/timeline_labels.h"
 #include "editor/panels/widgets/icons.h"
@@ -24,17 +24,13 @@ using drama::TaskRecord;
 using drama::TimelineItem;
 using drama::TimelineLane;
 using drama::TimelineText;
-using editor::TextOf;
 
 namespace {
 
 // Logical pixels.
-constexpr float kSpeechRow = 42.0f;
 constexpr float kRuler = 26.0f;
 constexpr float kGutter = 176.0f;
 constexpr float kInspector = 300.0f;
-
-uint64_t KeyOf(const TimelineItem& item) { return uint64_t{item.lane} << 40 | item.item; }
 
 bool ToggleButton(const std::string& label, bool& on, const std::string& tip) {
   ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
@@ -52,78 +48,20 @@ bool ToggleButton(const std::string& label, bool& on, const std::string& tip) {
 // ---- Content ----
 
 void TimelinePanel::Refresh(const editor::Workspace& workspace) {
-  const editor::ScriptDocument& script = workspace.script();
-  const std::vector<editor::CastDocument>& cast = workspace.document().cast;
-  if (script.revision() == script_ && workspace.drama_run_number() == run_ &&
-      cast.size() == cast_) {
-    FillShown();
-    return;
-  }
-  const bool new_run = workspace.drama_run_number() != run_;
-  script_ = script.revision();
-  run_ = workspace.drama_run_number();
-  cast_ = cast.size();
-  faces_.clear();
-  std::vector<std::string> people;
-  for (const editor::CastDocument& member : cast) {
-    people.push_back(member.name);
-  }
-  const std::span<const TaskRecord> tasks =
-      workspace.drama_run() != nullptr ? std::span<const TaskRecord>(workspace.drama_run()->tasks)
-                                       : std::span<const TaskRecord>();
-  rows_ = MakeRows(script.timeline(), people, tasks);
-  if (new_run) {
-    block_.reset();
-    if (!objects_folded_at_first_ && !tasks.empty()) {
-      objects_folded_at_first_ = true;
-      for (const TimelineRow& row : rows_) {
-        if (row.of_object) {
-          folded_.insert(KeyOfGroup(row));
-        }
-      }
+  const TimelineLayout::Change change = layout_.Refresh(workspace);
+  if (change.rows) {
+    items_.Clear();
+    if (change.run) {
+      selection_.ClearBlock();
     }
+    selection_.KeepValid(workspace.script().timeline());
   }
-  if (script.timeline() != nullptr) {
-    editor::KeepValid(*script.timeline(), selection_);
-  } else {
-    selection_.clear();
-  }
-  FillShown();
-}
-
-const TimelinePanel::Face& TimelinePanel::FaceOf(const editor::Workspace& workspace,
-                                                 const TimelineItem& item) {
-  const auto [entry, is_new] = faces_.try_emplace(KeyOf(item));
-  Face& face = entry->second;
-  if (!is_new) {
-    return face;
-  }
-  const TimelineText& text = *workspace.script().timeline();
-  const TimelineLane& lane = text.lanes()[item.lane];
-  Json fields = Json::object();
-  for (drama::TimelineField& field : text.Fields(item)) {
-    fields[field.key] = std::move(field.value);
-  }
-  face.label = LabelOf(lane.kind, fields);
-  face.line = TextOf(fields, "line");
-  const editor::DramaRun* run = workspace.drama_run();
-  if (run == nullptr || lane.length[item.item] > 0.0) {
-    return face;
-  }
-  face.natural = editor::NaturalSeconds(text, item, *run);
-  face.natural = std::min(face.natural, kLongNatural);
-  return face;
 }
 
 editor::TimeSpan TimelinePanel::Shown(const editor::Workspace& workspace,
                                       const TimelineItem& item) {
-  const TimelineLane& lane = workspace.script().timeline()->lanes()[item.lane];
-  editor::TimeSpan span{lane.at[item.item], lane.at[item.item] + lane.length[item.item]};
-  if (lane.length[item.item] <= 0.0 &&
-      drama::SpecOf(lane.kind).duration != drama::ItemDuration::kMoment) {
-    span.end = span.begin + FaceOf(workspace, item).natural;
-  }
-  if (drag_.by != 0.0 && editor::Contains(selection_, item)) {
+  editor::TimeSpan span = items_.SpanOf(workspace, item);
+  if (drag_.by != 0.0 && editor::Contains(selection_.items(), item)) {
     if (drag_.kind == Drag::Kind::kMove) {
       span.begin += drag_.by;
       span.end += drag_.by;
@@ -160,29 +98,6 @@ void TimelinePanel::DrawVoiceOf(const editor::Workspace& workspace,
   }
 }
 
-int TimelinePanel::RowAt(float y) const {
-  const auto behind = std::upper_bound(tops_.begin(), tops_.end(), y);
-  return behind == tops_.begin() || behind == tops_.end()
-             ? -1
-             : static_cast<int>(behind - tops_.begin()) - 1;
-}
-
-void TimelinePanel::FillShown() {
-  shown_.clear();
-  tops_ = {0.0f};
-  bool folded = false;
-  for (const TimelineRow& row : rows_) {
-    if (row.kind == TimelineRow::Kind::kHeading) {
-      folded = folded_.contains(KeyOfGroup(row));
-    } else if (folded) {
-      continue;
-    }
-    shown_.push_back(&row);
-    const bool speech = row.kind != TimelineRow::Kind::kHeading && row.lane == LaneKind::kSpeech;
-    tops_.push_back(tops_.back() + Px(speech ? kSpeechRow : kRow));
-  }
-}
-
 void TimelinePanel::DrawItems(const editor::Workspace& workspace,
                               const TimelineRow& row,
                               float top,
@@ -197,11 +112,11 @@ void TimelinePanel::DrawItems(const editor::Workspace& workspace,
   for (const size_t lane : row.lanes) {
     const TimelineLane& in = text.lanes()[lane];
     found_.clear();
-    text.Query(lane, std::max(scale_.first - kLongNatural, 0.0), to, found_);
+    text.Query(lane, std::max(scale_.first - TimelineItems::kLongNatural, 0.0), to, found_);
     float filled_to = scale_.left - 1.0f;
     for (const uint32_t number : found_) {
       const TimelineItem item{lane, number};
-      const bool selected = editor::Contains(selection_, item);
+      const bool selected = editor::Contains(selection_.items(), item);
       // Where several items lie within one pixel, only one is drawn.
       const double end = in.at[number] + std::max(in.length[number], 0.0);
       const float plain_end = std::max(scale_.XOf(end), scale_.XOf(in.at[number]) + 1.0f);
@@ -226,15 +141,17 @@ void TimelinePanel::DrawItems(const editor::Workspace& workspace,
       const float width = x1 - x0;
       const bool labelled = width > Px(24);
       DrawItem(draw, ImVec2(std::max(x0, scale_.left - Px(8)), y0), ImVec2(x1 - 1.0f, y1), colour,
-               labelled ? WithIcon(IconOf(row.lane), FaceOf(workspace, item).label) : std::string(),
+               labelled ? WithIcon(IconOf(row.lane), items_.FaceOf(workspace, item).label)
+                        : std::string(),
                look);
       if (row.lane == LaneKind::kMarkers) {
-        const std::string& name = FaceOf(workspace, item).label;
+        const std::string& name = items_.FaceOf(workspace, item).label;
         draw.AddText(ImVec2(x1 + Px(3), y0 + Px(1)), Packed(Colours().text), name.c_str());
       }
       if (row.lane == LaneKind::kSpeech && labelled) {
-        DrawVoiceOf(workspace, FaceOf(workspace, item).line, span.begin, ImVec2(x0, y0 + Px(19)),
-                    ImVec2(x1 - 1.0f, y1), Packed(Colours().window, 0.75f), draw);
+        DrawVoiceOf(workspace, items_.FaceOf(workspace, item).line, span.begin,
+                    ImVec2(x0, y0 + Px(19)), ImVec2(x1 - 1.0f, y1), Packed(Colours().window, 0.75f),
+                    draw);
       }
     }
   }
@@ -260,7 +177,7 @@ void TimelinePanel::DrawBlocks(const editor::Workspace& workspace,
     ItemLook look;
     look.scripted = true;
     look.failed = task.failed && !task.expected;
-    look.selected = block_ == block;
+    look.selected = selection_.block() == block;
     look.hovered = hit.block == block;
     DrawItem(draw, ImVec2(std::max(x0, scale_.left - Px(8)), top + Px(3)),
              ImVec2(x1 - 1.0f, top + height - Px(3)), colour,
@@ -276,16 +193,16 @@ void TimelinePanel::DrawBlocks(const editor::Workspace& workspace,
 
 void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float width) const {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float text_y = at.y + 0.5f * (Px(kRow) - ImGui::GetTextLineHeight());
-  const ImVec4 clip(at.x, at.y, at.x + width - Px(6), at.y + Px(kRow));
+  const float text_y = at.y + 0.5f * (Px(TimelineLayout::kRow) - ImGui::GetTextLineHeight());
+  const ImVec4 clip(at.x, at.y, at.x + width - Px(6), at.y + Px(TimelineLayout::kRow));
   const auto write = [&](float x, const ImVec4& colour, const std::string& text) {
     draw.AddText(nullptr, 0.0f, ImVec2(at.x + x, text_y), Packed(colour), text.c_str(), nullptr,
                  0.0f, &clip);
   };
   if (row.kind != TimelineRow::Kind::kHeading) {
     draw.AddRectFilled(ImVec2(at.x + Px(14), at.y + Px(5)),
-                       ImVec2(at.x + Px(17), at.y + Px(kRow - 5)), Packed(LaneColour(row.lane)),
-                       Px(1));
+                       ImVec2(at.x + Px(17), at.y + Px(TimelineLayout::kRow - 5)),
+                       Packed(LaneColour(row.lane)), Px(1));
     const bool scripted = row.kind == TimelineRow::Kind::kBlocks;
     const std::string title = row.of_object ? Tr("used")
                               : scripted    ? std::string(LaneTitle(row.lane)) + ", " + Tr("script")
@@ -293,8 +210,8 @@ void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float w
     write(Px(22), Colours().dim, WithIcon(IconOf(row.lane), title));
     return;
   }
-  const bool folded = folded_.contains(KeyOfGroup(row));
-  const ImVec2 c(at.x + Px(11), at.y + Px(0.5f * kRow));
+  const bool folded = layout_.IsFolded(row);
+  const ImVec2 c(at.x + Px(11), at.y + Px(0.5f * TimelineLayout::kRow));
   if (folded) {
     draw.AddTriangleFilled(ImVec2(c.x - Px(3), c.y - Px(5)), ImVec2(c.x - Px(3), c.y + Px(5)),
                            ImVec2(c.x + Px(4), c.y), Packed(Colours().dim));
@@ -366,17 +283,18 @@ void TimelinePanel::DrawRuler(editor::Workspace& workspace, float height) {
 
 // Scrolls by the smallest amount that shows the row of the last selection.
 void TimelinePanel::ScrollToChosen() {
-  const std::optional<TimelineStop> chosen = ChosenLast();
-  for (size_t i = 0; i < shown_.size() && chosen; ++i) {
-    if (HasStop(*shown_[i], *chosen)) {
-      const float lowest = tops_[i + 1] - ImGui::GetWindowHeight();
-      ImGui::SetScrollY(std::clamp(ImGui::GetScrollY(), std::min(lowest, tops_[i]), tops_[i]));
+  const std::optional<TimelineStop> chosen = selection_.Last();
+  for (size_t i = 0; i < layout_.shown().size() && chosen; ++i) {
+    if (HasStop(*layout_.shown()[i], *chosen)) {
+      const float lowest = layout_.Top(i + 1) - ImGui::GetWindowHeight();
+      ImGui::SetScrollY(
+          std::clamp(ImGui::GetScrollY(), std::min(lowest, layout_.Top(i)), layout_.Top(i)));
       return;
     }
   }
 }
 
-void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawRows(editor::Workspace& workspace, Input& input, EditorActions& actions) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::BeginChild("rows", ImVec2(0, 0), false,
                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_AlwaysVerticalScrollbar);
@@ -387,14 +305,13 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 view = ImGui::GetWindowPos();
   const ImVec2 view_size = ImGui::GetWindowSize();
-  rows_view_ = view_size.y;
-  const float height = tops_.back();
+  const float height = layout_.height();
   ImGui::InvisibleButton("items",
                          ImVec2(Px(kGutter) + scale_.width, std::max(height, view_size.y - Px(2))),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
   const bool hovered = ImGui::IsItemHovered();
-  HandleMouse(workspace, state, origin.y, hovered);
+  HandleMouse(workspace, input, actions, origin.y, hovered);
   const Hit hit = hovered && drag_.kind == Drag::Kind::kNone
                       ? HitAt(workspace, ImGui::GetIO().MousePos, origin.y)
                       : Hit();
@@ -407,14 +324,14 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
                      ImVec2(scale_.left + scale_.width, view.y + view_size.y),
                      Packed(Colours().window, 0.45f));
   draw.PopClipRect();
-  for (size_t i = static_cast<size_t>(std::max(RowAt(view.y - origin.y), 0)); i < shown_.size();
-       ++i) {
-    const float top = origin.y + tops_[i];
+  for (size_t i = static_cast<size_t>(std::max(layout_.RowAt(view.y - origin.y), 0));
+       i < layout_.shown().size(); ++i) {
+    const float top = origin.y + layout_.Top(i);
     if (top > view.y + view_size.y) {
       break;
     }
-    DrawRow(workspace, *shown_[i], top, tops_[i + 1] - tops_[i], hit, draw);
-    DrawGutter(*shown_[i], ImVec2(view.x, top), Px(kGutter));
+    DrawRow(workspace, *layout_.shown()[i], top, layout_.Top(i + 1) - layout_.Top(i), hit, draw);
+    DrawGutter(*layout_.shown()[i], ImVec2(view.x, top), Px(kGutter));
   }
   draw.PushClipRect(ImVec2(scale_.left, view.y),
                     ImVec2(scale_.left + scale_.width, view.y + view_size.y), true);
@@ -433,7 +350,8 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
   }
   DrawPlayhead(draw, scale_.XOf(workspace.time()), view.y, view.y + view_size.y);
   draw.PopClipRect();
-  if (shown_.empty() || (rows_.size() <= 1 && workspace.document().cast.empty())) {
+  if (layout_.shown().empty() ||
+      (layout_.rows().size() <= 1 && workspace.document().cast.empty())) {
     const char* text = Tr("Nobody is on the stage yet. Add a person in the list at the left.");
     draw.AddText(ImVec2(scale_.left + Px(24), view.y + Px(34)), Packed(Colours().dim), text);
   }
@@ -444,7 +362,7 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
     ImGui::OpenPopup("add menu");
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(8), Px(7)));  // The spacing of menus.
-  DrawContextMenu(workspace, state);
+  DrawContextMenu(workspace, actions);
   if (ImGui::BeginPopup("add menu")) {
     DrawAddMenu(workspace);
     ImGui::EndPopup();
@@ -474,50 +392,50 @@ void TimelinePanel::DrawAddMenu(editor::Workspace& workspace) {
   DrawKindMenu(workspace, "");
 }
 
-void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorActions& actions) {
   if (!ImGui::BeginPopup("item menu")) {
     return;
   }
-  const bool any = !selection_.empty();
+  const bool any = selection_.HasItems();
   if (context_.block) {
     if (ImGui::MenuItem(Tr("Go to the script"), Tr("Enter"))) {
-      block_ = context_.block;
-      selection_.clear();
-      GoToScript(workspace, state);
+      selection_.SelectBlock(*context_.block, context_.group);
+      GoToScript(workspace, actions);
     }
   } else if (context_.item) {
     if (ImGui::MenuItem(Tr("Cut"), "Ctrl+X", false, any)) {
-      Copy(workspace);
-      Delete(workspace);
+      CopySelected(workspace, selection_);
+      DeleteSelected(workspace, selection_, items_, ripple_);
     }
     if (ImGui::MenuItem(Tr("Copy"), "Ctrl+C", false, any)) {
-      Copy(workspace);
+      CopySelected(workspace, selection_);
     }
     if (ImGui::MenuItem(Tr("Duplicate"), "Ctrl+D", false, any)) {
-      Duplicate(workspace);
+      DuplicateSelected(workspace, selection_, items_);
     }
     if (ImGui::MenuItem(Tr("Delete"), TrIn("key", "Delete"), false, any)) {
-      Delete(workspace);
+      DeleteSelected(workspace, selection_, items_, ripple_);
     }
     ImGui::Separator();
     if (ImGui::MenuItem(Tr("Begin at the playhead"), "[", false, any)) {
-      TrimToPlayhead(workspace, true);
+      TrimToPlayhead(workspace, selection_, items_, true, ripple_);
     }
     if (ImGui::MenuItem(Tr("End at the playhead"), "]", false, any)) {
-      TrimToPlayhead(workspace, false);
+      TrimToPlayhead(workspace, selection_, items_, false, ripple_);
     }
     ImGui::Separator();
     if (ImGui::MenuItem(Tr("Go to the script"), Tr("Enter"))) {
-      GoToScript(workspace, state);
+      GoToScript(workspace, actions);
     }
   } else {
     if (ImGui::MenuItem(Tr("Paste"), "Ctrl+V")) {
-      Paste(workspace);
+      PasteCopied(workspace, selection_);
     }
     ImGui::Separator();
-    const TimelineRow* row = context_.row >= 0 && context_.row < static_cast<int>(shown_.size())
-                                 ? shown_[static_cast<size_t>(context_.row)]
-                                 : nullptr;
+    const TimelineRow* row =
+        context_.row >= 0 && context_.row < static_cast<int>(layout_.shown().size())
+            ? &layout_.Shown(context_.row)
+            : nullptr;
     if (row != nullptr && !row->of_object) {
       DimText(row->group.empty() ? Tr("Stage") : row->group);
       DrawKindMenu(workspace, row->group);
@@ -530,7 +448,7 @@ void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorState& s
 
 // ---- The panel ----
 
-void TimelinePanel::DrawTools(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::DrawTools(editor::Workspace& workspace, Input& input) {
   PlayButton(workspace);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
@@ -541,7 +459,7 @@ void TimelinePanel::DrawTools(editor::Workspace& workspace, EditorState& state) 
   ImGui::BeginDisabled(workspace.script().timeline() == nullptr);
   if (ImGui::Button(WithIcon(Icon::kAdd, Tr("Add")).c_str())) {
     open_add_ = true;
-    state.focus = Focus::kTimeline;
+    input.focus = Focus::kTimeline;
   }
   ImGui::EndDisabled();
   Tip(WithKey(Tr("Adds an item at the playhead"), KeyAction::kAdd));
@@ -587,15 +505,15 @@ void TimelinePanel::DrawSwitchMenu(const editor::Workspace& workspace) {
   }
 }
 
-void TimelinePanel::Show(editor::Workspace& workspace, EditorState& state) {
+void TimelinePanel::Show(editor::Workspace& workspace, Input& input, EditorActions& actions) {
   Refresh(workspace);
-  const auto asked = std::exchange(state.timeline_item, std::nullopt);
+  const auto asked = std::exchange(asked_, std::nullopt);
   if (const TimelineText* text = workspace.script().timeline(); asked && text != nullptr) {
     editor::ItemSet still_there = {*asked};
     editor::KeepValid(*text, still_there);
     for (const TimelineItem& item : still_there) {
       Choose(*text, item);
-      FillShown();
+      layout_.LayOut();
     }
   }
   const ImVec2 available = ImGui::GetContentRegionAvail();
@@ -611,18 +529,16 @@ void TimelinePanel::Show(editor::Workspace& workspace, EditorState& state) {
     ScrollTo(scale_, workspace.time());
   }
   DrawRuler(workspace, Px(kRuler));
-  DrawRows(workspace, state);
+  DrawRows(workspace, input, actions);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::SameLine(0.0f, Px(12));
-  state.keyboard.Before(Region::kItem);
+  input.keyboard.Before(Region::kItem);
   ImGui::BeginChild("item", ImVec2(0, available.y));
-  state.keyboard.Begin(Region::kItem);
-  DrawTimelineInspector(workspace, state, selection_, block_);
-  state.keyboard.End(Region::kItem);
+  input.keyboard.Begin(Region::kItem);
+  DrawTimelineInspector(workspace, actions, selection_.items(), selection_.block(), new_language_);
+  input.keyboard.End(Region::kItem);
   ImGui::EndChild();
-  state.walk.item = selection_.size() == 1 ? std::optional(selection_.front()) : std::nullopt;
-  state.walk.task = selection_.empty() ? block_ : std::nullopt;
 }
 
 }  // namespace lararium::panels

@@ -38,6 +38,13 @@ TimelineStop StepAcross(std::span<const TimelineLine> lines,
 
 }  // namespace
 
+bool HasStop(const TimelineRow& row, const TimelineStop& stop) {
+  return stop.item
+             ? std::find(row.lanes.begin(), row.lanes.end(), stop.item->lane) != row.lanes.end()
+             : KeyOfGroup(row) == stop.group &&
+                   std::find(row.blocks.begin(), row.blocks.end(), stop.block) != row.blocks.end();
+}
+
 std::vector<TimelineLine> LinesOf(std::span<const TimelineRow> rows,
                                   const drama::TimelineText& text,
                                   std::span<const drama::TaskRecord> tasks,

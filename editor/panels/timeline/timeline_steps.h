@@ -36,6 +36,9 @@ struct TimelineLine {
   bool shown = true;  // The line's group is not folded.
 };
 
+// Whether a row has a stop.
+bool HasStop(const TimelineRow& row, const TimelineStop& stop);
+
 // The lines of the rows, in their order. folded: KeyOfGroup() of folded groups.
 std::vector<TimelineLine> LinesOf(std::span<const TimelineRow> rows,
                                   const drama::TimelineText& text,

@@ -19,15 +19,14 @@ namespace {
 using Eigen::Vector3d;
 using geometry::Similarity3;
 
-// The state for the selected model; state of another model is discarded.
-AlignView& ViewOf(EditorState& state, const std::string& occluder) {
-  if (state.align.occluder != occluder) {
-    const double search = state.align.search_m;
-    state.align = {};
-    state.align.occluder = occluder;
-    state.align.search_m = search;
+// Discards the state of another model.
+void DiscardOtherModel(AlignView& align, const std::string& occluder) {
+  if (align.occluder != occluder) {
+    const double search = align.search_m;
+    align = {};
+    align.occluder = occluder;
+    align.search_m = search;
   }
-  return state.align;
 }
 
 void Warn(const std::string& text) {
@@ -37,7 +36,8 @@ void Warn(const std::string& text) {
 }
 
 // Columns: point, images, centimetres, pixels. A click on a row selects the pair for picking.
-void DrawPairTable(EditorState& state,
+void DrawPairTable(ViewOptions& options,
+                   AlignView& align,
                    const editor::OccluderDocument& occluder,
                    const editor::AlignmentReport& report) {
   if (occluder.model_pairs.empty() ||
@@ -56,10 +56,9 @@ void DrawPairTable(EditorState& state,
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const std::string number = std::to_string(i + 1);
-    if (ImGui::Selectable(number.c_str(), state.align.pair == i,
-                          ImGuiSelectableFlags_SpanAllColumns)) {
-      state.align.pair = state.align.pair == i ? std::nullopt : std::optional(i);
-      state.view = state.align.pair ? ViewKind::kPicks : state.view;
+    if (ImGui::Selectable(number.c_str(), align.pair == i, ImGuiSelectableFlags_SpanAllColumns)) {
+      align.pair = align.pair == i ? std::nullopt : std::optional(i);
+      options.view = align.pair ? ViewKind::kPicks : options.view;
     }
     ImGui::TableNextColumn();
     ImGui::Text("%zu", occluder.model_pairs[i].anchor.picks.size());
@@ -90,17 +89,17 @@ void DrawPairs(const editor::OccluderDocument& occluder, const editor::Alignment
 }
 
 void DrawPairButtons(editor::Workspace& workspace,
-                     EditorState& state,
+                     ViewOptions& options,
+                     AlignView& align,
                      const editor::OccluderDocument& occluder) {
   const ImVec2 wide(-FLT_MIN, 0);
-  AlignView& align = state.align;
   const std::string name = occluder.name;
   ImGui::BeginDisabled(workspace.loaded().staged == nullptr ||
                        occluder.model_pairs.size() >= editor::kMaxModelPairs);
   if (ImGui::Button(align.picking ? Tr("Stop adding") : Tr("Add a point"), wide)) {
     align.picking = !align.picking;
-    if (align.picking && state.view == ViewKind::kPicks) {
-      state.view = ViewKind::kAround;
+    if (align.picking && options.view == ViewKind::kPicks) {
+      options.view = ViewKind::kAround;
     }
   }
   ImGui::EndDisabled();
@@ -143,17 +142,17 @@ void AlignByPointsButton(editor::Workspace& workspace,
 }
 
 void DrawRefining(editor::Workspace& workspace,
-                  EditorState& state,
+                  AlignView& align,
                   const editor::OccluderDocument& occluder) {
   if (BeginProperties("refine")) {
-    NumberProperty(workspace, Tr("Search within"), state.align.search_m, 0.005, editor::kMinSearch,
+    NumberProperty(workspace, Tr("Search within"), align.search_m, 0.005, editor::kMinSearch,
                    editor::kMaxSearch, "%.3f m");
     EndProperties();
   }
   ImGui::BeginDisabled(workspace.loaded().staged == nullptr ||
                        workspace.tasks().Running(editor::Workspace::kRefining));
   if (ImGui::Button(Tr("Refine on the map"), ImVec2(-FLT_MIN, 0))) {
-    workspace.RefineOccluder(occluder.name, state.align.search_m);
+    workspace.RefineOccluder(occluder.name, align.search_m);
   }
   ImGui::EndDisabled();
   Tooltip(Tr("Moves the model so that its surface lies among the map's points near it"));
@@ -178,11 +177,11 @@ const stage::Occluder* Staged(const editor::Workspace& workspace, const std::str
 }
 
 const editor::OccluderDocument* SelectedModel(const editor::Workspace& workspace,
-                                              const EditorState& state) {
-  if (workspace.place() == nullptr || state.selection.kind != Selection::Kind::kOccluder) {
+                                              const Selection& selection) {
+  if (workspace.place() == nullptr || selection.kind != Selection::Kind::kOccluder) {
     return nullptr;
   }
-  const editor::OccluderDocument* occluder = workspace.place()->FindOccluder(state.selection.name);
+  const editor::OccluderDocument* occluder = workspace.place()->FindOccluder(selection.name);
   return occluder != nullptr && occluder->kind() == editor::OccluderDocument::Kind::kModel
              ? occluder
              : nullptr;
@@ -190,12 +189,12 @@ const editor::OccluderDocument* SelectedModel(const editor::Workspace& workspace
 
 // Shows the point that a click would take, and handles the click.
 void PickOnModel(editor::Workspace& workspace,
-                 EditorState& state,
+                 ViewOptions& options,
+                 AlignView& align,
                  const editor::OccluderDocument& occluder,
                  const ViewCamera& view,
                  ImDrawList& draw) {
   constexpr float kReach = 14.0f;
-  AlignView& align = state.align;
   const stage::Occluder* solid = Staged(workspace, occluder.name);
   if (solid == nullptr) {
     return;
@@ -221,7 +220,7 @@ void PickOnModel(editor::Workspace& workspace,
   const Vector3d on_mesh = meant->on_mesh;
   align.pair = occluder.model_pairs.size();
   align.picking = false;
-  state.view = ViewKind::kPicks;
+  options.view = ViewKind::kPicks;
   workspace.EditOccluder(
       Tr("add a point of the model"), occluder.name,
       [&](editor::OccluderDocument& edited) { editor::AddModelPair(edited, on_mesh); });
@@ -230,11 +229,15 @@ void PickOnModel(editor::Workspace& workspace,
 }  // namespace
 
 void DrawAlignment(editor::Workspace& workspace,
-                   EditorState& state,
+                   const Selection& selection,
+                   ViewOptions& options,
+                   PickTarget& picks,
+                   AlignView& align,
+                   Input& input,
                    const editor::OccluderDocument& occluder) {
   // Copied, because edits below replace the object behind the reference.
   const editor::OccluderDocument model = occluder;
-  AlignView& align = ViewOf(state, model.name);
+  DiscardOtherModel(align, model.name);
   if (align.pair && *align.pair >= model.model_pairs.size()) {
     align.pair.reset();  // The pair was removed by undo.
   }
@@ -251,10 +254,10 @@ void DrawAlignment(editor::Workspace& workspace,
   }
   const Similarity3 map_from_stage =
       workspace.loaded().picks.map_from_picked * workspace.place()->picked_from_stage;
-  const editor::AlignmentReport report = Alignment(workspace, state, model);
-  DrawPairTable(state, model, report);
+  const editor::AlignmentReport report = Alignment(workspace, align, model);
+  DrawPairTable(options, align, model, report);
   DrawPairs(model, report);
-  DrawPairButtons(workspace, state, model);
+  DrawPairButtons(workspace, options, align, model);
   bool keep = model.keep_scale;
   if (CheckRow(Tr("Its scale is right"), keep)) {
     workspace.EditOccluder(Text(Tr("scale of %s"), model.name.c_str()), model.name,
@@ -263,15 +266,16 @@ void DrawAlignment(editor::Workspace& workspace,
   Tooltip(Tr("As where the model is in metres: aligning only moves and turns it"));
   AlignByPointsButton(workspace, model, report, map_from_stage);
   ImGui::Dummy(ImVec2(0, Px(4)));
-  DrawRefining(workspace, state, model);
+  DrawRefining(workspace, align, model);
   if (align.pair) {
-    DrawPicksList(workspace, state);
+    DrawPicksList(workspace, selection, options, picks, align, input);
   }
 }
 
-ModelPairInWork PairInWork(const editor::Workspace& workspace, const EditorState& state) {
-  const editor::OccluderDocument* model = SelectedModel(workspace, state);
-  const AlignView& align = state.align;
+ModelPairInWork PairInWork(const editor::Workspace& workspace,
+                           const Selection& selection,
+                           const AlignView& align) {
+  const editor::OccluderDocument* model = SelectedModel(workspace, selection);
   if (model == nullptr || align.occluder != model->name || !align.pair ||
       *align.pair >= model->model_pairs.size()) {
     return {};
@@ -280,9 +284,9 @@ ModelPairInWork PairInWork(const editor::Workspace& workspace, const EditorState
 }
 
 const editor::AlignmentReport& Alignment(const editor::Workspace& workspace,
-                                         EditorState& state,
+                                         AlignView& align,
                                          const editor::OccluderDocument& occluder) {
-  AlignView& align = ViewOf(state, occluder.name);
+  DiscardOtherModel(align, occluder.name);
   const auto document = workspace.commands().snapshot();
   const editor::LoadedPlace& loaded = workspace.loaded();
   if (loaded.database == nullptr) {
@@ -302,20 +306,21 @@ const editor::AlignmentReport& Alignment(const editor::Workspace& workspace,
 }
 
 bool DrawModelPoints(editor::Workspace& workspace,
-                     EditorState& state,
+                     const Selection& selection,
+                     ViewOptions& options,
+                     AlignView& align,
                      const ViewCamera& view,
                      bool hovered,
                      ImDrawList& draw) {
-  const editor::OccluderDocument* model = SelectedModel(workspace, state);
+  const editor::OccluderDocument* model = SelectedModel(workspace, selection);
   if (model == nullptr) {
     return false;
   }
   const Similarity3& world_from_stage = workspace.place()->picked_from_stage;
   const Similarity3 world_from_mesh = world_from_stage * model->stage_from_mesh;
-  const editor::AlignmentReport& report = Alignment(workspace, state, *model);
+  const editor::AlignmentReport& report = Alignment(workspace, align, *model);
   for (size_t i = 0; i < model->model_pairs.size(); ++i) {
-    const ImU32 packed =
-        Packed(state.align.pair == i ? OverPicture().accent : OverPicture().warning);
+    const ImU32 packed = Packed(align.pair == i ? OverPicture().accent : OverPicture().warning);
     const Vector3d at = world_from_mesh * model->model_pairs[i].on_mesh;
     if (i < report.pairs.size() && report.pairs[i].located) {
       const Vector3d picked = world_from_stage * report.pairs[i].on_stage;
@@ -329,11 +334,11 @@ bool DrawModelPoints(editor::Workspace& workspace,
       LabelMark(ToImGui(*pixel), std::to_string(i + 1), Packed(OverPicture().text), draw);
     }
   }
-  if (!state.align.picking) {
+  if (!align.picking) {
     return false;
   }
   if (hovered) {
-    PickOnModel(workspace, state, *model, view, draw);
+    PickOnModel(workspace, options, align, *model, view, draw);
   }
   return true;
 }

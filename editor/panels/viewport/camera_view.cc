@@ -160,12 +160,12 @@ Eigen::Vector3d NudgeDirection(KeyAction action) {
 }
 
 // Keys move the camera in its image plane and in depth.
-void NudgeWithKeys(editor::Workspace& workspace, const EditorState& state) {
+void NudgeWithKeys(editor::Workspace& workspace, const Input& input) {
   constexpr double kStep = 0.005;  // Metres; 10 times as much with Shift.
-  if (ImGui::GetIO().WantTextInput || state.dialog != Dialog::kNone) {
+  if (ImGui::GetIO().WantTextInput || input.dialog_open) {
     return;
   }
-  for (const KeyPress& press : state.keys) {
+  for (const KeyPress& press : input.keys) {
     const Eigen::Vector3d direction = NudgeDirection(ActionOf(KeyScope::kCamera, press));
     if (direction.isZero()) {
       continue;
@@ -186,17 +186,17 @@ struct RowSwitch {
   const char* label;
   const char* does;
   KeyAction key;
-  bool EditorState::*on;
+  bool ViewOptions::*on;
 };
 
 constexpr std::array<RowSwitch, 3> kRowSwitches = {{
     {TrLater("Before/after"),
      TrLater("Shows the camera's image alone to the left of a line that you drag"),
-     KeyAction::kWipe, &EditorState::show_compare},
+     KeyAction::kWipe, &ViewOptions::show_compare},
     {TrLater("Onion skin"), TrLater("Shows people at moments before and after, too"),
-     KeyAction::kOnion, &EditorState::show_onion},
+     KeyAction::kOnion, &ViewOptions::show_onion},
     {TrLater("Occluders"), TrLater("Shows the occluders over the camera's picture"),
-     KeyAction::kOccluders, &EditorState::show_occluders},
+     KeyAction::kOccluders, &ViewOptions::show_occluders},
 }};
 
 // The settings of the onion skin have a separate button.
@@ -220,8 +220,8 @@ std::span<const RowSwitch> SwitchesThatFit(float width) {
   return std::span(kRowSwitches).subspan(first);
 }
 
-void DrawSwitch(EditorState& state, const RowSwitch& entry) {
-  bool& on = state.*entry.on;
+void DrawSwitch(ViewOptions& options, const RowSwitch& entry) {
+  bool& on = options.*entry.on;
   ImGui::PushStyleColor(ImGuiCol_Button, on ? Colours().chosen : Colours().frame);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, on ? Colours().chosen : Colours().hover);
   if (ImGui::Button(Tr(entry.label))) {
@@ -252,17 +252,17 @@ void DrawSkinCount(const char* label, const ImVec4& colour, int& count) {
                    ImGuiSliderFlags_AlwaysClamp);
 }
 
-void OnionMoreButton(EditorState& state) {
+void OnionMoreButton(OnionSettings& onion) {
   ImGui::SameLine(0.0f, Px(kMoreGap));
   if (ImGui::Button(Label(kMore, "onion").c_str())) {
-    state.open_onion = true;
+    onion.asked = true;
   }
   Tooltip(WithKey(Tr("How many skins, and how far apart"), KeyAction::kOnionMore));
 }
 
 // The settings of the onion skin, above the end of the row, after they were requested.
-void DrawOnionMore(EditorState& state) {
-  if (std::exchange(state.open_onion, false)) {
+void DrawOnionMore(OnionSettings& settings) {
+  if (std::exchange(settings.asked, false)) {
     ImGui::OpenPopup("onion skin");
   }
   const ImVec2 row_end(ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x,
@@ -271,7 +271,7 @@ void DrawOnionMore(EditorState& state) {
   if (!ImGui::BeginPopup("onion skin")) {
     return;
   }
-  editor::OnionSkin& onion = state.onion;
+  editor::OnionSkin& onion = settings.skin;
   if (BeginProperties("onion")) {
     DrawSkinCount(Tr("Moments before"), OverPicture().call, onion.before);
     DrawSkinCount(Tr("Moments after"), OverPicture().warning, onion.after);
@@ -291,10 +291,10 @@ void DrawOnionMore(EditorState& state) {
 
 glm::vec3 ColourOf(const ImVec4& colour) { return {colour.x, colour.y, colour.z}; }
 
-void AskForOnionSkin(editor::Workspace& workspace, EditorState& state) {
-  state.onion.colour_before = ColourOf(OverPicture().call);
-  state.onion.colour_after = ColourOf(OverPicture().warning);
-  workspace.SetOnionSkin(state.show_onion ? std::optional(state.onion) : std::nullopt);
+void AskForOnionSkin(editor::Workspace& workspace, bool shown, editor::OnionSkin& skin) {
+  skin.colour_before = ColourOf(OverPicture().call);
+  skin.colour_after = ColourOf(OverPicture().warning);
+  workspace.SetOnionSkin(shown ? std::optional(skin) : std::nullopt);
 }
 
 // A slider for the frame, with its time if there is space. switches: pixels at its right for the
@@ -350,7 +350,7 @@ void DrawLive(editor::Workspace& workspace, float switches) {
   Tooltip(Tr("Back to the place's recording"));
 }
 
-void DrawTransport(editor::Workspace& workspace, EditorState& state) {
+void DrawTransport(editor::Workspace& workspace, ViewOptions& options, OnionSettings& onion) {
   const std::optional<editor::PreviewSource> recording = workspace.recording();
   ImGui::BeginDisabled(!recording.has_value());
   PlayButton(workspace);
@@ -369,13 +369,13 @@ void DrawTransport(editor::Workspace& workspace, EditorState& state) {
   float x = ImGui::GetContentRegionMax().x - width + ImGui::GetStyle().ItemSpacing.x;
   for (const RowSwitch& entry : switches) {
     ImGui::SameLine(x);
-    DrawSwitch(state, entry);
+    DrawSwitch(options, entry);
     if (entry.key == KeyAction::kOnion) {
-      OnionMoreButton(state);
+      OnionMoreButton(onion);
     }
     x += WidthOf(entry);
   }
-  DrawOnionMore(state);
+  DrawOnionMore(onion);
 }
 
 void DrawEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
@@ -400,13 +400,13 @@ void DrawEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2&
 }  // namespace
 
 void CameraView::DrawCorners(editor::Workspace& workspace,
-                             const EditorState& state,
+                             const Selection& selection,
                              const editor::PreviewPicture& picture,
                              const ImVec2& origin,
                              const ImVec2& size,
                              bool hovered,
                              ImDrawList& draw) {
-  const editor::OccluderDocument* occluder = OccluderInWork(workspace, state);
+  const editor::OccluderDocument* occluder = OccluderInWork(workspace, selection);
   if (occluder != nullptr && !workspace.playing()) {
     const editor::FrameToPick frame = workspace.frame_to_pick();
     DrawLabel(ImVec2(origin.x + Px(17), origin.y + Px(52)),
@@ -433,15 +433,22 @@ void CameraView::DrawCorners(editor::Workspace& workspace,
   corners_.EndDrag(workspace);
 }
 
-void CameraView::Show(editor::Workspace& workspace, EditorState& state) {
+void CameraView::Show(editor::Workspace& workspace,
+                      Selection& selection,
+                      ViewOptions& options,
+                      ViewTools& tools,
+                      PictureTextures& pictures,
+                      Input& input,
+                      EditorActions& actions) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   ImVec2 size = ImGui::GetContentRegionAvail();
   size.y -= ImGui::GetFrameHeightWithSpacing() + Px(4);
   ImGui::InvisibleButton("view", size);
   bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  workspace.SetCompare(state.show_compare || LightOverlay::ComparesPictures(workspace, state));
-  AskForOnionSkin(workspace, state);
+  workspace.SetCompare(options.show_compare ||
+                       LightOverlay::ComparesPictures(workspace, selection, tools.light));
+  AskForOnionSkin(workspace, options.show_onion, onion_.skin);
   const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.picture();
   if (picture == nullptr || workspace.place() == nullptr) {
     DrawEmpty(workspace, origin, size);
@@ -454,30 +461,36 @@ void CameraView::Show(editor::Workspace& workspace, EditorState& state) {
     const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
     draw.AddImage(ShownTexture(texture_), rect.origin, corner);
     draw.PushClipRect(rect.origin, corner, true);
-    hovered &= !compare_slider_.Show(state, *picture, rect.origin, rect.size, hovered, draw);
-    const bool shows_stage = state.show_stage || state.align.picking;
-    if (picture->camera_from_stage && (shows_stage || state.show_occluders)) {
-      overlays_.Show(workspace, state, PictureView(*picture, *workspace.place(), rect), draw);
+    hovered &= !compare_slider_.Show(options.show_compare, *picture, rect.origin, rect.size,
+                                     hovered, draw);
+    const bool shows_stage = options.show_stage || tools.align.picking;
+    if (picture->camera_from_stage && (shows_stage || options.show_occluders)) {
+      overlays_.Show(workspace, selection, options, PictureView(*picture, *workspace.place(), rect),
+                     draw);
     }
     if (picture->camera_from_stage && shows_stage) {
       const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
       DrawStage(workspace, view, draw);
-      DrawCheckPoints(workspace, state, view, draw);
-      const bool picking = DrawModelPoints(workspace, state, view, hovered, draw);
-      const bool walking = walks_.Show(workspace, state, view, hovered && !picking, draw);
-      DrawGizmo(workspace, state, view, hovered && !picking && !walking, draw);
+      DrawCheckPoints(workspace, selection, tools.check, view, draw);
+      const bool picking =
+          DrawModelPoints(workspace, selection, options, tools.align, view, hovered, draw);
+      const bool walking = walks_.Show(workspace, selection, options, tools.walks, input, actions,
+                                       view, hovered && !picking, draw);
+      DrawGizmo(workspace, selection, options, tools.gizmo, input, view,
+                hovered && !picking && !walking, draw);
     }
-    if (state.show_matches) {
+    if (options.show_matches) {
       DrawTrails(*picture, rect, draw);
     }
-    light_.Show(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
+    light_.Show(workspace, selection, tools.light, pictures, *picture, rect.origin, rect.size,
+                hovered, draw);
     DrawBadge(workspace, *picture, rect, draw);
-    DrawCorners(workspace, state, *picture, rect.origin, rect.size, hovered, draw);
+    DrawCorners(workspace, selection, *picture, rect.origin, rect.size, hovered, draw);
     draw.PopClipRect();
   }
-  NudgeWithKeys(workspace, state);
+  NudgeWithKeys(workspace, input);
   ImGui::SetCursorScreenPos(ImVec2(origin.x, origin.y + size.y + Px(8)));
-  DrawTransport(workspace, state);
+  DrawTransport(workspace, options, onion_);
 }
 
 }  // namespace lararium::panels

@@ -76,12 +76,13 @@ void DrawHere(const CheckPointReport& here) {
 }
 
 void DrawPointButtons(editor::Workspace& workspace,
-                      EditorState& state,
+                      Selection& selection,
+                      ViewOptions& options,
                       const std::string& name,
                       const CheckPointReport& here) {
   const ImVec2 wide(-FLT_MIN, 0);
-  if (state.view != ViewKind::kPicks && ImGui::Button(Tr("Pick in the training images"), wide)) {
-    state.view = ViewKind::kPicks;
+  if (options.view != ViewKind::kPicks && ImGui::Button(Tr("Pick in the training images"), wide)) {
+    options.view = ViewKind::kPicks;
   }
   ImGui::BeginDisabled(!here.located());
   if (ImGui::Button(Tr("Its position is where it was picked here"), wide)) {
@@ -99,12 +100,12 @@ void DrawPointButtons(editor::Workspace& workspace,
     workspace.Edit(Text(Tr("remove %s"), name.c_str()), [&](editor::ProjectDocument& document) {
       editor::RemoveCheckPoint(document, name);
     });
-    state.selection = {};
+    selection = {};
   }
 }
 
 // Columns: point, centimetres, pixels.
-void DrawTable(EditorState& state, const CheckReport& report) {
+void DrawTable(Selection& selection, const CheckReport& report) {
   if (!ImGui::BeginTable("points", 3, ImGuiTableFlags_SizingStretchProp)) {
     return;
   }
@@ -118,10 +119,10 @@ void DrawTable(EditorState& state, const CheckReport& report) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     Sign(point.verdict);
-    const Selection selection{Selection::Kind::kCheckPoint, point.name};
-    if (ImGui::Selectable(point.name.c_str(), state.selection == selection,
+    const Selection own{Selection::Kind::kCheckPoint, point.name};
+    if (ImGui::Selectable(point.name.c_str(), selection == own,
                           ImGuiSelectableFlags_SpanAllColumns)) {
-      state.selection = selection;
+      selection = own;
     }
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(
@@ -149,7 +150,7 @@ void DrawOutcome(editor::Workspace& workspace, const CheckReport& report) {
   ImGui::EndDisabled();
 }
 
-void DrawName(editor::Workspace& workspace, EditorState& state, const std::string& name) {
+void DrawName(editor::Workspace& workspace, Selection& selection, const std::string& name) {
   std::string typed = name;
   PropertyLabel(Tr("Name"));
   if (!ImGui::InputText("##name", &typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
@@ -164,13 +165,12 @@ void DrawName(editor::Workspace& workspace, EditorState& state, const std::strin
   workspace.Edit(Text(Tr("name %s"), typed.c_str()), [&](editor::ProjectDocument& document) {
     editor::RenameCheckPoint(document, name, typed);
   });
-  state.selection.name = typed;
+  selection.name = typed;
 }
 
 }  // namespace
 
-const CheckReport& CheckedPoints(const editor::Workspace& workspace, EditorState& state) {
-  CheckView& check = state.check;
+const CheckReport& CheckedPoints(const editor::Workspace& workspace, CheckView& check) {
   const auto document = workspace.commands().snapshot();
   const editor::LoadedPlace& loaded = workspace.loaded();
   const editor::PlaceDocument* place = workspace.place();
@@ -195,11 +195,11 @@ const CheckReport& CheckedPoints(const editor::Workspace& workspace, EditorState
 }
 
 const editor::CheckPointDocument* SelectedCheckPoint(const editor::Workspace& workspace,
-                                                     const EditorState& state) {
+                                                     const Selection& selection) {
   const auto& points = workspace.document().check_points;
   const auto found = std::find_if(points.begin(), points.end(),
-                                  [&](const auto& p) { return p.name == state.selection.name; });
-  const bool selected = state.selection.kind == Selection::Kind::kCheckPoint;
+                                  [&](const auto& p) { return p.name == selection.name; });
+  const bool selected = selection.kind == Selection::Kind::kCheckPoint;
   return selected && found != points.end() ? &*found : nullptr;
 }
 
@@ -228,10 +228,15 @@ Icon VerdictIcon(Verdict verdict) {
 }
 
 void DrawCheckPoint(editor::Workspace& workspace,
-                    EditorState& state,
+                    Selection& selection,
+                    ViewOptions& options,
+                    PickTarget& picks,
+                    CheckView& check,
+                    const AlignView& align,
+                    Input& input,
                     const editor::CheckPointDocument& point) {
   // Copied, because edits below change it.
-  const CheckReport report = CheckedPoints(workspace, state);
+  const CheckReport report = CheckedPoints(workspace, check);
   const auto found = std::find_if(report.points.begin(), report.points.end(),
                                   [&](const auto& p) { return p.name == point.name; });
   const CheckPointReport here = found == report.points.end() ? CheckPointReport() : *found;
@@ -241,7 +246,7 @@ void DrawCheckPoint(editor::Workspace& workspace,
       Tr("A point of the stage that is looked for at every place: by three of them it shows "
          "whether the stage lies at each place as it should."));
   if (BeginProperties("check point")) {
-    DrawName(workspace, state, name);
+    DrawName(workspace, selection, name);
     Eigen::Vector3d position = point.position;
     if (VectorProperty(workspace, Tr("Position"), position, 0.005, "%.3f")) {
       EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), position, "check point");
@@ -251,23 +256,24 @@ void DrawCheckPoint(editor::Workspace& workspace,
   }
   ImGui::Dummy(ImVec2(0, Px(4)));
   Heading(Text(Tr("All of them at %s"), workspace.place()->name.c_str()).c_str());
-  DrawTable(state, report);
+  DrawTable(selection, report);
   DrawOutcome(workspace, report);
   ImGui::Dummy(ImVec2(0, Px(4)));
-  DrawPicksList(workspace, state);
-  DrawPointButtons(workspace, state, name, here);
+  DrawPicksList(workspace, selection, options, picks, align, input);
+  DrawPointButtons(workspace, selection, options, name, here);
 }
 
 void DrawCheckPoints(const editor::Workspace& workspace,
-                     EditorState& state,
+                     const Selection& selection,
+                     CheckView& check,
                      const ViewCamera& view,
                      ImDrawList& draw) {
-  if (workspace.place() == nullptr || SelectedCheckPoint(workspace, state) == nullptr) {
+  if (workspace.place() == nullptr || SelectedCheckPoint(workspace, selection) == nullptr) {
     return;
   }
   const geometry::Similarity3& world_from_stage = workspace.place()->picked_from_stage;
-  for (const CheckPointReport& point : CheckedPoints(workspace, state).points) {
-    const bool selected = point.name == state.selection.name;
+  for (const CheckPointReport& point : CheckedPoints(workspace, check).points) {
+    const bool selected = point.name == selection.name;
     const ImU32 packed = Packed(selected ? OverPicture().accent : OverPicture().warning);
     const auto expected = view.Project(world_from_stage * point.on_stage);
     if (point.located()) {
@@ -284,12 +290,15 @@ void DrawCheckPoints(const editor::Workspace& workspace,
   }
 }
 
-void CheckPointDialog(editor::Workspace& workspace, EditorState& state) {
+void CheckPointDialog(editor::Workspace& workspace,
+                      Selection& selection,
+                      ViewOptions& options,
+                      Dialogs& dialogs) {
   Hint(
       Tr("Something that you will find at every place, such as a corner of the counter. Click it "
          "in two training images of each place; its position on the stage is typed, or taken "
          "from the first place."));
-  std::string& name = state.fields.name;
+  std::string& name = dialogs.fields.name;
   if (BeginProperties("check point")) {
     PropertyLabel(Tr("Name"));
     if (ImGui::IsWindowAppearing()) {
@@ -312,14 +321,14 @@ void CheckPointDialog(editor::Workspace& workspace, EditorState& state) {
   }
   const DialogAnswer answer = DialogButtons(Tr("Add"), problem);
   if (answer != DialogAnswer::kNone) {
-    state.dialog = Dialog::kNone;
+    dialogs.shown = Dialog::kNone;
   }
   if (answer == DialogAnswer::kAct) {
     workspace.Edit(Text(Tr("add %s"), name.c_str()), [&](editor::ProjectDocument& document) {
       document.check_points.push_back({name, {}});
     });
-    state.selection = {Selection::Kind::kCheckPoint, name};
-    state.view = ViewKind::kPicks;
+    selection = {Selection::Kind::kCheckPoint, name};
+    options.view = ViewKind::kPicks;
   }
 }
 

@@ -29,31 +29,30 @@ void DrawHandle(float x, const ImVec2& origin, const ImVec2& size, bool lit, ImD
 
 }  // namespace
 
-bool CompareSlider::Show(EditorState& state,
+bool CompareSlider::Show(bool shown,
                          const editor::PreviewPicture& picture,
                          const ImVec2& origin,
                          const ImVec2& size,
                          bool hovered,
                          ImDrawList& draw) {
   dragged_ = dragged_ && ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  if (!state.show_compare || picture.plain.empty()) {
+  if (!shown || picture.plain.empty()) {
     return false;
   }
   if (uploaded_ != &picture) {
     plain_.Upload(picture.plain);
     uploaded_ = &picture;
   }
-  float& at = state.compare_at;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const bool near = hovered && std::abs(mouse.x - (origin.x + at * size.x)) < Px(8);
+  const bool near = hovered && std::abs(mouse.x - (origin.x + at_ * size.x)) < Px(8);
   dragged_ = dragged_ || (near && ImGui::IsMouseClicked(ImGuiMouseButton_Left));
   if (dragged_) {
-    at = std::clamp((mouse.x - origin.x) / size.x, 0.0f, 1.0f);
+    at_ = std::clamp((mouse.x - origin.x) / size.x, 0.0f, 1.0f);
   }
   if (near || dragged_) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   }
-  const float x = origin.x + at * size.x;
+  const float x = origin.x + at_ * size.x;
   // Draws the whole image, clipped, so that its pixels match those of the picture.
   draw.PushClipRect(origin, ImVec2(x, origin.y + size.y), true);
   draw.AddImage(ShownTexture(plain_), origin, ImVec2(origin.x + size.x, origin.y + size.y));

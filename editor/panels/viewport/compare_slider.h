@@ -5,7 +5,6 @@
 
 #include <imgui.h>
 
-#include "editor/panels/widgets/editor_state.h"
 #include "editor/session/workspace.h"
 #include "shared/render/gl/texture.h"
 
@@ -13,9 +12,10 @@ namespace lararium::panels {
 
 class CompareSlider {
  public:
-  // origin, size: the picture on the screen. hovered: the pointer is over the view. Returns true
-  // while the line uses the pointer. Does nothing while the picture has no image to compare with.
-  bool Show(EditorState& state,
+  // shown: the comparison is on. origin, size: the picture on the screen. hovered: the pointer is
+  // over the view. Returns true while the line uses the pointer. Does nothing while the picture has
+  // no image to compare with.
+  bool Show(bool shown,
             const editor::PreviewPicture& picture,
             const ImVec2& origin,
             const ImVec2& size,
@@ -25,6 +25,7 @@ class CompareSlider {
  private:
   render::Texture plain_;
   const editor::PreviewPicture* uploaded_ = nullptr;
+  float at_ = 0.5f;  // Share of the picture's width.
   bool dragged_ = false;
 };
 

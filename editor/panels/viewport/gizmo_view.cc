@@ -156,18 +156,18 @@ GizmoFreedom FreedomOf(const Selection& selection) {
   return selection.kind == Selection::Kind::kObject ? GizmoFreedom::kUpright : GizmoFreedom::kFree;
 }
 
-bool GivesUp(const EditorState& state) {
-  return std::any_of(state.keys.begin(), state.keys.end(), [](const KeyPress& press) {
+bool GivesUp(const Input& input) {
+  return std::any_of(input.keys.begin(), input.keys.end(), [](const KeyPress& press) {
     return ActionOf(KeyScope::kViews, press) == KeyAction::kUnselect;
   });
 }
 
 // Snapping is on while Ctrl is held, or with the switch in the scene view.
 GizmoSnap SnapOf(const editor::Workspace& workspace,
-                 const EditorState& state,
+                 const ViewOptions& options,
                  const ViewCamera& view,
                  const Vector3d& origin) {
-  if (!state.place.snap && !ImGui::GetIO().KeyCtrl) {
+  if (!options.snap && !ImGui::GetIO().KeyCtrl) {
     return {};
   }
   constexpr double kStep = 0.05;      // Metres of the stage.
@@ -191,54 +191,60 @@ GizmoSnap SnapOf(const editor::Workspace& workspace,
 // Updates the drag. After a cancellation, the object stays at its old position until the button is
 // released.
 void Drag(editor::Workspace& workspace,
-          EditorState& state,
+          Selection& selection,
+          const ViewOptions& options,
+          GizmoTool& gizmo,
+          const Input& input,
           const ViewCamera& view,
           const Vector3d& origin) {
-  if (!state.drag_given_up && GivesUp(state)) {
-    state.drag_given_up = true;
+  if (!gizmo.given_up && GivesUp(input)) {
+    gizmo.given_up = true;
     workspace.CancelGesture();
   }
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    state.drag.reset();
+    gizmo.drag.reset();
     workspace.EndGesture();
-  } else if (!state.drag_given_up && (moved.x != 0.0f || moved.y != 0.0f)) {
-    const GizmoSnap snap = SnapOf(workspace, state, view, origin);
+  } else if (!gizmo.given_up && (moved.x != 0.0f || moved.y != 0.0f)) {
+    const GizmoSnap snap = SnapOf(workspace, options, view, origin);
     const Vector2d pointer = ToEigen(ImGui::GetMousePos());
-    MoveSelected(workspace, state.selection, state.drag->Update(view, pointer, snap), "gizmo");
+    MoveSelected(workspace, selection, gizmo.drag->Update(view, pointer, snap), "gizmo");
   }
 }
 
 }  // namespace
 
 bool DrawGizmo(editor::Workspace& workspace,
-               EditorState& state,
+               Selection& selection,
+               const ViewOptions& options,
+               GizmoTool& gizmo,
+               const Input& input,
                const ViewCamera& view,
                bool hovered,
                ImDrawList& draw) {
-  const std::optional<Similarity3> transform = SelectedTransform(workspace, state.selection);
+  const std::optional<Similarity3> transform = SelectedTransform(workspace, selection);
   if (!transform || !view.Project(transform->translation)) {
-    state.drag.reset();
+    gizmo.drag.reset();
     return false;
   }
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   const GizmoLayout layout(*transform, view);
-  const GizmoFreedom freedom = FreedomOf(state.selection);
+  const GizmoFreedom freedom = FreedomOf(selection);
   std::optional<GizmoHandle> hot;
-  if (state.drag) {
-    hot = state.drag->handle();
+  if (gizmo.drag) {
+    hot = gizmo.drag->handle();
   } else if (hovered) {
-    hot = PickHandle(layout, state.gizmo, view, pointer, freedom);
+    hot = PickHandle(layout, gizmo.mode, view, pointer, freedom);
   }
-  if (hot && !state.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+  if (hot && !gizmo.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     workspace.EndGesture();
-    state.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
-    state.drag_given_up = false;
+    gizmo.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
+    gizmo.given_up = false;
   }
-  if (state.drag) {
-    Drag(workspace, state, view, transform->translation);
+  if (gizmo.drag) {
+    Drag(workspace, selection, options, gizmo, input, view, transform->translation);
   }
-  for (const GizmoHandle handle : HandlesOf(state.gizmo, freedom)) {
+  for (const GizmoHandle handle : HandlesOf(gizmo.mode, freedom)) {
     DrawHandle(handle, layout.Outline(handle, view), hot == handle, draw);
   }
   draw.AddCircleFilled(ToImGui(*view.Project(layout.origin)), Px(4), Packed(OverPicture().text));

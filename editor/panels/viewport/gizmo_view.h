@@ -8,10 +8,20 @@
 #include <optional>
 #include <string>
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/viewport/gizmo.h"
+#include "editor/panels/widgets/input.h"
+#include "editor/panels/widgets/selection.h"
+#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
+
+// The tool that moves, turns or scales the selected object.
+struct GizmoTool {
+  GizmoMode mode = GizmoMode::kMove;
+  std::optional<GizmoDrag> drag;
+  bool given_up = false;  // drag was cancelled.
+};
 
 // The transform of the selected object; nullopt where it cannot be moved or nothing is selected.
 std::optional<geometry::Similarity3> SelectedTransform(const editor::Workspace& workspace,
@@ -30,7 +40,10 @@ void MoveSelected(editor::Workspace& workspace,
 // Draws the handles and handles drags. hovered: the pointer is over the view. Returns true while
 // the handles use the pointer.
 bool DrawGizmo(editor::Workspace& workspace,
-               EditorState& state,
+               Selection& selection,
+               const ViewOptions& options,
+               GizmoTool& gizmo,
+               const Input& input,
                const ViewCamera& view,
                bool hovered,
                ImDrawList& draw);

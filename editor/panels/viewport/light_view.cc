@@ -6,7 +6,6 @@
 #include <string>
 
 #include "editor/panels/inspector/light_maths.h"
-#include "editor/panels/inspector/light_panel.h"
 #include "editor/panels/viewport/gizmo_view.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
@@ -41,27 +40,27 @@ ViewCamera StageView(const editor::PreviewPicture& picture,
   return view;
 }
 
-struct Ball {
+struct ProbeBall {
   Vector2d centre;              // Screen position.
   float radius = 0.0f;          // Screen pixels.
   glm::quat camera_from_stage;  // Camera axes with z towards the ball.
 };
 
-std::optional<Ball> PlaceBall(const ViewCamera& view, const Vector3d& in_stage) {
+std::optional<ProbeBall> PlaceBall(const ViewCamera& view, const Vector3d& in_stage) {
   const std::optional<Vector2d> centre = view.Project(in_stage);
   if (!centre) {
     return std::nullopt;
   }
   const Vector3d towards = (view.camera_from_world * in_stage).normalized();
   const double radius = kBallRadius / view.UnitsPerPixel(in_stage);
-  return Ball{*centre, std::clamp(static_cast<float>(radius), Px(22), Px(96)),
-              bake::LeastRotation(geometry::ToGlm(towards), glm::vec3(0.0f, 0.0f, 1.0f)) *
-                  geometry::ToGlm(view.camera_from_world.rotation)};
+  return ProbeBall{*centre, std::clamp(static_cast<float>(radius), Px(22), Px(96)),
+                   bake::LeastRotation(geometry::ToGlm(towards), glm::vec3(0.0f, 0.0f, 1.0f)) *
+                       geometry::ToGlm(view.camera_from_world.rotation)};
 }
 
-void DrawBallAt(EditorState& state,
+void DrawBallAt(PictureTextures& pictures,
                 const char* key,
-                const Ball& ball,
+                const ProbeBall& ball,
                 const editor::ProbePicture& picture,
                 const editor::ProbeLook& look,
                 editor::BallSurface surface,
@@ -70,36 +69,36 @@ void DrawBallAt(EditorState& state,
       editor::DrawBall(picture, look, ball.camera_from_stage, surface, kGreyBallAlbedo,
                        surface == editor::BallSurface::kMirror ? kMirrorPixels : kGreyPixels));
   const ImVec2 centre = ToImGui(ball.centre);
-  draw.AddImageRounded(state.pictures.Show(key, shown),
+  draw.AddImageRounded(pictures.Show(key, shown),
                        ImVec2(centre.x - ball.radius, centre.y - ball.radius),
                        ImVec2(centre.x + ball.radius, centre.y + ball.radius), ImVec2(0, 0),
                        ImVec2(1, 1), IM_COL32_WHITE, ball.radius);
 }
 
-glm::vec3 MirroredAt(const Ball& ball, const ImVec2& mouse) {
+glm::vec3 MirroredAt(const ProbeBall& ball, const ImVec2& mouse) {
   return editor::MirroredDirection(ball.camera_from_stage,
                                    static_cast<float>(mouse.x - ball.centre.x()) / ball.radius,
                                    static_cast<float>(mouse.y - ball.centre.y()) / ball.radius);
 }
 
-bool Over(const Ball& ball, const ImVec2& mouse) {
+bool Over(const ProbeBall& ball, const ImVec2& mouse) {
   return std::hypot(mouse.x - ball.centre.x(), mouse.y - ball.centre.y()) < ball.radius;
 }
 
 // Rotates the probe so that the reflection under the pointer follows it.
 void TurnByMirror(editor::Workspace& workspace,
-                  EditorState& state,
+                  const LightView& light,
                   const editor::ProbeDocument& probe,
-                  const Ball& ball) {
+                  const ProbeBall& ball) {
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
-  if (!state.light.dragged_in_probe || (delta.x == 0.0f && delta.y == 0.0f)) {
+  if (!light.dragged_in_probe || (delta.x == 0.0f && delta.y == 0.0f)) {
     return;
   }
   const glm::quat now = geometry::ToGlm(probe.stage_from_probe);
   const glm::vec3 target = MirroredAt(ball, ImGui::GetIO().MousePos);
   TurnProbe(workspace, probe,
-            state.light.level ? bake::TurnedTo(now, *state.light.dragged_in_probe, target)
-                              : bake::DraggedTo(now, *state.light.dragged_in_probe, target),
+            light.level ? bake::TurnedTo(now, *light.dragged_in_probe, target)
+                        : bake::DraggedTo(now, *light.dragged_in_probe, target),
             Tr("turn the light"), "probe ball");
 }
 
@@ -112,7 +111,7 @@ float LinearBeforeShoulder(float shown, float knee) {
 }
 
 void PickOnStage(editor::Workspace& workspace,
-                 EditorState& state,
+                 LightView& light,
                  const editor::ProbeDocument& probe,
                  const editor::PreviewPicture& picture,
                  const ViewCamera& view,
@@ -120,15 +119,15 @@ void PickOnStage(editor::Workspace& workspace,
                  const Vector2d& pixel) {
   const Ray ray = view.RayThrough(screen);
   const auto surface = FindSurface(ray, workspace.loaded().staged->occluders);
-  if (state.light.picking == Picking::kOnStage) {
+  if (light.picking == Picking::kOnStage) {
     const glm::vec3 from = geometry::ToGlm(probe.position);
     const glm::vec3 to = surface ? surface->point - from : geometry::ToGlm(ray.direction);
-    AddDirection(workspace, state, probe, glm::normalize(to));
+    AddDirection(workspace, light, probe, glm::normalize(to));
     return;
   }
   const auto mean = MeanLinear(picture.plain, pixel, kPatchHalf);
   if (!mean) {
-    state.light.problem = Tr("The picture is still being drawn. Click once more.");
+    light.problem = Tr("The picture is still being drawn. Click once more.");
     return;
   }
   const editor::ProbeLook look = LookAtProbe(workspace, probe);
@@ -137,9 +136,9 @@ void PickOnStage(editor::Workspace& workspace,
     patch.linear[c] = LinearBeforeShoulder((*mean)[c], look.knee);
     patch.gain[c] = picture.gain[static_cast<size_t>(c)];
   }
-  patch.albedo = glm::vec3(state.light.albedo);
+  patch.albedo = glm::vec3(light.albedo);
   patch.normal = surface ? surface->normal : glm::vec3(0.0f, 1.0f, 0.0f);
-  AddGreyPatch(workspace, state, probe, patch);
+  AddGreyPatch(workspace, light, probe, patch);
 }
 
 void DrawCurve(const BrightnessHistogram& histogram,
@@ -189,20 +188,23 @@ void DrawHistogram(const editor::PreviewPicture& picture,
 
 }  // namespace
 
-bool LightOverlay::ComparesPictures(const editor::Workspace& workspace, const EditorState& state) {
-  return SelectedProbe(workspace, state) != nullptr &&
-         (state.light.histogram || state.light.picking == Picking::kGrey);
+bool LightOverlay::ComparesPictures(const editor::Workspace& workspace,
+                                    const Selection& selection,
+                                    const LightView& light) {
+  return SelectedProbe(workspace, selection) != nullptr &&
+         (light.histogram || light.picking == Picking::kGrey);
 }
 
 void LightOverlay::Show(editor::Workspace& workspace,
-                        EditorState& state,
+                        const Selection& selection,
+                        LightView& light,
+                        PictureTextures& pictures,
                         const editor::PreviewPicture& picture,
                         const ImVec2& origin,
                         const ImVec2& size,
                         bool hovered,
                         ImDrawList& draw) {
-  LightView& light = state.light;
-  const editor::ProbeDocument* probe = SelectedProbe(workspace, state);
+  const editor::ProbeDocument* probe = SelectedProbe(workspace, selection);
   if (drags_ball_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     drags_ball_ = false;
     light.dragged_in_probe.reset();
@@ -226,7 +228,7 @@ void LightOverlay::Show(editor::Workspace& workspace,
       const double scale = picture.bgr.cols / static_cast<double>(size.x);
       const Vector2d pixel =
           scale * Vector2d(mouse.x - origin.x, mouse.y - origin.y) - Vector2d(0.5, 0.5);
-      PickOnStage(workspace, state, *probe, picture, view, ToEigen(mouse), pixel);
+      PickOnStage(workspace, light, *probe, picture, view, ToEigen(mouse), pixel);
     }
     return;
   }
@@ -237,10 +239,10 @@ void LightOverlay::Show(editor::Workspace& workspace,
   const editor::ProbeLook look = LookAtProbe(workspace, *probe);
   const Vector3d right = view.camera_from_world.rotation.conjugate() * Vector3d(kBallGap, 0.0, 0.0);
   if (const auto grey = PlaceBall(view, probe->position + right)) {
-    DrawBallAt(state, "grey ball", *grey, *image, look, editor::BallSurface::kGrey, draw);
+    DrawBallAt(pictures, "grey ball", *grey, *image, look, editor::BallSurface::kGrey, draw);
   }
   if (const auto mirror = PlaceBall(view, probe->position)) {
-    DrawBallAt(state, "mirror ball", *mirror, *image, look, editor::BallSurface::kMirror, draw);
+    DrawBallAt(pictures, "mirror ball", *mirror, *image, look, editor::BallSurface::kMirror, draw);
     const bool over = hovered && Over(*mirror, mouse);
     if (clicked && over) {
       drags_ball_ = true;
@@ -251,7 +253,7 @@ void LightOverlay::Show(editor::Workspace& workspace,
                      Px(2));
     }
     if (drags_ball_) {
-      TurnByMirror(workspace, state, *probe, *mirror);
+      TurnByMirror(workspace, light, *probe, *mirror);
     } else if (over) {
       ImGui::SetTooltip("%s", Tr("Drag to turn the light"));
     }

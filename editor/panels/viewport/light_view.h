@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/inspector/light_panel.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -13,12 +13,16 @@ namespace lararium::panels {
 class LightOverlay {
  public:
   // Whether it needs the camera's image alone in addition to the picture (Workspace::SetCompare).
-  static bool ComparesPictures(const editor::Workspace& workspace, const EditorState& state);
+  static bool ComparesPictures(const editor::Workspace& workspace,
+                               const Selection& selection,
+                               const LightView& light);
 
   // origin, size: the picture on the screen. hovered: the pointer is over the view. Does nothing
   // where no probe is selected.
   void Show(editor::Workspace& workspace,
-            EditorState& state,
+            const Selection& selection,
+            LightView& light,
+            PictureTextures& pictures,
             const editor::PreviewPicture& picture,
             const ImVec2& origin,
             const ImVec2& size,

@@ -60,7 +60,8 @@ void OverlayMeshView::Update(const editor::Workspace& workspace) {
 }
 
 void OverlayMeshView::Show(const editor::Workspace& workspace,
-                           const EditorState& state,
+                           const Selection& selection,
+                           const ViewOptions& options,
                            const ViewCamera& view,
                            ImDrawList& draw) {
   Update(workspace);
@@ -69,8 +70,8 @@ void OverlayMeshView::Show(const editor::Workspace& workspace,
   faces_.clear();
   for (size_t i = 0; i < overlays_.size(); ++i) {
     const std::string& name = staged_->occluders[i].name;
-    const bool selected = state.selection == Selection{Selection::Kind::kOccluder, name};
-    if (selected || state.show_occluders) {
+    const bool selected = selection == Selection{Selection::Kind::kOccluder, name};
+    if (selected || options.show_occluders) {
       colours[i] = selected ? OverPicture().accent : kPlain;
       shown.emplace_back(i, WorldFromOccluder(workspace, name));
       AddFaces(overlays_[i], shown.back().second, view, static_cast<int>(i), faces_);

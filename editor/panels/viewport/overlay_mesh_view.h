@@ -9,7 +9,8 @@
 
 #include "editor/panels/viewport/overlay_mesh.h"
 #include "editor/panels/viewport/view_camera.h"
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/widgets/selection.h"
+#include "editor/panels/widgets/view_options.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -18,7 +19,8 @@ class OverlayMeshView {
  public:
   // Shows all occluders if they are switched on, otherwise only the selected one.
   void Show(const editor::Workspace& workspace,
-            const EditorState& state,
+            const Selection& selection,
+            const ViewOptions& options,
             const ViewCamera& view,
             ImDrawList& draw);
 

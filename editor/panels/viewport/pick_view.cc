@@ -13,8 +13,6 @@
 #include "editor/jobs/check_points.h"
 #include "editor/jobs/drawn_occluder.h"
 #include "editor/jobs/occluder_alignment.h"
-#include "editor/panels/viewport/align_panel.h"
-#include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/gizmo_view.h"
 #include "editor/panels/viewport/picks_list.h"
 #include "editor/panels/viewport/place_cards.h"
@@ -63,14 +61,14 @@ void PickCheckPoint(editor::Workspace& workspace,
 // Draws crosses at the picks of anchors in this image, and rings at the projections of their
 // located points: the gap is the residual.
 void DrawAnchors(const editor::Workspace& workspace,
-                 const EditorState& state,
+                 const PickTarget& target,
                  const vision::Keyframe& keyframe,
                  const ImageView& map,
                  ImDrawList& draw) {
   const stage::StagePicks& picks = workspace.place()->picks;
   const std::optional<stage::StageSolution>& solution = workspace.loaded().picks.solution;
   for (size_t i = 0; i < kAnchors.size(); ++i) {
-    const bool active = static_cast<int>(i) == state.anchor;
+    const bool active = static_cast<int>(i) == target.anchor;
     const ImU32 packed = active ? Packed(OverPicture().accent) : Packed(OverPicture().warning);
     const stage::Anchor& anchor = picks.*kAnchors[i].anchor;
     for (const stage::Pick& pick : anchor.picks) {
@@ -96,7 +94,7 @@ void DrawAnchors(const editor::Workspace& workspace,
 // Draws crosses at the picks of check points in this image, and rings at their known positions: the
 // gap is what visitors would see.
 void DrawCheckPicks(const editor::Workspace& workspace,
-                    EditorState& state,
+                    const Selection& selection,
                     const vision::Keyframe& keyframe,
                     const ImageView& map,
                     ImDrawList& draw) {
@@ -104,7 +102,7 @@ void DrawCheckPicks(const editor::Workspace& workspace,
   const geometry::Similarity3 map_from_stage =
       workspace.loaded().picks.map_from_picked * place.picked_from_stage;
   for (const editor::CheckPointDocument& point : workspace.document().check_points) {
-    const bool active = point.name == state.selection.name;
+    const bool active = point.name == selection.name;
     const ImU32 packed = Packed(active ? OverPicture().accent : OverPicture().warning);
     const stage::Anchor* anchor = editor::FindCheckPicks(place, point.name);
     const stage::Pick* pick = anchor != nullptr ? editor::PickIn(*anchor, keyframe) : nullptr;
@@ -175,7 +173,7 @@ void DimTextBeside(const std::string& text) {
   }
 }
 
-void DrawAnchorButtons(const editor::Workspace& workspace, EditorState& state) {
+void DrawAnchorButtons(const editor::Workspace& workspace, PickTarget& picks) {
   std::array<std::string, kAnchors.size()> labels;
   std::array<const char*, kAnchors.size()> texts = {};
   for (size_t i = 0; i < kAnchors.size(); ++i) {
@@ -183,8 +181,8 @@ void DrawAnchorButtons(const editor::Workspace& workspace, EditorState& state) {
     labels[i] = Tr(kAnchors[i].label) + std::string("  ") + std::to_string(count);
     texts[i] = labels[i].c_str();
   }
-  Segmented("anchors", texts, state.anchor);
-  DimTextBeside(Tr(kAnchors[static_cast<size_t>(state.anchor)].hint));
+  Segmented("anchors", texts, picks.anchor);
+  DimTextBeside(Tr(kAnchors[static_cast<size_t>(picks.anchor)].hint));
 }
 
 void DrawCornerHint(const editor::Workspace& workspace, const editor::OccluderDocument& occluder) {
@@ -193,12 +191,10 @@ void DrawCornerHint(const editor::Workspace& workspace, const editor::OccluderDo
   DimTextBeside(CornerHint(workspace, occluder));
 }
 
-void DrawCheckHint(const editor::Workspace& workspace,
-                   EditorState& state,
-                   const std::string& name) {
+void DrawCheckHint(const editor::Workspace& workspace, CheckView& check, const std::string& name) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name.c_str());
-  for (const editor::CheckPointReport& point : CheckedPoints(workspace, state).points) {
+  for (const editor::CheckPointReport& point : CheckedPoints(workspace, check).points) {
     if (point.name == name) {
       DimTextBeside(
           point.located()
@@ -210,14 +206,14 @@ void DrawCheckHint(const editor::Workspace& workspace,
 }
 
 void DrawModelHint(const editor::Workspace& workspace,
-                   EditorState& state,
+                   AlignView& align,
                    const ModelPairInWork& work) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(
       Text(Tr("%s, point %d"), work.occluder->name.c_str(), static_cast<int>(work.pair) + 1)
           .c_str());
   const editor::ModelPairReport& pair =
-      Alignment(workspace, state, *work.occluder).pairs[work.pair];
+      Alignment(workspace, align, *work.occluder).pairs[work.pair];
   DimTextBeside(pair.located && pair.anchor.picks > 1
                     ? Text(Tr("%d picks agree to %.2f px; the ring is where the model has it"),
                            pair.anchor.picks, pair.anchor.error_px)
@@ -229,15 +225,15 @@ void DrawModelHint(const editor::Workspace& workspace,
 std::span<const AnchorEntry> AnchorEntries() { return kAnchors; }
 
 const editor::OccluderDocument* OccluderInWork(const editor::Workspace& workspace,
-                                               const EditorState& state) {
-  if (workspace.place() == nullptr || state.selection.kind != Selection::Kind::kOccluder) {
+                                               const Selection& selection) {
+  if (workspace.place() == nullptr || selection.kind != Selection::Kind::kOccluder) {
     return nullptr;
   }
-  const editor::OccluderDocument* occluder = workspace.place()->FindOccluder(state.selection.name);
+  const editor::OccluderDocument* occluder = workspace.place()->FindOccluder(selection.name);
   return occluder != nullptr && occluder->drawn() ? occluder : nullptr;
 }
 
-void DrawNewOccluder(editor::Workspace& workspace, EditorState& state) {
+void DrawNewOccluder(editor::Workspace& workspace, Selection& selection, ViewOptions& options) {
   editor::OccluderDocument occluder;
   for (int number = 1; occluder.name.empty(); ++number) {
     const std::string name = "face" + std::to_string(number);
@@ -247,12 +243,14 @@ void DrawNewOccluder(editor::Workspace& workspace, EditorState& state) {
   }
   workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
                       [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
-  state.selection = {Selection::Kind::kOccluder, occluder.name};
-  state.view = ViewKind::kPicks;
+  selection = {Selection::Kind::kOccluder, occluder.name};
+  options.view = ViewKind::kPicks;
 }
 
 void PickView::DrawImage(editor::Workspace& workspace,
-                         EditorState& state,
+                         const Selection& selection,
+                         PickTarget& picks,
+                         const AlignView& align,
                          const vision::Keyframe& keyframe) {
   const geometry::CameraModel& camera = workspace.loaded().database->camera;
   if (&keyframe != uploaded_) {
@@ -278,19 +276,19 @@ void PickView::DrawImage(editor::Workspace& workspace,
     draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(OverPicture().dim),
                  Tr("The map was made small and holds no image here."));
   }
-  const editor::OccluderDocument* drawn = OccluderInWork(workspace, state);
+  const editor::OccluderDocument* drawn = OccluderInWork(workspace, selection);
   // Drawing outside the image must not cover the controls.
   draw.PushClipRect(corner, ImVec2(corner.x + size.x, corner.y + size.y), true);
-  const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, state);
-  const ModelPairInWork modelled = PairInWork(workspace, state);
+  const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, selection);
+  const ModelPairInWork modelled = PairInWork(workspace, selection, align);
   if (drawn != nullptr) {
     DrawOccluderCorners(workspace, *drawn, keyframe, map, draw);
   } else if (checked != nullptr) {
-    DrawCheckPicks(workspace, state, keyframe, map, draw);
+    DrawCheckPicks(workspace, selection, keyframe, map, draw);
   } else if (modelled.occluder != nullptr) {
     DrawModelPicks(workspace, modelled, keyframe, map, draw);
   } else {
-    DrawAnchors(workspace, state, keyframe, map, draw);
+    DrawAnchors(workspace, picks, keyframe, map, draw);
   }
   draw.PopClipRect();
   const Vector2d pixel = map.ToPixel(ToEigen(ImGui::GetMousePos()));
@@ -306,7 +304,7 @@ void PickView::DrawImage(editor::Workspace& workspace,
       } else if (modelled.occluder != nullptr) {
         PickModelPoint(workspace, modelled, keyframe, pixel);
       } else {
-        SetPick(workspace, state.anchor, keyframe, pixel);
+        SetPick(workspace, picks.anchor, keyframe, pixel);
       }
     }
   }
@@ -314,27 +312,34 @@ void PickView::DrawImage(editor::Workspace& workspace,
   ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + size.y + Px(8)));
 }
 
-void PickView::Show(editor::Workspace& workspace, EditorState& state) {
+void PickView::Show(editor::Workspace& workspace,
+                    const Selection& selection,
+                    ViewOptions& options,
+                    PickTarget& picks,
+                    CheckView& check,
+                    AlignView& align,
+                    Input& input) {
   const auto& database = workspace.loaded().database;
   if (workspace.place() == nullptr || database == nullptr || database->keyframes.empty()) {
     uploaded_ = nullptr;
     Hint(Tr("Picks are made in the training images. Train the place first."));
     return;
   }
-  if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
+  if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, selection)) {
     DrawCornerHint(workspace, *drawn);
-  } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, state)) {
-    DrawCheckHint(workspace, state, checked->name);
-  } else if (const ModelPairInWork work = PairInWork(workspace, state); work.occluder != nullptr) {
-    DrawModelHint(workspace, state, work);
+  } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, selection)) {
+    DrawCheckHint(workspace, check, checked->name);
+  } else if (const ModelPairInWork work = PairInWork(workspace, selection, align);
+             work.occluder != nullptr) {
+    DrawModelHint(workspace, align, work);
   } else {
-    DrawAnchorButtons(workspace, state);
+    DrawAnchorButtons(workspace, picks);
   }
   const int last = static_cast<int>(database->keyframes.size()) - 1;
-  state.keyframe = std::clamp(state.keyframe, 0, last);
-  HandlePickKeys(workspace, state);
-  const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(state.keyframe)];
-  DrawImage(workspace, state, keyframe);
+  picks.keyframe = std::clamp(picks.keyframe, 0, last);
+  HandlePickKeys(workspace, selection, picks, align, input);
+  const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(picks.keyframe)];
+  DrawImage(workspace, selection, picks, align, keyframe);
   std::string name = keyframe.name;
   if (keyframe.session != 0) {
     name += ", " + SessionName(*workspace.place(), keyframe.session);
@@ -345,10 +350,10 @@ void PickView::Show(editor::Workspace& workspace, EditorState& state) {
   const std::string longest = Text(Tr("training image %d"), last);
   const bool named = ImGui::CalcTextSize(longest.c_str()).x + Px(16) <= width;
   ImGui::SetNextItemWidth(width);
-  ImGui::SliderInt("##keyframe", &state.keyframe, 0, last, named ? Tr("training image %d") : "%d",
+  ImGui::SliderInt("##keyframe", &picks.keyframe, 0, last, named ? Tr("training image %d") : "%d",
                    ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
-  DrawPickSteps(workspace, state);
+  DrawPickSteps(workspace, selection, options, picks, align, input);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   DimText(name);

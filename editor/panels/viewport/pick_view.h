@@ -2,14 +2,14 @@
 
 // Picking of the stage's points: each in two or more training images.
 
+#include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/corner_view.h"
-#include "editor/panels/widgets/editor_state.h"
 #include "editor/session/workspace.h"
 #include "shared/render/gl/texture.h"
 
 namespace lararium::panels {
 
-// The anchors, in the order of EditorState::anchor.
+// The anchors, indexed by PickTarget::anchor.
 struct AnchorEntry {
   const char* label;
   const char* hint;
@@ -20,19 +20,27 @@ std::span<const AnchorEntry> AnchorEntries();
 // The occluder that is drawn in this view: the selected one, if it is not a model. nullptr: the
 // stage's points are picked.
 const editor::OccluderDocument* OccluderInWork(const editor::Workspace& workspace,
-                                               const EditorState& state);
+                                               const Selection& selection);
 
 // Adds an occluder without corners and opens this view.
-void DrawNewOccluder(editor::Workspace& workspace, EditorState& state);
+void DrawNewOccluder(editor::Workspace& workspace, Selection& selection, ViewOptions& options);
 
 class PickView {
  public:
   // Fills the current window.
-  void Show(editor::Workspace& workspace, EditorState& state);
+  void Show(editor::Workspace& workspace,
+            const Selection& selection,
+            ViewOptions& options,
+            PickTarget& picks,
+            CheckView& check,
+            AlignView& align,
+            Input& input);
 
  private:
   void DrawImage(editor::Workspace& workspace,
-                 EditorState& state,
+                 const Selection& selection,
+                 PickTarget& picks,
+                 const AlignView& align,
                  const vision::Keyframe& keyframe);
 
   render::Texture texture_;

@@ -9,7 +9,6 @@
 
 #include "editor/document/picked_images.h"
 #include "editor/jobs/check_points.h"
-#include "editor/panels/viewport/align_panel.h"
 #include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/pick_view.h"
 #include "editor/panels/viewport/place_cards.h"
@@ -31,32 +30,39 @@ struct Line {
 // The anchors that are being picked: the corners of an occluder, a check point, a point of a model,
 // or otherwise a point of the stage, as in the pick view.
 std::vector<const stage::Anchor*> AnchorsInWork(const editor::Workspace& workspace,
-                                                const EditorState& state) {
+                                                const Selection& selection,
+                                                const PickTarget& picks,
+                                                const AlignView& align) {
   std::vector<const stage::Anchor*> anchors;
-  if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
+  if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, selection)) {
     for (const stage::Anchor& corner : drawn->corners) {
       anchors.push_back(&corner);
     }
-  } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, state)) {
+  } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, selection)) {
     if (const auto* picks = editor::FindCheckPicks(*workspace.place(), checked->name)) {
       anchors.push_back(picks);
     }
-  } else if (const ModelPairInWork work = PairInWork(workspace, state); work.occluder != nullptr) {
+  } else if (const ModelPairInWork work = PairInWork(workspace, selection, align);
+             work.occluder != nullptr) {
     anchors.push_back(&work.occluder->model_pairs[work.pair].anchor);
   } else {
-    const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(state.anchor)];
+    const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(picks.anchor)];
     anchors.push_back(&(workspace.place()->picks.*entry.anchor));
   }
   return anchors;
 }
 
-std::vector<Line> LinesInWork(const editor::Workspace& workspace, const EditorState& state) {
+std::vector<Line> LinesInWork(const editor::Workspace& workspace,
+                              const Selection& selection,
+                              const PickTarget& picks,
+                              const AlignView& align) {
   std::vector<Line> lines;
   const auto& database = workspace.loaded().database;
   if (workspace.place() == nullptr || database == nullptr) {
     return lines;
   }
-  const std::vector<const stage::Anchor*> anchors = AnchorsInWork(workspace, state);
+  const std::vector<const stage::Anchor*> anchors =
+      AnchorsInWork(workspace, selection, picks, align);
   for (size_t corner = 0; corner < anchors.size(); ++corner) {
     for (const PickedImage& image : editor::PickedImagesOf(*anchors[corner], *database)) {
       lines.push_back({image, corner});
@@ -66,46 +72,53 @@ std::vector<Line> LinesInWork(const editor::Workspace& workspace, const EditorSt
 }
 
 std::vector<PickedImage> ImagesInWork(const editor::Workspace& workspace,
-                                      const EditorState& state) {
+                                      const Selection& selection,
+                                      const PickTarget& picks,
+                                      const AlignView& align) {
   std::vector<PickedImage> images;
-  for (const Line& line : LinesInWork(workspace, state)) {
+  for (const Line& line : LinesInWork(workspace, selection, picks, align)) {
     images.push_back(line.image);
   }
   return images;
 }
 
-void Remove(editor::Workspace& workspace, const EditorState& state, const Line& line) {
+void Remove(editor::Workspace& workspace,
+            const Selection& selection,
+            const PickTarget& picks,
+            const AlignView& align,
+            const Line& line) {
   const auto command = [](const std::string& of) {
     return Text(Tr("remove a pick of %s"), of.c_str());
   };
   const stage::Pick pick = line.image.pick;
-  if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
+  if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, selection)) {
     const std::string name = drawn->name;
     workspace.EditOccluder(command(name), name, [&](editor::OccluderDocument& occluder) {
       editor::RemoveCornerPick(occluder, line.corner, pick);
     });
-  } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, state)) {
+  } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, selection)) {
     const std::string name = checked->name;
     workspace.EditPlace(command(name), [&](editor::PlaceDocument& place) {
       editor::RemoveCheckPick(place, name, pick);
     });
-  } else if (const ModelPairInWork work = PairInWork(workspace, state); work.occluder != nullptr) {
+  } else if (const ModelPairInWork work = PairInWork(workspace, selection, align);
+             work.occluder != nullptr) {
     const std::string name = work.occluder->name;
     workspace.EditOccluder(command(name), name, [&, pair = work.pair](auto& occluder) {
       editor::RemovePick(occluder.model_pairs[pair].anchor, pick);
     });
   } else {
-    const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(state.anchor)];
+    const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(picks.anchor)];
     workspace.EditPlace(command(Tr(entry.label)), [&](editor::PlaceDocument& place) {
       editor::RemovePick(place.picks.*entry.anchor, pick);
     });
   }
 }
 
-void JumpTo(uint32_t keyframe, EditorState& state) {
-  state.keyframe = static_cast<int>(keyframe);
-  state.view = ViewKind::kPicks;
-  state.focus = Focus::kViews;  // Delete then removes this pick.
+void JumpTo(uint32_t keyframe, ViewOptions& options, PickTarget& picks, Input& input) {
+  picks.keyframe = static_cast<int>(keyframe);
+  options.view = ViewKind::kPicks;
+  input.focus = Focus::kViews;  // Delete then removes this pick.
 }
 
 std::string NameOf(const editor::Workspace& workspace, const Line& line, bool corners) {
@@ -119,14 +132,16 @@ std::string NameOf(const editor::Workspace& workspace, const Line& line, bool co
 // Draws a line; returns true where its pick is to be removed, by its button or by Delete while it
 // has the keyboard focus.
 bool DrawLine(const editor::Workspace& workspace,
-              EditorState& state,
+              ViewOptions& options,
+              PickTarget& picks,
+              Input& input,
               const Line& line,
               bool corners) {
   const std::optional<uint32_t>& keyframe = line.image.keyframe;
   bool remove = false;
   const auto delete_here = [&] {
-    remove |= ImGui::IsItemFocused() && state.keyboard.walks() && state.dialog == Dialog::kNone &&
-              std::any_of(state.keys.begin(), state.keys.end(), [](const KeyPress& press) {
+    remove |= ImGui::IsItemFocused() && input.keyboard.walks() && !input.dialog_open &&
+              std::any_of(input.keys.begin(), input.keys.end(), [](const KeyPress& press) {
                 return ActionOf(KeyScope::kPicks, press) == KeyAction::kRemovePick;
               });
   };
@@ -135,14 +150,14 @@ bool DrawLine(const editor::Workspace& workspace,
   const std::string name = NameOf(workspace, line, corners);
   const std::string shown = Elided(name, ImGui::GetContentRegionAvail().x);
   const bool selected =
-      state.view == ViewKind::kPicks && keyframe && static_cast<int>(*keyframe) == state.keyframe;
+      options.view == ViewKind::kPicks && keyframe && static_cast<int>(*keyframe) == picks.keyframe;
   ImGui::PushStyleColor(ImGuiCol_Text, keyframe ? Colours().text : Colours().dim);
   ImGui::AlignTextToFramePadding();
   if (ImGui::Selectable((shown + "##image").c_str(), selected,
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap,
                         ImVec2(0, ImGui::GetFrameHeight())) &&
       keyframe) {
-    JumpTo(*keyframe, state);
+    JumpTo(*keyframe, options, picks, input);
   }
   ImGui::PopStyleColor();
   delete_here();
@@ -161,8 +176,13 @@ bool DrawLine(const editor::Workspace& workspace,
 
 }  // namespace
 
-void DrawPicksList(editor::Workspace& workspace, EditorState& state) {
-  const std::vector<Line> lines = LinesInWork(workspace, state);
+void DrawPicksList(editor::Workspace& workspace,
+                   const Selection& selection,
+                   ViewOptions& options,
+                   PickTarget& picks,
+                   const AlignView& align,
+                   Input& input) {
+  const std::vector<Line> lines = LinesInWork(workspace, selection, picks, align);
   if (lines.empty() || !ImGui::BeginTable("picks", 3, ImGuiTableFlags_SizingStretchProp)) {
     return;
   }
@@ -172,41 +192,45 @@ void DrawPicksList(editor::Workspace& workspace, EditorState& state) {
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().dim);
   ImGui::TableHeadersRow();
   ImGui::PopStyleColor();
-  const bool corners = OccluderInWork(workspace, state) != nullptr;
+  const bool corners = OccluderInWork(workspace, selection) != nullptr;
   const Line* removed = nullptr;
   for (const Line& line : lines) {
     ImGui::PushID(static_cast<int>(&line - lines.data()));
-    if (DrawLine(workspace, state, line, corners)) {
+    if (DrawLine(workspace, options, picks, input, line, corners)) {
       removed = &line;
     }
     ImGui::PopID();
   }
   ImGui::EndTable();
   if (removed != nullptr) {
-    Remove(workspace, state, *removed);
+    Remove(workspace, selection, picks, align, *removed);
   }
 }
 
-void HandlePickKeys(editor::Workspace& workspace, EditorState& state) {
-  if (ImGui::GetIO().WantTextInput || state.dialog != Dialog::kNone ||
-      state.focus != Focus::kViews || state.keyboard.walks()) {
+void HandlePickKeys(editor::Workspace& workspace,
+                    const Selection& selection,
+                    PickTarget& picks,
+                    const AlignView& align,
+                    const Input& input) {
+  if (ImGui::GetIO().WantTextInput || input.dialog_open || input.focus != Focus::kViews ||
+      input.keyboard.walks()) {
     return;
   }
   constexpr int kFar = 10;  // Images; the step with Shift.
   const int last = static_cast<int>(workspace.loaded().database->keyframes.size()) - 1;
   const auto jump = [&](int direction) {
-    const auto next = editor::NextPicked(ImagesInWork(workspace, state),
-                                         static_cast<uint32_t>(state.keyframe), direction);
-    state.keyframe = next ? static_cast<int>(*next) : state.keyframe;
+    const auto next = editor::NextPicked(ImagesInWork(workspace, selection, picks, align),
+                                         static_cast<uint32_t>(picks.keyframe), direction);
+    picks.keyframe = next ? static_cast<int>(*next) : picks.keyframe;
   };
-  for (const KeyPress& press : state.keys) {
+  for (const KeyPress& press : input.keys) {
     const int step = (press.modifiers & GLFW_MOD_SHIFT) != 0 ? kFar : 1;
     switch (ActionOf(KeyScope::kPicks, press)) {
       case KeyAction::kImageBefore:
-        state.keyframe = std::max(state.keyframe - step, 0);
+        picks.keyframe = std::max(picks.keyframe - step, 0);
         break;
       case KeyAction::kImageAfter:
-        state.keyframe = std::min(state.keyframe + step, last);
+        picks.keyframe = std::min(picks.keyframe + step, last);
         break;
       case KeyAction::kPickedBefore:
         jump(-1);
@@ -215,13 +239,13 @@ void HandlePickKeys(editor::Workspace& workspace, EditorState& state) {
         jump(1);
         break;
       case KeyAction::kRemovePick: {
-        const std::vector<Line> lines = LinesInWork(workspace, state);
+        const std::vector<Line> lines = LinesInWork(workspace, selection, picks, align);
         // Of several corners in this image, the one that was picked last.
         const auto here = std::find_if(lines.rbegin(), lines.rend(), [&](const Line& line) {
-          return line.image.keyframe && static_cast<int>(*line.image.keyframe) == state.keyframe;
+          return line.image.keyframe && static_cast<int>(*line.image.keyframe) == picks.keyframe;
         });
         if (here != lines.rend()) {
-          Remove(workspace, state, *here);
+          Remove(workspace, selection, picks, align, *here);
         }
         break;
       }
@@ -231,14 +255,19 @@ void HandlePickKeys(editor::Workspace& workspace, EditorState& state) {
   }
 }
 
-void DrawPickSteps(const editor::Workspace& workspace, EditorState& state) {
-  const std::vector<PickedImage> images = ImagesInWork(workspace, state);
-  const auto keyframe = static_cast<uint32_t>(state.keyframe);
+void DrawPickSteps(const editor::Workspace& workspace,
+                   const Selection& selection,
+                   ViewOptions& options,
+                   PickTarget& picks,
+                   const AlignView& align,
+                   Input& input) {
+  const std::vector<PickedImage> images = ImagesInWork(workspace, selection, picks, align);
+  const auto keyframe = static_cast<uint32_t>(picks.keyframe);
   const auto button = [&](const char* id, ImGuiDir towards, int direction, KeyAction action) {
     const std::optional<uint32_t> next = editor::NextPicked(images, keyframe, direction);
     ImGui::BeginDisabled(!next);
     if (ImGui::ArrowButton(id, towards) && next) {
-      JumpTo(*next, state);
+      JumpTo(*next, options, picks, input);
     }
     ImGui::EndDisabled();
     Tooltip(WithKey(TextOf(action).c_str(), action));

@@ -36,7 +36,7 @@ float& CardHeight(const char* id) {
 
 // A panel over a view, as high as its content in the last frame. corner: 0 or 1 along each axis of
 // the view.
-void DrawCard(EditorState& state,
+void DrawCard(Input& input,
               const char* id,
               const ImVec2& origin,
               const ImVec2& size,
@@ -59,7 +59,7 @@ void DrawCard(EditorState& state,
   content();
   height = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + Px(8);
   if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    state.focus = Focus::kViews;
+    input.focus = Focus::kViews;
   }
   ImGui::EndChild();
   ImGui::PopStyleVar(2);
@@ -257,9 +257,9 @@ const char* PointColourName(PointColour colour) {
   return "";
 }
 
-void ChooseNoPoints(EditorState& state) {
-  state.place.points.clear();
-  state.place.metres = 0.0;
+void ChooseNoPoints(PlaceView& place_view) {
+  place_view.points.clear();
+  place_view.metres = 0.0;
 }
 
 std::string SessionName(const editor::PlaceDocument& place, uint32_t session) {
@@ -301,80 +301,83 @@ void DrawLookButtons(PlaceView& place) {
 }
 
 void DrawPlaceTools(editor::Workspace& workspace,
-                    EditorState& state,
+                    ViewOptions& options,
+                    PlaceView& place_view,
+                    Input& input,
                     const ImVec2& origin,
                     const ImVec2& size) {
   if (workspace.place() == nullptr || workspace.loaded().statistics == nullptr) {
     return;
   }
   const bool fits = CardHeight(kTools) + CardHeight(kPointCard) + 3 * Px(kMargin) <= size.y;
-  if (!fits && AnyChosen(workspace, state.place)) {
+  if (!fits && AnyChosen(workspace, place_view)) {
     return;  // The card of the selected points replaces the buttons in a small view.
   }
-  DrawCard(state, kTools, origin, size, ImVec2(0, 0), kToolsWidth, [&] {
+  DrawCard(input, kTools, origin, size, ImVec2(0, 0), kToolsWidth, [&] {
     std::array<const char*, kPointColours> labels = {};
     for (int i = 0; i < kPointColours; ++i) {
       labels[static_cast<size_t>(i)] = PointColourName(static_cast<PointColour>(i));
     }
-    int colours = static_cast<int>(state.place.colours);
+    int colours = static_cast<int>(place_view.colours);
     ImGui::BeginGroup();
     if (Segmented("colours", labels, colours)) {
-      state.place.colours = static_cast<PointColour>(colours);
+      place_view.colours = static_cast<PointColour>(colours);
     }
     ImGui::EndGroup();
     Tooltip(WithKey(Tr("What the points are coloured by: the picture, their mean error, how many "
                        "images show them, the sessions that saw them"),
                     KeyAction::kPointColours));
-    DrawLegend(workspace, state.place);
-    ImGui::Checkbox(Tr("Measure"), &state.place.measure);
+    DrawLegend(workspace, place_view);
+    ImGui::Checkbox(Tr("Measure"), &place_view.measure);
     Tooltip(WithKey(Tr("A click chooses a point, the next one the other end of a distance"),
                     KeyAction::kMeasure));
     SameLineIfFits(std::array{Tr("In steps"), "    "}, Px(16));
-    ImGui::Checkbox(Tr("In steps"), &state.place.snap);
+    ImGui::Checkbox(Tr("In steps"), &options.snap);
     Tooltip(WithKey(
         Tr("Handles move by 5 cm (1 cm with Shift), turn by 5\xc2\xb0, scale by a twentieth "
            "and stop at the floor. Ctrl does so for one drag."),
         KeyAction::kSnapHandles));
-    DrawLookButtons(state.place);
+    DrawLookButtons(place_view);
   });
 }
 
 void DrawPointCard(editor::Workspace& workspace,
-                   EditorState& state,
+                   PlaceView& place_view,
+                   Input& input,
                    const ImVec2& origin,
                    const ImVec2& size) {
-  if (!AnyChosen(workspace, state.place)) {
+  if (!AnyChosen(workspace, place_view)) {
     return;
   }
-  DrawCard(state, kPointCard, origin, size, ImVec2(1, 1), kPointWidth, [&] {
-    if (state.place.points.size() == 1) {
-      DrawPoint(workspace, state.place.points.front());
+  DrawCard(input, kPointCard, origin, size, ImVec2(1, 1), kPointWidth, [&] {
+    if (place_view.points.size() == 1) {
+      DrawPoint(workspace, place_view.points.front());
       Hint(Tr("Shift and a click on another point measures."));
     } else {
-      DrawDistance(workspace, state.place);
+      DrawDistance(workspace, place_view);
     }
   });
 }
 
 void DrawChosenPoints(const editor::Workspace& workspace,
-                      const EditorState& state,
+                      const PlaceView& place_view,
                       const ViewCamera& view,
                       ImDrawList& draw) {
-  if (!AnyChosen(workspace, state.place)) {
+  if (!AnyChosen(workspace, place_view)) {
     return;
   }
   const editor::LoadedPlace& loaded = workspace.loaded();
   const Similarity3 world_from_map = loaded.picks.map_from_picked.Inverse();
   std::vector<Vector3d> ends;
-  for (const uint32_t point : state.place.points) {
+  for (const uint32_t point : place_view.points) {
     ends.push_back(world_from_map * PointInMap(workspace, point));
   }
   if (ends.size() == 1) {
     for (const uint32_t observation :
-         loaded.statistics->ObservationsOf(state.place.points.front())) {
+         loaded.statistics->ObservationsOf(place_view.points.front())) {
       const vision::Keyframe& keyframe =
           loaded.database->keyframes[loaded.database->observations[observation].keyframe];
-      const ImVec4 colour = state.place.colours == PointColour::kSessions
+      const ImVec4 colour = place_view.colours == PointColour::kSessions
                                 ? SessionColour(keyframe.session)
                                 : OverPicture().warning;
       DrawWorldLine(view, ends.front(), world_from_map * keyframe.camera_from_map.Center(),
@@ -383,7 +386,7 @@ void DrawChosenPoints(const editor::Workspace& workspace,
   } else {
     DrawWorldLine(view, ends[0], ends[1], Packed(OverPicture().accent), Px(2), draw);
     if (const auto middle = view.Project(0.5 * (ends[0] + ends[1]))) {
-      LabelMark(ToImGui(*middle), DistanceText(workspace, state.place), Packed(OverPicture().text),
+      LabelMark(ToImGui(*middle), DistanceText(workspace, place_view), Packed(OverPicture().text),
                 draw);
     }
   }
@@ -395,7 +398,9 @@ void DrawChosenPoints(const editor::Workspace& workspace,
   }
 }
 
-void KeyframeCard::Show(const editor::Workspace& workspace, EditorState& state, uint32_t keyframe) {
+void KeyframeCard::Show(const editor::Workspace& workspace,
+                        PictureTextures& pictures,
+                        uint32_t keyframe) {
   const editor::LoadedPlace& loaded = workspace.loaded();
   const vision::Keyframe& shown = loaded.database->keyframes[keyframe];
   if (database_ != loaded.database || keyframe_ != keyframe) {
@@ -416,7 +421,7 @@ void KeyframeCard::Show(const editor::Workspace& workspace, EditorState& state, 
     const float width = Px(220);
     const float height =
         width * static_cast<float>(picture_->rows) / static_cast<float>(picture_->cols);
-    ImGui::Image(state.pictures.Show("keyframe", picture_), ImVec2(width, height));
+    ImGui::Image(pictures.Show("keyframe", picture_), ImVec2(width, height));
   } else {
     DimText(Tr("The map was made small and holds no image here."));
   }

@@ -80,45 +80,46 @@ void DrawSkeleton(const editor::CastPortrait& portrait,
   }
 }
 
-void Turn(EditorState& state, float radians) {
-  state.cast.azimuth = std::remainder(state.cast.azimuth + radians, 2.0f * kPiF);
+void Turn(CastView& cast_view, float radians) {
+  cast_view.azimuth = std::remainder(cast_view.azimuth + radians, 2.0f * kPiF);
 }
 
 // While the portrait has the keyboard focus, left, right and Home rotate it instead of moving the
 // focus. ImGui 1.86 draws no ring around such a button, so it is drawn here.
-void TurnByKeys(EditorState& state, const ImRect& frame) {
+void TurnByKeys(CastView& cast_view, const Input& input, const ImRect& frame) {
   constexpr float kStep = kPiF / 12.0f;
   const ImGuiContext& g = *ImGui::GetCurrentContext();
-  if (!ImGui::IsItemFocused() || !state.keyboard.walks()) {
+  if (!ImGui::IsItemFocused() || !input.keyboard.walks()) {
     return;
   }
   ImGui::RenderNavHighlight(frame, g.NavId);
   const bool front = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Home));
   if (front) {
-    state.cast.azimuth = 0.0f;
+    cast_view.azimuth = 0.0f;
   } else if (g.NavMoveDir == ImGuiDir_Left || g.NavMoveDir == ImGuiDir_Right) {
-    Turn(state, g.NavMoveDir == ImGuiDir_Left ? -kStep : kStep);
+    Turn(cast_view, g.NavMoveDir == ImGuiDir_Left ? -kStep : kStep);
   } else {
     return;
   }
   ImGui::NavMoveRequestCancel();
 }
 
-void Interact(EditorState& state,
+void Interact(CastView& cast_view,
+              const Input& input,
               const editor::CastPortrait* portrait,
               const Place& place,
               bool bones) {
   const ImVec2 size(place.to.x - place.from.x, place.to.y - place.from.y);
   ImGui::SetCursorScreenPos(place.from);
   ImGui::InvisibleButton("portrait", size);
-  TurnByKeys(state, ImRect(place.from, place.to));
+  TurnByKeys(cast_view, input, ImRect(place.from, place.to));
   const bool hovered = ImGui::IsItemHovered();
   if (ImGui::IsItemActive()) {
     // The person follows the hand: dragging to the right shows the right side.
-    Turn(state, kPiF * ImGui::GetIO().MouseDelta.x / size.x);
+    Turn(cast_view, kPiF * ImGui::GetIO().MouseDelta.x / size.x);
   }
   if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-    state.cast.azimuth = 0.0f;
+    cast_view.azimuth = 0.0f;
   }
   if (!bones || portrait == nullptr) {
     return;
@@ -128,12 +129,15 @@ void Interact(EditorState& state,
     const std::string& name = portrait->joints[static_cast<size_t>(joint)];
     ImGui::SetTooltip("%s", name.c_str());
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-      state.cast.joint = name;
+      cast_view.joint = name;
     }
   }
 }
 
-void DrawPicture(EditorState& state, const editor::CastPortrait* portrait, Place& place) {
+void DrawPicture(CastView& cast_view,
+                 PictureTextures& pictures,
+                 const editor::CastPortrait* portrait,
+                 Place& place) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float rounding = ImGui::GetStyle().FrameRounding;
   draw.AddRectFilled(place.from, place.to, Packed(Colours().frame), rounding);
@@ -149,8 +153,8 @@ void DrawPicture(EditorState& state, const editor::CastPortrait* portrait, Place
                      place.scale * static_cast<float>(portrait->bgr.rows));
   place.from = {place.from.x + 0.5f * (width - shown.x), place.from.y + 0.5f * (height - shown.y)};
   place.to = {place.from.x + shown.x, place.from.y + shown.y};
-  const auto whole = std::shared_ptr<const cv::Mat>(state.portrait, &portrait->bgr);
-  draw.AddImageRounded(state.pictures.Show("portrait", whole), place.from, place.to, ImVec2(0, 0),
+  const auto whole = std::shared_ptr<const cv::Mat>(cast_view.portrait, &portrait->bgr);
+  draw.AddImageRounded(pictures.Show("portrait", whole), place.from, place.to, ImVec2(0, 0),
                        ImVec2(1, 1), IM_COL32_WHITE, rounding);
 }
 
@@ -167,15 +171,17 @@ void Caption(const Place& frame, const char* text) {
 }  // namespace
 
 void DrawPortrait(editor::Workspace& workspace,
-                  EditorState& state,
+                  CastView& cast_view,
+                  PictureTextures& pictures,
+                  const Input& input,
                   const editor::CastDocument& member,
                   bool bones) {
-  const cv::Size size = PictureSize(state.cast.frame);
+  const cv::Size size = PictureSize(cast_view.frame);
   workspace.cast_pictures().Look(
-      member.name, {.azimuth = state.cast.azimuth, .frame = kFrames[state.cast.frame]}, size);
-  state.portrait = workspace.cast_pictures().portrait();
-  const bool known = state.portrait != nullptr && state.portrait->name == member.name;
-  const editor::CastPortrait* portrait = known ? state.portrait.get() : nullptr;
+      member.name, {.azimuth = cast_view.azimuth, .frame = kFrames[cast_view.frame]}, size);
+  cast_view.portrait = workspace.cast_pictures().portrait();
+  const bool known = cast_view.portrait != nullptr && cast_view.portrait->name == member.name;
+  const editor::CastPortrait* portrait = known ? cast_view.portrait.get() : nullptr;
   const ImVec2 begin = ImGui::GetCursorScreenPos();
   const float beside = ImGui::GetContentRegionAvail().x - static_cast<float>(size.width);
   const ImVec2 from(begin.x + std::floor(std::max(0.0f, 0.5f * beside)), begin.y);
@@ -184,13 +190,13 @@ void DrawPortrait(editor::Workspace& workspace,
       {from.x + static_cast<float>(size.width), from.y + static_cast<float>(size.height)},
       1.0f};
   Place picture = frame;
-  DrawPicture(state, portrait, picture);
+  DrawPicture(cast_view, pictures, portrait, picture);
   if (bones && portrait != nullptr) {
     ImGui::PushClipRect(frame.from, frame.to, true);
-    DrawSkeleton(*portrait, picture, state.cast.joint);
+    DrawSkeleton(*portrait, picture, cast_view.joint);
     ImGui::PopClipRect();
   }
-  Interact(state, portrait, picture, bones);
+  Interact(cast_view, input, portrait, picture, bones);
   ImGui::SetCursorScreenPos(ImVec2(begin.x, frame.to.y + ImGui::GetStyle().ItemSpacing.y));
   if (workspace.cast_pictures().Working(member.name)) {
     Caption(frame, Tr("Building\xe2\x80\xa6"));
@@ -198,7 +204,7 @@ void DrawPortrait(editor::Workspace& workspace,
   const char* const labels[] = {Tr("Bust"), Tr("Face"), Tr("Figure")};
   const std::string tips[] = {Tr("Head and shoulders"), Tr("The face alone"),
                               Tr("From head to foot")};
-  Segmented("frame", labels, state.cast.frame, tips);
+  Segmented("frame", labels, cast_view.frame, tips);
   if (FitsBeside(std::array{Tr("Drag to turn")})) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();

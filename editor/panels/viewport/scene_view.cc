@@ -84,7 +84,7 @@ SceneView::SceneView(std::unique_ptr<render::Overlay> overlay) : overlay_(std::m
 
 SceneView::~SceneView() = default;
 
-void SceneView::UpdateMap(const editor::LoadedPlace& loaded, EditorState& state) {
+void SceneView::UpdateMap(const editor::LoadedPlace& loaded, PlaceView& place_view) {
   if (loaded.database == database_ && loaded.picks.map_from_picked == map_from_picked_) {
     return;
   }
@@ -93,7 +93,7 @@ void SceneView::UpdateMap(const editor::LoadedPlace& loaded, EditorState& state)
                            loaded.database->points == database_->points;
   if (!same_points) {
     framed_ = false;
-    ChooseNoPoints(state);
+    ChooseNoPoints(place_view);
   }
   database_ = loaded.database;
   map_from_picked_ = loaded.picks.map_from_picked;
@@ -232,7 +232,7 @@ void SceneView::AddFloor(const editor::LoadedPlace& loaded) {
   scene_.meshes.push_back({*floor_, geometry::ToGlm(world_from_floor), kFloorColour});
 }
 
-void SceneView::AddMeshes(const editor::Workspace& workspace, const EditorState& state) {
+void SceneView::AddMeshes(const editor::Workspace& workspace, const Selection& selection) {
   const editor::PlaceDocument& place = *workspace.place();
   const glm::mat4 world_from_stage = geometry::ToGlm(place.picked_from_stage);
   for (const auto& [mesh, stage_from_actor] : actors_) {
@@ -240,9 +240,8 @@ void SceneView::AddMeshes(const editor::Workspace& workspace, const EditorState&
         {mesh, world_from_stage * stage_from_actor, glm::u8vec4(225, 214, 196, 255)});
   }
   for (const OverlayMesh& overlay : occluders_) {
-    const Selection selection{Selection::Kind::kOccluder, overlay.name};
     const Similarity3 transform = WorldFromOccluder(workspace, overlay.name);
-    const bool selected = state.selection == selection;
+    const bool selected = selection == Selection{Selection::Kind::kOccluder, overlay.name};
     scene_.meshes.push_back(
         {overlay.mesh, geometry::ToGlm(transform),
          selected ? glm::u8vec4(217, 107, 73, 60) : glm::u8vec4(120, 150, 190, 44)});
@@ -250,7 +249,9 @@ void SceneView::AddMeshes(const editor::Workspace& workspace, const EditorState&
 }
 
 Status SceneView::Draw(const editor::Workspace& workspace,
-                       const EditorState& state,
+                       const Selection& selection,
+                       const ViewOptions& options,
+                       const PlaceView& place_view,
                        const ViewCamera& view,
                        int width,
                        int height) {
@@ -268,8 +269,8 @@ Status SceneView::Draw(const editor::Workspace& workspace,
   overlay_view.display.cx = 0.5 * (width - 1);
   overlay_view.display.cy = 0.5 * (height - 1);
   overlay_view.camera_from_stage = view.camera_from_world;
-  overlay_view.near = static_cast<float>(std::max(0.005 * state.orbit.distance, 1e-3));
-  overlay_view.far = static_cast<float>(1000.0 * state.orbit.distance);
+  overlay_view.near = static_cast<float>(std::max(0.005 * place_view.orbit.distance, 1e-3));
+  overlay_view.far = static_cast<float>(1000.0 * place_view.orbit.distance);
   overlay_view.clear = glm::vec3(0.075f, 0.082f, 0.094f);
 
   scene_.pixel = Px(1.0f);
@@ -277,7 +278,7 @@ Status SceneView::Draw(const editor::Workspace& workspace,
   scene_.meshes.clear();
   const editor::PlaceDocument* place = workspace.place();
   scene_.has_place = place != nullptr;
-  scene_.points = state.show_points;
+  scene_.points = options.show_points;
   if (place != nullptr) {
     AddStage(scene_.lines, place->picked_from_stage);
     const auto& picture = workspace.picture();
@@ -287,7 +288,7 @@ Status SceneView::Draw(const editor::Workspace& workspace,
       AddFrustum(scene_.lines, Frustum(picture->display, camera_from_world, 0.35), kLiveColour);
     }
     AddFloor(workspace.loaded());
-    AddMeshes(workspace, state);
+    AddMeshes(workspace, selection);
   }
   if (scene_.points && !points_.empty() && !moving_points_) {
     MeasurePoints();
@@ -361,7 +362,10 @@ std::optional<uint32_t> SceneView::KeyframeBelow(const ViewCamera& view,
 }
 
 void SceneView::Point(editor::Workspace& workspace,
-                      EditorState& state,
+                      ViewOptions& options,
+                      PickTarget& picks,
+                      PlaceView& place_view,
+                      PictureTextures& pictures,
                       const ViewCamera& view,
                       bool hovered,
                       ImDrawList& draw) {
@@ -376,12 +380,12 @@ void SceneView::Point(editor::Workspace& workspace,
     return;
   }
   std::optional<uint32_t> keyframe;
-  if (!state.place.measure && !ImGui::GetIO().KeyShift) {
+  if (!place_view.measure && !ImGui::GetIO().KeyShift) {
     keyframe = KeyframeBelow(view, pointer);
   }
   if (keyframe && clicked) {
-    state.keyframe = static_cast<int>(*keyframe);
-    state.view = ViewKind::kPicks;
+    picks.keyframe = static_cast<int>(*keyframe);
+    options.view = ViewKind::kPicks;
   } else if (keyframe) {
     const vision::Keyframe& shown = database_->keyframes[*keyframe];
     const Frustum frustum(database_->camera,
@@ -392,18 +396,19 @@ void SceneView::Point(editor::Workspace& workspace,
       DrawWorldLine(view, frustum.eye, frustum.corners[i], packed, Px(2), draw);
       DrawWorldLine(view, frustum.corners[i], frustum.corners[(i + 1) % 4], packed, Px(2), draw);
     }
-    card_.Show(workspace, state, *keyframe);
+    card_.Show(workspace, pictures, *keyframe);
   } else if (clicked) {
     const bool add =
-        ImGui::GetIO().KeyShift || (state.place.measure && state.place.points.size() == 1);
+        ImGui::GetIO().KeyShift || (place_view.measure && place_view.points.size() == 1);
     const std::optional<uint32_t> point =
-        state.show_points ? PointBelow(points_, view, pointer, Px(kPointPx), Px(8)) : std::nullopt;
-    ChoosePoint(point, add, state.place.points);
-    state.place.metres = 0.0;
+        options.show_points ? PointBelow(points_, view, pointer, Px(kPointPx), Px(8))
+                            : std::nullopt;
+    ChoosePoint(point, add, place_view.points);
+    place_view.metres = 0.0;
   }
 }
 
-void SceneView::Interact(EditorState& state,
+void SceneView::Interact(PlaceView& place_view,
                          bool hovered,
                          bool active,
                          const Eigen::Vector2d& size) {
@@ -411,30 +416,36 @@ void SceneView::Interact(EditorState& state,
   const Eigen::Vector2d delta = ToEigen(io.MouseDelta);
   if (active) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !io.KeyShift) {
-      state.orbit.Orbit(delta, size.x());
+      place_view.orbit.Orbit(delta, size.x());
     } else {
-      state.orbit.Pan(delta, size.y());
+      place_view.orbit.Pan(delta, size.y());
     }
   }
   if (hovered && io.MouseWheel != 0.0f) {
-    state.orbit.Zoom(io.MouseWheel);
+    place_view.orbit.Zoom(io.MouseWheel);
   }
 }
 
-void SceneView::Show(editor::Workspace& workspace, EditorState& state) {
-  UpdateMap(workspace.loaded(), state);
-  UpdateColours(workspace.loaded(), state.place);
+void SceneView::Show(editor::Workspace& workspace,
+                     Selection& selection,
+                     ViewOptions& options,
+                     ViewTools& tools,
+                     PictureTextures& pictures,
+                     Input& input,
+                     EditorActions& actions) {
+  UpdateMap(workspace.loaded(), tools.place);
+  UpdateColours(workspace.loaded(), tools.place);
   UpdateOccluders(workspace);
   UpdateActors(workspace);
   if (!framed_ && database_ != nullptr) {
     framed_ = true;
-    state.orbit = LookAtStage(workspace.place());
+    tools.place.orbit = LookAtStage(workspace.place());
   }
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();
   const int width = std::max(static_cast<int>(size.x), 16);
   const int height = std::max(static_cast<int>(size.y), 16);
-  const ViewCamera view = state.orbit.View(ToEigen(origin), Eigen::Vector2d(width, height));
+  const ViewCamera view = tools.place.orbit.View(ToEigen(origin), Eigen::Vector2d(width, height));
   ImGui::InvisibleButton("around", ImVec2(static_cast<float>(width), static_cast<float>(height)),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
@@ -444,26 +455,32 @@ void SceneView::Show(editor::Workspace& workspace, EditorState& state) {
     pressed_ = ToEigen(ImGui::GetMousePos());
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (const Status status = Draw(workspace, state, view, width, height); !status.ok()) {
+  if (const Status status = Draw(workspace, selection, options, tools.place, view, width, height);
+      !status.ok()) {
     draw.AddText(origin, Packed(OverPicture().error), status.message().c_str());
     return;
   }
   const ImVec2 corner(origin.x + static_cast<float>(width), origin.y + static_cast<float>(height));
   draw.AddImage(TextureOf(target_->texture(), version_), origin, corner);
   draw.PushClipRect(origin, corner, true);
-  DrawCheckPoints(workspace, state, view, draw);
-  const auto dragging = [&] { return state.drag.has_value() || state.walk.drag.has_value(); };
+  DrawCheckPoints(workspace, selection, tools.check, view, draw);
+  const auto dragging = [&] {
+    return tools.gizmo.drag.has_value() || tools.walks.drag.has_value();
+  };
   const bool was_dragging = dragging();
-  const bool picking = DrawModelPoints(workspace, state, view, hovered, draw);
-  const bool walking = walks_.Show(workspace, state, view, hovered && !picking, draw);
-  const bool wanted =
-      DrawGizmo(workspace, state, view, hovered && !picking && !walking, draw) || walking;
+  const bool picking =
+      DrawModelPoints(workspace, selection, options, tools.align, view, hovered, draw);
+  const bool walking = walks_.Show(workspace, selection, options, tools.walks, input, actions, view,
+                                   hovered && !picking, draw);
+  const bool wanted = DrawGizmo(workspace, selection, options, tools.gizmo, input, view,
+                                hovered && !picking && !walking, draw) ||
+                      walking;
   const bool busy = wanted && (dragging() || was_dragging || !active);
   if (busy) {
     pressed_.reset();
   }
-  Point(workspace, state, view, hovered && !busy, draw);
-  DrawChosenPoints(workspace, state, view, draw);
+  Point(workspace, options, tools.picks, tools.place, pictures, view, hovered && !busy, draw);
+  DrawChosenPoints(workspace, tools.place, view, draw);
   const char* keys = Tr("Drag or arrows to orbit, Shift to pan, wheel or Page Up and Down to zoom");
   const float wrap = size.x - Px(24);
   const float tall = ImGui::CalcTextSize(keys, nullptr, false, wrap).y;
@@ -471,12 +488,12 @@ void SceneView::Show(editor::Workspace& workspace, EditorState& state) {
                ImVec2(origin.x + Px(12), corner.y - Px(10) - tall), Packed(OverPicture().dim), keys,
                nullptr, wrap);
   draw.PopClipRect();
-  Interact(state, hovered, active && !busy, ToEigen(size));
-  LookByKeys(state, ToEigen(size));
-  LookWhereAsked(workspace, points_, ToEigen(size), state);
+  Interact(tools.place, hovered, active && !busy, ToEigen(size));
+  LookByKeys(tools.place, input, ToEigen(size));
+  LookWhereAsked(workspace, points_, ToEigen(size), selection, tools.picks, tools.place);
   const ImVec2 area(static_cast<float>(width), static_cast<float>(height));
-  DrawPlaceTools(workspace, state, origin, area);
-  DrawPointCard(workspace, state, origin, area);
+  DrawPlaceTools(workspace, options, tools.place, input, origin, area);
+  DrawPointCard(workspace, tools.place, input, origin, area);
 }
 
 }  // namespace lararium::panels

@@ -11,8 +11,8 @@
 
 #include "editor/panels/viewport/place_cards.h"
 #include "editor/panels/viewport/place_picking.h"
+#include "editor/panels/viewport/view_tools.h"
 #include "editor/panels/viewport/walk_view.h"
-#include "editor/panels/widgets/editor_state.h"
 #include "editor/session/workspace.h"
 #include "shared/render/gl/render_target.h"
 #include "shared/render/overlay.h"
@@ -26,13 +26,19 @@ class SceneView {
   ~SceneView();
 
   // Fills the current window.
-  void Show(editor::Workspace& workspace, EditorState& state);
+  void Show(editor::Workspace& workspace,
+            Selection& selection,
+            ViewOptions& options,
+            ViewTools& tools,
+            PictureTextures& pictures,
+            Input& input,
+            EditorActions& actions);
 
  private:
   explicit SceneView(std::unique_ptr<render::Overlay> overlay);
 
   // Uploads what has changed in the loaded place.
-  void UpdateMap(const editor::LoadedPlace& loaded, EditorState& state);
+  void UpdateMap(const editor::LoadedPlace& loaded, PlaceView& place_view);
   void UpdateColours(const editor::LoadedPlace& loaded, PlaceView& place);
   void AddCameras(const editor::LoadedPlace& loaded, PointColour colours);
   void UpdateOccluders(const editor::Workspace& workspace);
@@ -40,11 +46,13 @@ class SceneView {
 
   // Redraws the target if the scene has changed.
   Status Draw(const editor::Workspace& workspace,
-              const EditorState& state,
+              const Selection& selection,
+              const ViewOptions& options,
+              const PlaceView& place_view,
               const ViewCamera& view,
               int width,
               int height);
-  void AddMeshes(const editor::Workspace& workspace, const EditorState& state);
+  void AddMeshes(const editor::Workspace& workspace, const Selection& selection);
   void AddFloor(const editor::LoadedPlace& loaded);
   // points: the number of points to draw.
   void DrawScene(size_t points);
@@ -54,11 +62,14 @@ class SceneView {
   std::optional<uint32_t> KeyframeBelow(const ViewCamera& view, const Eigen::Vector2d& pixel) const;
   // Handles pointing at keyframes, and clicks on keyframes and points of the map.
   void Point(editor::Workspace& workspace,
-             EditorState& state,
+             ViewOptions& options,
+             PickTarget& picks,
+             PlaceView& place_view,
+             PictureTextures& pictures,
              const ViewCamera& view,
              bool hovered,
              ImDrawList& draw);
-  void Interact(EditorState& state, bool hovered, bool active, const Eigen::Vector2d& size);
+  void Interact(PlaceView& place_view, bool hovered, bool active, const Eigen::Vector2d& size);
 
   std::unique_ptr<render::Overlay> overlay_;
   std::optional<render::RenderTarget> target_;

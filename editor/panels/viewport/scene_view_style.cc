@@ -65,12 +65,12 @@ std::optional<Ball> BallOfActor(const editor::Workspace& workspace,
 }
 
 // The point that is being picked, if the map locates it.
-std::optional<Vector3d> PickedPoint(const editor::Workspace& workspace, const EditorState& state) {
+std::optional<Vector3d> PickedPoint(const editor::Workspace& workspace, const PickTarget& target) {
   const editor::ResolvedPicks& picks = workspace.loaded().picks;
   if (!picks.solution) {
     return std::nullopt;
   }
-  const auto anchor = AnchorEntries()[static_cast<size_t>(state.anchor)].anchor;
+  const auto anchor = AnchorEntries()[static_cast<size_t>(target.anchor)].anchor;
   const stage::AnchorReport* report =
       Named(picks.solution->anchors, (workspace.place()->picks.*anchor).name);
   return report == nullptr
@@ -92,14 +92,16 @@ std::optional<Ball> BallOfChosenPoints(const PlaceView& place,
                        : std::optional(Ball{box.center(), 0.5 * box.diagonal().norm()});
 }
 
-std::optional<Ball> BallOfSelected(const editor::Workspace& workspace, const EditorState& state) {
+std::optional<Ball> BallOfSelected(const editor::Workspace& workspace,
+                                   const Selection& selection,
+                                   const PickTarget& picks) {
   const Similarity3& world_from_stage = workspace.place()->picked_from_stage;
   const double about_point = kAboutPoint * world_from_stage.scale;
-  const std::string& name = state.selection.name;
+  const std::string& name = selection.name;
   const auto on_stage = [&](const Vector3d& position) {
     return Ball{world_from_stage * position, about_point};
   };
-  switch (state.selection.kind) {
+  switch (selection.kind) {
     case Kind::kOccluder:
       return BallOfOccluder(workspace, name);
     case Kind::kActor:
@@ -115,12 +117,12 @@ std::optional<Ball> BallOfSelected(const editor::Workspace& workspace, const Edi
       }
       return std::nullopt;
     case Kind::kPicks:
-      if (const auto point = PickedPoint(workspace, state)) {
+      if (const auto point = PickedPoint(workspace, picks)) {
         return Ball{*point, about_point};
       }
       return std::nullopt;
     case Kind::kObject:
-      if (const auto object = SelectedTransform(workspace, state.selection)) {
+      if (const auto object = SelectedTransform(workspace, selection)) {
         return Ball{object->translation, about_point};
       }
       return std::nullopt;
@@ -148,20 +150,19 @@ OrbitCamera LookAtStage(const editor::PlaceDocument* place) {
   return orbit;
 }
 
-void LookByKeys(EditorState& state, const Eigen::Vector2d& view_size_px) {
-  if (ImGui::GetIO().WantTextInput || state.dialog != Dialog::kNone ||
-      state.focus != Focus::kViews) {
+void LookByKeys(PlaceView& place_view, const Input& input, const Eigen::Vector2d& view_size_px) {
+  if (ImGui::GetIO().WantTextInput || input.dialog_open || input.focus != Focus::kViews) {
     return;
   }
-  for (const KeyPress& press : state.keys) {
+  for (const KeyPress& press : input.keys) {
     const KeyAction action = ActionOf(KeyScope::kAround, press);
     const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
     if (action == KeyAction::kLookAtStage) {
-      state.place.look_at = shift ? LookDirection::kMap : LookDirection::kStage;
+      place_view.look_at = shift ? LookDirection::kMap : LookDirection::kStage;
     } else if (action == KeyAction::kLookAtSelected) {
-      state.place.look_at = LookDirection::kSelected;
+      place_view.look_at = LookDirection::kSelected;
     } else {
-      OrbitByKey(action, shift, view_size_px, state.orbit);
+      OrbitByKey(action, shift, view_size_px, place_view.orbit);
     }
   }
 }
@@ -169,30 +170,31 @@ void LookByKeys(EditorState& state, const Eigen::Vector2d& view_size_px) {
 void LookWhereAsked(const editor::Workspace& workspace,
                     std::span<const Eigen::Vector3f> points,
                     const Eigen::Vector2d& view_size_px,
-                    EditorState& state) {
-  const LookDirection asked = std::exchange(state.place.look_at, LookDirection::kWhereItDoes);
+                    const Selection& selection,
+                    const PickTarget& picks,
+                    PlaceView& place_view) {
+  const LookDirection asked = std::exchange(place_view.look_at, LookDirection::kWhereItDoes);
   if (asked == LookDirection::kWhereItDoes || workspace.place() == nullptr) {
     return;
   }
   std::optional<Ball> ball;
   if (asked == LookDirection::kSelected) {
-    ball = BallOfChosenPoints(state.place, points);
+    ball = BallOfChosenPoints(place_view, points);
     if (!ball) {
-      ball = BallOfSelected(workspace, state);
+      ball = BallOfSelected(workspace, selection, picks);
     }
   }
-  const bool stage =
-      asked == LookDirection::kStage ||
-      (asked == LookDirection::kSelected && !ball && state.selection.kind == Kind::kStage);
+  const bool stage = asked == LookDirection::kStage ||
+                     (asked == LookDirection::kSelected && !ball && selection.kind == Kind::kStage);
   if (!ball && !stage) {
     ball = BallAround(points);
   }
   if (ball) {
     constexpr double kLeast = 0.05;  // Metres; the view stays outside a single point.
     ball->radius = std::max(ball->radius, kLeast * workspace.place()->picked_from_stage.scale);
-    state.orbit.LookAt(*ball, view_size_px);
+    place_view.orbit.LookAt(*ball, view_size_px);
   } else {
-    state.orbit = LookAtStage(workspace.place());
+    place_view.orbit = LookAtStage(workspace.place());
   }
 }
 

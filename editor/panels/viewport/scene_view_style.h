@@ -6,7 +6,9 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "editor/panels/widgets/editor_state.h"
+#include "editor/panels/viewport/pick_target.h"
+#include "editor/panels/viewport/place_cards.h"
+#include "editor/panels/widgets/selection.h"
 #include "editor/session/workspace.h"
 
 namespace lararium::panels {
@@ -15,13 +17,15 @@ namespace lararium::panels {
 OrbitCamera LookAtStage(const editor::PlaceDocument* place);
 
 // Handles the keys of KeyScope::kAround.
-void LookByKeys(EditorState& state, const Eigen::Vector2d& view_size_px);
+void LookByKeys(PlaceView& place_view, const Input& input, const Eigen::Vector2d& view_size_px);
 
 // Performs PlaceView::look_at. points: of the map, in the world. Where the selection has no
 // position: looks at the whole map.
 void LookWhereAsked(const editor::Workspace& workspace,
                     std::span<const Eigen::Vector3f> points,
                     const Eigen::Vector2d& view_size_px,
-                    EditorState& state);
+                    const Selection& selection,
+                    const PickTarget& picks,
+                    PlaceView& place_view);
 
 }  // namespace lararium::panels

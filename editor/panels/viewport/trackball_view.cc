@@ -11,20 +11,23 @@ namespace lararium::panels {
 namespace {
 
 // The axes of the camera view, which do not change when the stage rotates, or of the scene view.
-Eigen::Quaterniond WorldFromCamera(const editor::Workspace& workspace, const EditorState& state) {
+Eigen::Quaterniond WorldFromCamera(const editor::Workspace& workspace,
+                                   const ViewOptions& options,
+                                   const OrbitCamera& orbit) {
   const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.picture();
-  if (state.view == ViewKind::kCamera && picture != nullptr && picture->camera_from_map) {
+  if (options.view == ViewKind::kCamera && picture != nullptr && picture->camera_from_map) {
     return geometry::CameraFromB(*picture->camera_from_map,
                                  workspace.loaded().picks.map_from_picked)
         .rotation.conjugate();
   }
-  return state.orbit.CameraFromWorld().rotation.conjugate();
+  return orbit.CameraFromWorld().rotation.conjugate();
 }
 
 }  // namespace
 
 bool DrawTrackball(editor::Workspace& workspace,
-                   const EditorState& state,
+                   const ViewOptions& options,
+                   const OrbitCamera& orbit,
                    Eigen::Quaterniond& world_from_thing) {
   using Eigen::Vector2d;
   using Eigen::Vector3d;
@@ -42,7 +45,7 @@ bool DrawTrackball(editor::Workspace& workspace,
   }
   // View axes are x right, y up, z to the viewer: the camera's axes after half a turn about x.
   const Eigen::Quaterniond world_from_view =
-      WorldFromCamera(workspace, state) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+      WorldFromCamera(workspace, options, orbit) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   bool changed = false;
   const ImGuiIO& io = ImGui::GetIO();
   if (active && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {

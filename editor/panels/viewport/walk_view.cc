@@ -48,7 +48,9 @@ std::optional<glm::vec2> FloorBelow(const Similarity3& world_from_stage,
 }
 
 // The people whose walks are shown: that of the selected walk, and the selected person.
-std::vector<std::string> PeopleShown(const editor::Workspace& workspace, const EditorState& state) {
+std::vector<std::string> PeopleShown(const editor::Workspace& workspace,
+                                     const Selection& selection,
+                                     const WalkHandles& walks) {
   std::vector<std::string> people;
   const auto add = [&](const std::string& name) {
     if (!name.empty() && std::find(people.begin(), people.end(), name) == people.end()) {
@@ -56,17 +58,17 @@ std::vector<std::string> PeopleShown(const editor::Workspace& workspace, const E
     }
   };
   const drama::TimelineText* text = workspace.script().timeline();
-  const auto& item = state.walk.item;
+  const auto& item = walks.item;
   if (item && text != nullptr && item->lane < text->lanes().size() &&
       text->lanes()[item->lane].kind == drama::LaneKind::kWalks) {
     add(text->lanes()[item->lane].actor);
   }
   const editor::DramaRun* run = workspace.drama_run();
-  if (state.walk.task && run != nullptr && *state.walk.task < run->tasks.size()) {
-    add(run->tasks[*state.walk.task].actor);
+  if (walks.task && run != nullptr && *walks.task < run->tasks.size()) {
+    add(run->tasks[*walks.task].actor);
   }
-  if (state.selection.kind == Selection::Kind::kActor) {
-    add(state.selection.name);
+  if (selection.kind == Selection::Kind::kActor) {
+    add(selection.name);
   }
   return people;
 }
@@ -174,28 +176,29 @@ glm::vec2 KeyAxis(KeyAction action, const Similarity3& world_from_stage, const V
 
 // Handles the keys of KeyScope::kWalk, which have no other meaning while an end is selected.
 void HandleKeys(editor::Workspace& workspace,
-                EditorState& state,
+                WalkHandles& walks,
+                Input& input,
                 const Similarity3& world_from_stage,
                 const ViewCamera& view) {
   constexpr float kStep = 0.01f;  // Metres; 10 times as much with Shift.
-  if (ImGui::GetIO().WantTextInput || state.dialog != Dialog::kNone || !state.walk.chosen) {
+  if (ImGui::GetIO().WantTextInput || input.dialog_open || !walks.chosen) {
     return;
   }
-  std::erase_if(state.keys, [&](const KeyPress& press) {
+  std::erase_if(input.keys, [&](const KeyPress& press) {
     const KeyAction action = ActionOf(KeyScope::kWalk, press);
     if (action == KeyAction::kLeaveWalk) {
-      if (state.walk.drag) {
-        state.walk.drag->given_up = true;
+      if (walks.drag) {
+        walks.drag->given_up = true;
       }
-      state.walk.chosen.reset();
-    } else if (action != KeyAction::kNone && state.walk.chosen) {
+      walks.chosen.reset();
+    } else if (action != KeyAction::kNone && walks.chosen) {
       if (!press.repeats) {
         workspace.EndGesture();  // Each press is a separate command.
       }
       const float step = (press.modifiers & GLFW_MOD_SHIFT) != 0 ? 10.0f * kStep : kStep;
       const glm::vec2 by = step * KeyAxis(action, world_from_stage, view);
       MoveHandle(
-          workspace, *state.walk.chosen, [&](glm::vec2 place) { return place + by; }, "walk keys");
+          workspace, *walks.chosen, [&](glm::vec2 place) { return place + by; }, "walk keys");
     }
     return action != KeyAction::kNone;
   });
@@ -203,12 +206,12 @@ void HandleKeys(editor::Workspace& workspace,
 
 // Snaps to marks, or to steps on the floor, like the handles of objects.
 glm::vec2 Snapped(const editor::Workspace& workspace,
-                  const EditorState& state,
+                  const ViewOptions& options,
                   const Similarity3& world_from_stage,
                   const ViewCamera& view,
                   const WalkHandles::Handle& handle,
                   glm::vec2 place) {
-  if (!state.place.snap && !ImGui::GetIO().KeyCtrl) {
+  if (!options.snap && !ImGui::GetIO().KeyCtrl) {
     return place;
   }
   constexpr float kStep = 0.05f;
@@ -253,13 +256,15 @@ void DrawDashes(const Vector2d& from,
 
 }  // namespace
 
-void WalkView::Update(const editor::Workspace& workspace, const EditorState& state) {
+void WalkView::Update(const editor::Workspace& workspace,
+                      const Selection& selection,
+                      const WalkHandles& walks) {
   Basis basis{workspace.script().revision(),
               workspace.drama_run_number(),
               workspace.drama_run_is_current(),
-              PeopleShown(workspace, state),
-              state.walk.item,
-              state.walk.task};
+              PeopleShown(workspace, selection, walks),
+              walks.item,
+              walks.task};
   if (basis == basis_ && !followed_) {
     return;
   }
@@ -331,22 +336,26 @@ std::optional<WalkHandles::Handle> WalkView::HandleBelow(const ViewCamera& view,
   return below;
 }
 
-void WalkView::Press(const ViewCamera& view, const Handle& handle, EditorState& state) const {
+void WalkView::Press(const ViewCamera& view,
+                     const Handle& handle,
+                     WalkHandles& walks,
+                     EditorActions& actions) const {
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   const std::optional<glm::vec2> place = PlaceOf(handle);
   const std::optional<glm::vec2> floor = FloorBelow(world_from_stage_, view, pointer);
   if (place && floor) {
-    state.walk.chosen = handle;
-    state.timeline_item = handle.item;
-    state.walk.drag = WalkHandles::Drag{handle, pointer, *place - *floor, *place, false};
+    walks.chosen = handle;
+    actions.push_back(SelectTimelineItem{handle.item});
+    walks.drag = WalkHandles::Drag{handle, pointer, *place - *floor, *place, false};
   }
 }
 
 // Moves the dragged end to the pointer.
 void WalkView::Drag(editor::Workspace& workspace,
-                    EditorState& state,
+                    const ViewOptions& options,
+                    WalkHandles& walks,
                     const ViewCamera& view) const {
-  WalkHandles::Drag& drag = *state.walk.drag;
+  WalkHandles::Drag& drag = *walks.drag;
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     if (drag.moved && !drag.given_up) {
@@ -354,14 +363,14 @@ void WalkView::Drag(editor::Workspace& workspace,
       MoveHandle(
           workspace, drag.handle, [&](glm::vec2) { return drag.place; }, "");
     }
-    state.walk.drag.reset();
+    walks.drag.reset();
     return;
   }
   drag.moved |= (pointer - drag.pressed).norm() >= Px(kClickPx);
   const std::optional<glm::vec2> floor = FloorBelow(world_from_stage_, view, pointer);
   if (drag.moved && floor && workspace.script().timeline() != nullptr) {
     drag.place =
-        Snapped(workspace, state, world_from_stage_, view, drag.handle, *floor + drag.grip);
+        Snapped(workspace, options, world_from_stage_, view, drag.handle, *floor + drag.grip);
   }
 }
 
@@ -493,7 +502,11 @@ void WalkView::Draw(const Shown& walk,
 }
 
 bool WalkView::Show(editor::Workspace& workspace,
-                    EditorState& state,
+                    const Selection& selection,
+                    const ViewOptions& options,
+                    WalkHandles& walks,
+                    Input& input,
+                    EditorActions& actions,
                     const ViewCamera& view,
                     bool hovered,
                     ImDrawList& draw) {
@@ -501,35 +514,35 @@ bool WalkView::Show(editor::Workspace& workspace,
     return false;
   }
   world_from_stage_ = workspace.place()->picked_from_stage;
-  Update(workspace, state);
+  Update(workspace, selection, walks);
   occluders_.Update(workspace);
-  if (state.walk.chosen && !PlaceOf(*state.walk.chosen)) {
-    state.walk.chosen.reset();  // The handle is no longer shown.
+  if (walks.chosen && !PlaceOf(*walks.chosen)) {
+    walks.chosen.reset();  // The handle is no longer shown.
   }
-  HandleKeys(workspace, state, world_from_stage_, view);
+  HandleKeys(workspace, walks, input, world_from_stage_, view);
   std::optional<Handle> hot;
-  if (state.walk.drag) {
-    hot = state.walk.drag->handle;
+  if (walks.drag) {
+    hot = walks.drag->handle;
   } else if (hovered) {
     hot = HandleBelow(view, ToEigen(ImGui::GetMousePos()));
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-      state.walk.chosen.reset();
+      walks.chosen.reset();
       if (hot) {
-        Press(view, *hot, state);
+        Press(view, *hot, walks, actions);
       }
     }
   }
-  if (state.walk.drag) {
-    Drag(workspace, state, view);
+  if (walks.drag) {
+    Drag(workspace, options, walks, view);
   }
-  if (state.walk.drag) {
-    FollowDrag(workspace, *state.walk.drag);
+  if (walks.drag) {
+    FollowDrag(workspace, *walks.drag);
   }
   if (hot) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
   for (const Shown& walk : walks_) {
-    Draw(walk, state.walk, view, draw);
+    Draw(walk, walks, view, draw);
   }
   return hot.has_value();
 }
