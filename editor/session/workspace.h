@@ -71,21 +71,6 @@ struct LoadedPlace {
 
 class Workspace {
  public:
-  static constexpr const char* kTraining = TrLater("Training");
-  static constexpr const char* kBaking = TrLater("Baking");
-  static constexpr const char* kExporting = TrLater("Exporting");
-  static constexpr const char* kTrying = TrLater("Playing the show");
-  static constexpr const char* kOpening = TrLater("Opening");
-  static constexpr const char* kMeasuring = TrLater("Measuring");
-  static constexpr const char* kCatalogue = TrLater("Opening the cast library");
-  static constexpr const char* kReview = TrLater("Reading the bones");
-  static constexpr const char* kProbe = TrLater("Reading the light probe");
-  static constexpr const char* kCamera = TrLater("Measuring the camera");
-  static constexpr const char* kDryRun = TrLater("Running the drama");
-  static constexpr const char* kChecking = TrLater("Checking");
-  static constexpr const char* kKeeping = TrLater("Writing the map");
-  static constexpr const char* kRefining = TrLater("Refining on the map");
-
   // Reads the project, and edits that a crash left unsaved. log must outlive the result.
   static Result<std::unique_ptr<Workspace>> Open(ProjectPaths paths, Log& log);
   ~Workspace();
@@ -299,7 +284,9 @@ class Workspace {
   // The number of all messages so far, including those that were removed.
   uint64_t messages_told() const { return told_; }
   // Whether work is running that would be lost by closing the window.
-  bool AtLongWork() const { return tasks_.Running(kTraining) || tasks_.Running(kExporting); }
+  bool AtLongWork() const {
+    return tasks_.Running(TaskKind::kTraining) || tasks_.Running(TaskKind::kExporting);
+  }
   void Tell(Message::Level level, std::string text);
 
   // Updates everything. Call once for each frame of the interface. seconds: since the last call.

@@ -61,7 +61,7 @@ void Workspace::MeasureAgain() {
       place_changed_ = true;
     }
   };
-  if (tasks_.Start(kMeasuring, work, done)) {
+  if (tasks_.Start(TaskKind::kMeasuring, work, done)) {
     tags_key_ = TagsKey(*place());
     loaded_.measured = false;
   } else {
@@ -111,7 +111,7 @@ void Workspace::SetDistance(uint32_t from, uint32_t to, double metres) {
 }
 
 void Workspace::ReloadMap() {
-  if (unsaved_map_ || tasks_.Running(kKeeping)) {
+  if (unsaved_map_ || tasks_.Running(TaskKind::kWritingMap)) {
     return;  // Update() tries again.
   }
   const std::filesystem::path file = paths_.Scene(place_name_);
@@ -161,7 +161,7 @@ void Workspace::ReloadMap() {
     }
   };
   // Another place is being opened; Update() tries again.
-  map_stale_ = !tasks_.Start(kOpening, work, done);
+  map_stale_ = !tasks_.Start(TaskKind::kOpening, work, done);
 }
 
 FrameToPick Workspace::frame_to_pick() const {
@@ -174,7 +174,7 @@ FrameToPick Workspace::frame_to_pick() const {
   if (picture_->frame != frame()) {
     return {std::nullopt, TrLater("The picture of this frame is on its way")};
   }
-  if (tasks_.Running(kTraining)) {
+  if (tasks_.Running(TaskKind::kTraining)) {
     return {std::nullopt, TrLater("The place is being trained: pick when that is done")};
   }
   return FindFrameToPick(*picture_, *loaded_.database,
@@ -186,7 +186,8 @@ void Workspace::KeepFrame(const vision::Keyframe& keyframe) {
   if (database == loaded_.database) {
     return;
   }
-  measures_stale_ |= tasks_.Running(kMeasuring);  // The running measurement is of the old map.
+  measures_stale_ |=
+      tasks_.Running(TaskKind::kMeasuring);  // The running measurement is of the old map.
   loaded_.database = std::move(database);
   auto statistics = std::make_shared<train::MapStatistics>(*loaded_.statistics);
   train::AddUnobserved(keyframe.session, *statistics);
@@ -212,7 +213,7 @@ void Workspace::WriteMap() {
       scene_stamp_ = FileStamp(file);
     }
   };
-  if (tasks_.Start(kKeeping, work, done)) {
+  if (tasks_.Start(TaskKind::kWritingMap, work, done)) {
     unsaved_map_.reset();
   }
 }
@@ -223,7 +224,7 @@ void Workspace::MeasureCameraTraits() {
   }
   const auto traits = std::make_shared<light::CameraTraits>();
   tasks_.Start(
-      kCamera,
+      TaskKind::kCamera,
       [traits, paths = paths_, place = *place()](Progress& progress) {
         LARARIUM_ASSIGN_OR_RETURN(*traits, MeasureCamera(paths, place, progress));
         return Status();
@@ -279,7 +280,7 @@ void Workspace::RefineOccluder(const std::string& name, double search_m) {
       });
     }
   };
-  tasks_.Start(kRefining, work, done);
+  tasks_.Start(TaskKind::kRefining, work, done);
 }
 
 const Workspace::Refinement* Workspace::refinement(const OccluderDocument& occluder) const {
@@ -308,7 +309,7 @@ void Workspace::StartTraining(std::function<Result<train::TrainReport>(Progress&
                               const PlaceRecordings& recordings) {
   const auto report = std::make_shared<train::TrainReport>();
   const bool started = tasks_.Start(
-      kTraining,
+      TaskKind::kTraining,
       [report, work = std::move(work)](Progress& progress) {
         LARARIUM_ASSIGN_OR_RETURN(*report, work(progress));
         return Status();
@@ -409,16 +410,16 @@ void Workspace::RemoveSession(uint32_t session) {
     map_stale_ |= name == place_name_;
     OnDocumentChanged();
   };
-  tasks_.Start(kTraining, work, done);
+  tasks_.Start(TaskKind::kTraining, work, done);
 }
 
 bool Workspace::MapIsFree() {
-  if (tasks_.Running(kTraining)) {
+  if (tasks_.Running(TaskKind::kTraining)) {
     Tell(Message::Level::kWarning, Tr("A training is running already. Cancel it first."));
     return false;
   }
   // Writing them would restore the recording that is removed.
-  if (unsaved_map_ || tasks_.Running(kKeeping)) {
+  if (unsaved_map_ || tasks_.Running(TaskKind::kWritingMap)) {
     Tell(Message::Level::kWarning, Tr("The map is being written. Try again in a moment."));
     return false;
   }

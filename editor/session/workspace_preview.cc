@@ -109,7 +109,7 @@ void Workspace::ReloadPreview() {
     place_changed_ = true;
     stage_changed_ = true;
   };
-  if (tasks_.Start(kOpening, work, done)) {
+  if (tasks_.Start(TaskKind::kOpening, work, done)) {
     preview_key_ = std::move(key);
   } else {
     preview_stale_ = true;  // Try again after the running task.
@@ -204,7 +204,7 @@ size_t Workspace::PeopleLeft() const {
 
 bool Workspace::StageIsOutdated() const {
   return preview_stale_ || (stand_ins_ == 0 && cast_pictures_.Working()) ||
-         tasks_.Running(kOpening);
+         tasks_.Running(TaskKind::kOpening);
 }
 
 void Workspace::RequestPicture() {
@@ -268,7 +268,8 @@ void Workspace::RequestPicture() {
 
 void Workspace::Update(double seconds) {
   tasks_.Poll();
-  if (unsaved_map_ && !tasks_.Running(kKeeping) && !tasks_.Running(kTraining)) {
+  if (unsaved_map_ && !tasks_.Running(TaskKind::kWritingMap) &&
+      !tasks_.Running(TaskKind::kTraining)) {
     WriteMap();
   }
   if (map_stale_) {
@@ -283,9 +284,9 @@ void Workspace::Update(double seconds) {
     preview_stale_ = true;
     DetectExternalChanges();
     // Another program trained the place.
-    map_stale_ |= loaded_.database != nullptr && !tasks_.Running(kTraining) &&
-                  !tasks_.Running(kOpening) && !tasks_.Running(kKeeping) && !unsaved_map_ &&
-                  FileStamp(paths_.Scene(place_name_)) != scene_stamp_;
+    map_stale_ |= loaded_.database != nullptr && !tasks_.Running(TaskKind::kTraining) &&
+                  !tasks_.Running(TaskKind::kOpening) && !tasks_.Running(TaskKind::kWritingMap) &&
+                  !unsaved_map_ && FileStamp(paths_.Scene(place_name_)) != scene_stamp_;
   }
   since_script_ += seconds;
   since_lines_ += seconds;

@@ -16,12 +16,12 @@ void Workspace::RunDramaAgain() {
   constexpr double kBehind = 30.0;     // Seconds after the last item.
   constexpr double kShortest = 240.0;  // Seconds; for a drama whose length only its script knows.
   const bool wanted = stage_changed_ || run_script_ != script_.revision();
-  if (!wanted || since_script_ < kPause || tasks_.Running(kOpening) || cast_pictures_.Working() ||
-      document().cast.empty()) {
+  if (!wanted || since_script_ < kPause || tasks_.Running(TaskKind::kOpening) ||
+      cast_pictures_.Working() || document().cast.empty()) {
     return;
   }
-  if (tasks_.Running(kDryRun)) {
-    tasks_.Cancel(kDryRun);  // The result would be outdated.
+  if (tasks_.Running(TaskKind::kDryRun)) {
+    tasks_.Cancel(TaskKind::kDryRun);  // The result would be outdated.
     return;
   }
   const auto run = std::make_shared<DramaRun>();
@@ -56,7 +56,7 @@ void Workspace::RunDramaAgain() {
     drama_run_ = run;
     ++drama_run_number_;
   };
-  if (tasks_.Start(kDryRun, work, done)) {
+  if (tasks_.Start(TaskKind::kDryRun, work, done)) {
     run_script_ = script_.revision();
     stage_changed_ = false;
   }
@@ -65,7 +65,7 @@ void Workspace::RunDramaAgain() {
 void Workspace::Check() {
   const auto result = std::make_shared<CheckedProject>();
   tasks_.Start(
-      kChecking,
+      TaskKind::kChecking,
       [result, project = paths_.folder](Progress& progress) {
         CheckOptions options;
         options.project = project;
@@ -101,7 +101,8 @@ bool Workspace::BringInSound(const std::string& name, const std::filesystem::pat
 // megabytes, and both processor cores while shaders are compiled.
 void Workspace::AskForPictures() {
   cast_pictures_.SetCast(document().cast);
-  const bool opens = map_stale_ || tasks_.Running(kOpening) || tasks_.Running(kDryRun);
+  const bool opens =
+      map_stale_ || tasks_.Running(TaskKind::kOpening) || tasks_.Running(TaskKind::kDryRun);
   const bool has_picture = picture_ != nullptr || !(preview_stale_ || awaiting_picture_);
   if (!opens && has_picture) {
     cast_pictures_.SetObjects(document().objects);
@@ -129,7 +130,7 @@ const CastCatalogue* Workspace::catalogue() {
   }
   const auto listed = std::make_shared<CastCatalogue>();
   tasks_.Start(
-      kCatalogue,
+      TaskKind::kCatalogue,
       [listed, folder = *folder](Progress&) {
         LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary library,
                                   import::CastLibrary::Open(folder));
@@ -165,7 +166,7 @@ const BoneReview* Workspace::bone_review(const CastDocument& member) {
       review_ = review;
       reviewed_name_ = name;
     };
-    if (tasks_.Start(kReview, work, done)) {
+    if (tasks_.Start(TaskKind::kBoneReview, work, done)) {
       review_key_ = std::move(key);
     }
   }
@@ -189,7 +190,7 @@ const ProbePicture* Workspace::probe_picture(const ProbeDocument& probe) {
         probe_problem_ = status.message();
       }
     };
-    if (tasks_.Start(kProbe, work, done)) {
+    if (tasks_.Start(TaskKind::kProbe, work, done)) {
       probe_problem_.clear();
       probe_key_ = key;
     }
@@ -198,7 +199,8 @@ const ProbePicture* Workspace::probe_picture(const ProbeDocument& probe) {
 }
 
 void Workspace::SaveBones(const CastDocument& member) {
-  if (review_ == nullptr || reviewed_name_ != member.name || tasks_.Running(kReview)) {
+  if (review_ == nullptr || reviewed_name_ != member.name ||
+      tasks_.Running(TaskKind::kBoneReview)) {
     return;  // The present result is not of the member's current bones.
   }
   if (const Status status = SaveBoneMap(paths_, member, *review_); !status.ok()) {
@@ -220,7 +222,7 @@ void Workspace::SaveBones(const CastDocument& member) {
 void Workspace::Bake() {
   const auto report = std::make_shared<BakeReport>();
   tasks_.Start(
-      kBaking,
+      TaskKind::kBaking,
       [report, paths = paths_, document = commands_.snapshot(),
        baking = baking_](Progress& progress) {
         const std::lock_guard turn(*baking);
@@ -249,7 +251,7 @@ void Workspace::Export(const ExportRequest& request) {
   shown->file = request.out;
   export_problem_.clear();
   tasks_.Start(
-      kExporting,
+      TaskKind::kExporting,
       [paths = paths_, document = commands_.snapshot(), request, shown,
        baking = baking_](Progress& progress) -> Status {
         const std::lock_guard turn(*baking);
@@ -273,7 +275,7 @@ void Workspace::TryShow() {
     return;
   }
   tasks_.Start(
-      kTrying,
+      TaskKind::kTrying,
       [arguments = TrialArguments(paths_, *place(), exported_->file)](Progress& progress) {
         return RunProgram(FindPlayer(), arguments, progress);
       },

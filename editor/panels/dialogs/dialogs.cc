@@ -437,7 +437,7 @@ bool Plain(editor::Workspace& workspace, EditorState& state) {
 
 // Asks before long work is stopped.
 void LeaveDialog(editor::Workspace& workspace, EditorState& state) {
-  Hint(workspace.tasks().Running(editor::Workspace::kTraining)
+  Hint(workspace.tasks().Running(editor::TaskKind::kTraining)
            ? Tr("The place is being trained. Leaving stops that: the place keeps the map that it "
                 "has.")
            : Tr("The show is being exported. Leaving stops that: nothing is written."));

@@ -44,7 +44,7 @@ void OpenTrainDialog(const editor::Workspace& workspace, EditorState& state) {
 
 bool CanAddSession(editor::Workspace& workspace) {
   return workspace.place() != nullptr && workspace.loaded().database != nullptr &&
-         !workspace.tasks().Running(editor::Workspace::kTraining);
+         !workspace.tasks().Running(editor::TaskKind::kTraining);
 }
 
 std::string UndoLabel(const editor::Workspace& workspace) {
@@ -87,7 +87,7 @@ void EditMenu(editor::Workspace& workspace) {
 }
 
 void PlaceMenu(editor::Workspace& workspace, EditorState& state) {
-  const bool training = workspace.tasks().Running(editor::Workspace::kTraining);
+  const bool training = workspace.tasks().Running(editor::TaskKind::kTraining);
   if (ImGui::MenuItem(Tr("Train\xe2\x80\xa6"), nullptr, false, !training)) {
     OpenTrainDialog(workspace, state);
   }
@@ -501,7 +501,7 @@ void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
   const float gap = Px(22);
   const bool words = WordsFit(gap);
   const editor::TaskList& tasks = workspace.tasks();
-  if (DrawTool(kTrain, words, !tasks.Running(editor::Workspace::kTraining))) {
+  if (DrawTool(kTrain, words, !tasks.Running(editor::TaskKind::kTraining))) {
     OpenTrainDialog(workspace, state);
   }
   ImGui::SameLine();
@@ -509,11 +509,11 @@ void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
     OpenDialog(state, Dialog::kAddSession);
   }
   ImGui::SameLine();
-  if (DrawTool(kBake, words, !tasks.Running(editor::Workspace::kBaking))) {
+  if (DrawTool(kBake, words, !tasks.Running(editor::TaskKind::kBaking))) {
     workspace.Bake();
   }
   ImGui::SameLine();
-  if (DrawTool(kExport, words, !tasks.Running(editor::Workspace::kExporting))) {
+  if (DrawTool(kExport, words, !tasks.Running(editor::TaskKind::kExporting))) {
     OpenDialog(state, Dialog::kExport);
   }
   ImGui::SameLine(0.0f, gap);

@@ -269,7 +269,7 @@ void DrawViews(editor::Workspace& workspace, EditorState& state) {
                      100.0 * std::sqrt(camera->noise_floor * camera->noise_floor +
                                        0.5f * camera->noise_slope))
               : std::string(Tr("Not measured yet")));
-  ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kCamera) ||
+  ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kCamera) ||
                        workspace.place()->training.empty());
   if (ImGui::Button(Tr("Measure the camera"), ImVec2(-FLT_MIN, 0))) {
     workspace.MeasureCameraTraits();

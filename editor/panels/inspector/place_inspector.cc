@@ -327,8 +327,8 @@ void DrawPlaceName(editor::Workspace& workspace,
   const std::string name = place.name;
   const std::string title = Label(Tr("Rename a place"), "rename");
   const ImVec2 wide(-FLT_MIN, 0);
-  const bool busy = workspace.tasks().Running(editor::Workspace::kTraining) ||
-                    workspace.tasks().Running(editor::Workspace::kKeeping);
+  const bool busy = workspace.tasks().Running(editor::TaskKind::kTraining) ||
+                    workspace.tasks().Running(editor::TaskKind::kWritingMap);
   ImGui::BeginDisabled(busy);
   if (ImGui::Button(Text(Tr("Rename %s\xe2\x80\xa6"), name.c_str()).c_str(), wide)) {
     state.fields = {};

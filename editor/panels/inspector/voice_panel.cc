@@ -88,15 +88,12 @@ void SliderRow(editor::Workspace& workspace,
   ImGui::PopID();
 }
 
-// The name of the task in the status bar.
-constexpr const char* kSpeaking = TrLater("Speaking");
-
 void Listen(editor::Workspace& workspace, const editor::CastDocument& member) {
   const auto lines = workspace.document().lines;
   const editor::VoiceSample sample = editor::SampleOf(lines != nullptr ? *lines : bake::LineTable(),
                                                       workspace.document().speech, member);
   workspace.tasks().Start(
-      kSpeaking,
+      editor::TaskKind::kSpeaking,
       [sample, voice = member.voice](Progress& progress) {
         return editor::PlaySample(sample, voice, progress);
       },
@@ -109,12 +106,12 @@ void Listen(editor::Workspace& workspace, const editor::CastDocument& member) {
 
 // Plays the voice, or stops it.
 void ListenButton(editor::Workspace& workspace, const editor::CastDocument& member) {
-  const bool speaking = workspace.tasks().Running(kSpeaking);
+  const bool speaking = workspace.tasks().Running(editor::TaskKind::kSpeaking);
   const std::string text =
       speaking ? WithIcon(Icon::kPause, Tr("Stop")) : WithIcon(Icon::kPlay, Tr("Listen"));
   if (ImGui::Button(Label(text.c_str(), "listen").c_str(), ImVec2(-FLT_MIN, 0))) {
     if (speaking) {
-      workspace.tasks().Cancel(kSpeaking);
+      workspace.tasks().Cancel(editor::TaskKind::kSpeaking);
     } else {
       Listen(workspace, member);
     }
