@@ -61,7 +61,7 @@ void VariantRow(bake::VoiceSettings& voice, RecipeChange& change) {
     names.push_back(voice.variant);
   }
   if (NameCombo("##variant", voice.variant, names, Tr("the language's own"))) {
-    change.Choose(Tr("voice"));
+    change.Choose(Sentence("voice"));
   }
   Tip(Tr("m1 to m8 are men, f1 to f5 women"));
 }
@@ -83,7 +83,7 @@ void SliderRow(editor::Workspace& workspace,
   Tip(Tr(slider.tip));
   if (value != usual && ResetButton(Text(Tr("As it was: %d"), usual))) {
     value = usual;
-    change.Choose(Text(Tr("reset of %s"), WhatOf(slider.label).c_str()));
+    change.Choose(Sentence("reset of %s", {WhatOf(slider.label)}));
   }
   ImGui::PopID();
 }

@@ -101,7 +101,7 @@ void TurnByMirror(editor::Workspace& workspace,
   TurnProbe(workspace, probe,
             state.light.level ? bake::TurnedTo(now, *state.light.dragged_in_probe, target)
                               : bake::DraggedTo(now, *state.light.dragged_in_probe, target),
-            Tr("turn the light"), "probe ball");
+            Sentence("turn the light"), "probe ball");
 }
 
 float LinearBeforeShoulder(float shown, float knee) {

@@ -75,9 +75,7 @@ std::vector<PickedImage> ImagesInWork(const editor::Workspace& workspace,
 }
 
 void Remove(editor::Workspace& workspace, const EditorState& state, const Line& line) {
-  const auto command = [](const std::string& of) {
-    return Text(Tr("remove a pick of %s"), of.c_str());
-  };
+  const auto command = [](const Sentence& of) { return Sentence("remove a pick of %s", {of}); };
   const stage::Pick pick = line.image.pick;
   if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, state)) {
     const std::string name = drawn->name;
@@ -96,7 +94,7 @@ void Remove(editor::Workspace& workspace, const EditorState& state, const Line& 
     });
   } else {
     const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(state.anchor)];
-    workspace.EditPlace(command(Tr(entry.label)), [&](editor::PlaceDocument& place) {
+    workspace.EditPlace(command(Sentence(entry.label)), [&](editor::PlaceDocument& place) {
       editor::RemovePick(place.picks.*entry.anchor, pick);
     });
   }
