@@ -83,9 +83,10 @@ class PreviewSession {
   // Whether the place has a recording for the camera view that differs from the training recording.
   bool has_own_recording() const;
 
-  // Opens the show again at the next Update() where its inputs changed, or in any case.
-  void DetectChangedInputs() { stale_ = true; }
+  // Opens the show again at the next Update().
   void Reopen();
+  // Opens the show again at the next Update() where its inputs, such as files, changed.
+  void DetectChangedInputs() { stale_ = true; }
 
   // Call once for each frame of the interface. seconds: since the last call.
   void Update(double seconds);

@@ -277,7 +277,8 @@ void ProjectSession::DiscardIfSaved() {
 
 void ProjectSession::OnDocumentChanged() {
   since_edit_ = 0.0;
-  Note(journal_.NoteProject(document()));
+  Note(commands_.in_gesture() ? journal_.NoteGesture(commands_.snapshot())
+                              : journal_.NoteProject(document()));
   DiscardIfSaved();
   if (place() == nullptr && (!place_name_.empty() || !document().places.empty())) {
     // The place was removed, or it is the first one.
