@@ -190,7 +190,7 @@ void CastPictures::SetObjects(const std::vector<ObjectDocument>& objects) {
     }
     thing.key = FileStamp(project_.Prop(object.name));
     if (thing.key == "none") {
-      thing.done = thing.key;  // It is not baked yet.
+      thing.done = thing.key;  // Nothing was baked yet.
     }
   }
   objects_ = std::move(now);

@@ -13,7 +13,7 @@ namespace lararium::editor {
 struct Message {
   enum class Level { kInfo, kWarning, kError };
   Level level = Level::kInfo;
-  std::string text;  // In the language of the interface.
+  std::string text;  // The text in the language of the interface.
 };
 
 class MessageLog {

@@ -68,7 +68,7 @@ class Workspace {
 
   std::unique_ptr<MessageLog> messages_;
   std::unique_ptr<ProjectSession> project_;
-  // Locked while people are baked, so that nobody is baked twice at the same time.
+  // Locked while people are baked, so that no person is baked twice at the same time.
   std::shared_ptr<std::mutex> baking_ = std::make_shared<std::mutex>();
   MapSession map_;
   MapTraining training_;
