@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "shared/core/check.h"
+#include "shared/core/sentence.h"
 
 namespace lararium::editor {
 
@@ -34,9 +35,10 @@ class CommandStack {
   const Document& document() const { return *current_; }
   const Snapshot& snapshot() const { return current_; }
 
-  // Applies one edit. Consecutive edits with the same non-empty gesture (one drag of a handle or of
-  // a number) become one command: undo returns to the state before the gesture.
-  void Edit(std::string name,
+  // Applies one edit. name: is shown for undo and redo, in the language at that time. Consecutive
+  // edits with the same non-empty gesture (one drag of a handle or of a number) become one command:
+  // undo returns to the state before the gesture.
+  void Edit(Sentence name,
             const std::function<void(Document&)>& change,
             std::string_view gesture = {}) {
     Document next = *current_;
@@ -46,7 +48,7 @@ class CommandStack {
 
   // Records an edit that is a patch, which the caller has already applied. bytes: the memory that
   // the patch holds.
-  void EditPatched(std::string name, Patch patch, size_t bytes, std::string_view gesture = {}) {
+  void EditPatched(Sentence name, Patch patch, size_t bytes, std::string_view gesture = {}) {
     Push(std::move(name), *current_, gesture);
     undo_.back().patches.push_back(std::move(patch));
     undo_.back().bytes += bytes;
@@ -92,8 +94,8 @@ class CommandStack {
   bool CanUndo() const { return !undo_.empty(); }
   bool CanRedo() const { return !redo_.empty(); }
   // The name of the command that Undo() or Redo() would take. Requires CanUndo() or CanRedo().
-  const std::string& undo_name() const { return (CHECK(CanUndo()), undo_.back().name); }
-  const std::string& redo_name() const { return (CHECK(CanRedo()), redo_.back().name); }
+  const Sentence& undo_name() const { return (CHECK(CanUndo()), undo_.back().name); }
+  const Sentence& redo_name() const { return (CHECK(CanRedo()), redo_.back().name); }
 
   // Both return the command's patches in the order in which they were made. After Undo() the caller
   // must apply their reverse from the last to the first. The span is valid until the next call.
@@ -109,13 +111,13 @@ class CommandStack {
 
  private:
   struct Command {
-    std::string name;
+    Sentence name;
     Snapshot other_side;  // The document before the command (in undo_) or after it (in redo_).
     std::vector<Patch> patches = {};
     size_t bytes = 0;  // Memory that the patches hold.
   };
 
-  void Push(std::string name, Document next, std::string_view gesture) {
+  void Push(Sentence name, Document next, std::string_view gesture) {
     const bool continues = !gesture.empty() && gesture == gesture_ && !undo_.empty();
     if (!continues) {
       undo_.push_back({std::move(name), current_});

@@ -182,9 +182,20 @@ Journal::Journal(std::filesystem::path file,
         }
       }) {
   Begin(project, std::move(script));
+  writer_ = std::jthread([this](std::stop_token stop) {
+    while (const auto step = steps_.Take(stop)) {
+      WriteStep(*step);
+    }
+  });
 }
 
-Journal::~Journal() { Close(); }
+Journal::~Journal() {
+  writer_ = {};
+  if (const auto step = steps_.TryTake()) {
+    WriteStep(*step);
+  }
+  Close();
+}
 
 void Journal::Close() {
   if (descriptor_ != nullptr) {
@@ -207,6 +218,8 @@ std::string Journal::Beginning() const {
 }
 
 Status Journal::Restart(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
+  const std::lock_guard lock(mutex_);
+  ++newest_;
   Close();
   failed_ = true;
   Begin(project, std::move(script));
@@ -221,6 +234,8 @@ Status Journal::Restart(const ProjectDocument& project, std::shared_ptr<const st
 }
 
 void Journal::Discard(const ProjectDocument& project, std::shared_ptr<const std::string> script) {
+  const std::lock_guard lock(mutex_);
+  ++newest_;
   Close();
   failed_ = false;
   Begin(project, std::move(script));
@@ -258,6 +273,27 @@ Status Journal::Append(std::string_view header, std::string_view payload) {
 }
 
 Status Journal::NoteProject(const ProjectDocument& now) {
+  const std::lock_guard lock(mutex_);
+  ++newest_;
+  return WriteProject(now);
+}
+
+Status Journal::NoteGesture(std::shared_ptr<const ProjectDocument> now) {
+  steps_.Put({++newest_, std::move(now)});
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  return lock ? std::exchange(failure_, Status()) : Status();
+}
+
+void Journal::WriteStep(const Step& step) {
+  const std::lock_guard lock(mutex_);
+  if (step.number == newest_) {
+    if (Status status = WriteProject(*step.project); !status.ok()) {
+      failure_ = std::move(status);
+    }
+  }
+}
+
+Status Journal::WriteProject(const ProjectDocument& now) {
   Json next = FormatProject(now);
   const Json patch = Json::diff(project_, next);
   if (!patch.empty()) {
@@ -285,6 +321,7 @@ Status Journal::NoteLines(const ProjectDocument& now) {
 }
 
 Status Journal::NoteScript(const drama::TextEdit& edit) {
+  const std::lock_guard lock(mutex_);
   return Append(EditHeader("script-edit", edit), edit.removed + edit.inserted);
 }
 

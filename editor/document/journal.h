@@ -1,7 +1,8 @@
 #pragma once
 
 // Keeps the unsaved edits, even when the program is killed: every edit is written to the file
-// before the next one begins, and reaches the disk soon after. The next start reads what a crash
+// before the next one begins, and reaches the disk soon after. A thread writes the steps of a
+// gesture as fast as it can, so that a drag does not wait for it. The next start reads what a crash
 // left.
 //
 // The file holds the project, the drama and the table of lines as their files have them, followed
@@ -9,9 +10,11 @@
 // text or of the table's text. Each record has a length and a checksum, so that a truncated record
 // is detected.
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +42,10 @@ class Journal {
   // Call after each edit; NoteProject() also covers edits of the lines. After an error nothing more
   // is written until the next Restart().
   Status NoteProject(const ProjectDocument& now);
+  // Call after each step of a gesture instead of NoteProject(). Formatting a large project takes
+  // longer than a frame of the interface, so the journal's thread does it; where steps come faster,
+  // it writes the newest one. Returns the error of an earlier step.
+  Status NoteGesture(std::shared_ptr<const ProjectDocument> now);
   Status NoteScript(const drama::TextEdit& edit);
 
   // Call after saving: removes the file. The arguments are the state before the next edits.
@@ -60,8 +67,18 @@ class Journal {
   Status Append(std::string_view header, std::string_view payload);
   Status NoteLines(const ProjectDocument& now);
   void Close();
+  Status WriteProject(const ProjectDocument& now);
 
-  std::filesystem::path file_;
+  // The project after a step of a gesture.
+  struct Step {
+    uint64_t number;
+    std::shared_ptr<const ProjectDocument> project;
+  };
+  // Does nothing where the step is not the newest state any more.
+  void WriteStep(const Step& step);
+
+  const std::filesystem::path file_;
+  std::mutex mutex_;                           // Protects the members up to failure_.
   Json project_;                               // The state at the end of the file.
   std::shared_ptr<const std::string> script_;  // The state at the beginning of the file.
   // The state at the end of the file; nullptr: the file has no lines.
@@ -69,10 +86,14 @@ class Journal {
   std::string lines_text_;                        // lines_ as text.
   std::shared_ptr<const Descriptor> descriptor_;  // nullptr: not open.
   bool failed_ = false;
-  uint64_t grown_ = 0;
+  Status failure_;                    // The error of a step that was not returned yet.
+  std::atomic<uint64_t> newest_ = 0;  // The number of the newest state of the project.
+  std::atomic<uint64_t> grown_ = 0;
   // Files to be synchronised to the disk. They stay open until that is done.
   Mailbox<std::shared_ptr<const Descriptor>> written_;
   std::jthread syncer_;
+  Mailbox<Step> steps_;
+  std::jthread writer_;
 };
 
 struct JournalContent {

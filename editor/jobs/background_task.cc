@@ -1,12 +1,41 @@
 #include "editor/jobs/background_task.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "editor/text/text.h"
 #include "shared/core/memory.h"
 
 namespace lararium::editor {
+
+namespace {
+
+// The names of the kinds, in the order of TaskKind.
+constexpr std::array kTaskNames = {
+    TrLater("Training"),
+    TrLater("Baking"),
+    TrLater("Exporting"),
+    TrLater("Playing the show"),
+    TrLater("Opening"),
+    TrLater("Measuring"),
+    TrLater("Opening the cast library"),
+    TrLater("Reading the bones"),
+    TrLater("Reading the light probe"),
+    TrLater("Measuring the camera"),
+    TrLater("Running the drama"),
+    TrLater("Checking"),
+    TrLater("Writing the map"),
+    TrLater("Refining on the map"),
+    TrLater("Speaking"),
+    TrLater("Calibrating"),
+};
+static_assert(kTaskNames.size() == static_cast<size_t>(TaskKind::kCalibrating) + 1);
+
+}  // namespace
+
+const char* TaskName(TaskKind kind) { return kTaskNames[static_cast<size_t>(kind)]; }
 
 std::optional<double> EstimateSecondsLeft(double fraction, double elapsed_seconds) {
   constexpr double kMinFraction = 0.02;
@@ -67,8 +96,8 @@ class BackgroundTask::Reporter : public Progress {
   BackgroundTask& task_;
 };
 
-BackgroundTask::BackgroundTask(std::string name, Work work, std::vector<TaskStep> steps)
-    : name_(std::move(name)), steps_(std::move(steps)) {
+BackgroundTask::BackgroundTask(TaskKind kind, Work work, std::vector<TaskStep> steps)
+    : kind_(kind), steps_(std::move(steps)) {
   thread_ = std::jthread([this, work = std::move(work)] {
     Reporter reporter(*this);
     Status status = work(reporter);
@@ -92,28 +121,27 @@ std::optional<Status> BackgroundTask::outcome() const {
   return outcome_;
 }
 
-bool TaskList::Start(const std::string& name,
+bool TaskList::Start(TaskKind kind,
                      BackgroundTask::Work work,
                      Done done,
                      std::vector<TaskStep> steps) {
-  if (Running(name)) {
+  if (Running(kind)) {
     return false;
   }
   entries_.push_back(
-      {std::make_unique<BackgroundTask>(name, std::move(work), std::move(steps)), std::move(done)});
+      {std::make_unique<BackgroundTask>(kind, std::move(work), std::move(steps)), std::move(done)});
   return true;
 }
 
-bool TaskList::Running(const std::string& name) const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [&](const Entry& entry) { return entry.task->name() == name; });
+BackgroundTask* TaskList::Find(TaskKind kind) const {
+  const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry& entry) { return entry.task->kind() == kind; });
+  return found == entries_.end() ? nullptr : found->task.get();
 }
 
-void TaskList::Cancel(const std::string& name) {
-  for (Entry& entry : entries_) {
-    if (entry.task->name() == name) {
-      entry.task->Cancel();
-    }
+void TaskList::Cancel(TaskKind kind) {
+  if (BackgroundTask* task = Find(kind)) {
+    task->Cancel();
   }
 }
 

@@ -20,6 +20,29 @@
 
 namespace lararium::editor {
 
+// What a task does. A TaskList runs at most one task of each kind.
+enum class TaskKind {
+  kTraining,
+  kBaking,
+  kExporting,
+  kTrying,
+  kOpening,
+  kMeasuring,
+  kCatalogue,
+  kBoneReview,
+  kProbe,
+  kCamera,
+  kDryRun,
+  kChecking,
+  kWritingMap,
+  kRefining,
+  kSpeaking,
+  kCalibrating,
+};
+
+// The name of a kind for the interface, in English; see Tr().
+const char* TaskName(TaskKind kind);
+
 // Estimates the remaining seconds of work that has reached fraction after elapsed_seconds; nullopt
 // while it is too early to estimate.
 std::optional<double> EstimateSecondsLeft(double fraction, double elapsed_seconds);
@@ -67,13 +90,13 @@ class BackgroundTask {
   };
 
   // Starts at once. steps: empty where they are not known.
-  BackgroundTask(std::string name, Work work, std::vector<TaskStep> steps = {});
+  BackgroundTask(TaskKind kind, Work work, std::vector<TaskStep> steps = {});
   // Cancels the work and waits for its end.
   ~BackgroundTask() { Cancel(); }
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  const std::string& name() const { return name_; }
+  TaskKind kind() const { return kind_; }
   State state() const;
   void Cancel() { cancelled_ = true; }
   bool cancelled() const { return cancelled_; }
@@ -84,7 +107,7 @@ class BackgroundTask {
  private:
   class Reporter;
 
-  std::string name_;
+  TaskKind kind_;
   std::atomic<bool> cancelled_ = false;
   mutable std::mutex mutex_;
   std::string step_;
@@ -104,13 +127,12 @@ class TaskList {
   // failed one.
   using Done = std::function<void(const Status& status, bool cancelled)>;
 
-  // Returns false where a task of that name is already running.
-  bool Start(const std::string& name,
-             BackgroundTask::Work work,
-             Done done,
-             std::vector<TaskStep> steps = {});
-  bool Running(const std::string& name) const;
-  void Cancel(const std::string& name);
+  // Returns false where a task of that kind is already running.
+  bool Start(TaskKind kind, BackgroundTask::Work work, Done done, std::vector<TaskStep> steps = {});
+  // The running task of that kind; nullptr where there is none.
+  BackgroundTask* Find(TaskKind kind) const;
+  bool Running(TaskKind kind) const { return Find(kind) != nullptr; }
+  void Cancel(TaskKind kind);
 
   // Removes the tasks that have ended and calls their Done.
   void Poll();

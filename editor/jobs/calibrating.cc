@@ -265,7 +265,7 @@ Result<std::string> BoardSvg(train::Board board) {
 CalibrationTask::CalibrationTask(std::unique_ptr<capture::FrameSource> source,
                                  const train::Board& board)
     : live_(source->live()),
-      task_(TrLater("Calibrating"),
+      task_(TaskKind::kCalibrating,
             [this, board, source = std::shared_ptr<capture::FrameSource>(std::move(source))](
                 Progress& progress) { return Run(*source, board, progress); }) {}
 

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <utility>
 
+#include "editor/document/file_stamp.h"
 #include "editor/import/cast/cast_presets.h"
 #include "editor/jobs/baking.h"
 #include "editor/jobs/thumbnail.h"
@@ -14,14 +15,6 @@
 
 namespace lararium::editor {
 namespace {
-
-constexpr std::string_view kNoFile = " none";
-
-std::string StampOf(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error);
-  return error ? std::string(kNoFile) : " " + std::to_string(time.time_since_epoch().count());
-}
 
 // The studio needs tens of megabytes, so it is released when there is nothing to draw for this
 // long. The time is shorter while no portrait is shown: list pictures are drawn once, and the
@@ -164,10 +157,10 @@ std::string CastPictures::KeyOf(const CastDocument& member) const {
   seen.voice = {};
   std::string key = FormatFields(seen).dump();
   for (const std::string& file : {member.model, member.bone_map}) {
-    key += file.empty() ? "" : StampOf(project_.Resolve(file));
+    key += file.empty() ? "" : FileStamp(project_.Resolve(file));
   }
   for (const ClipDocument& clip : member.clips) {
-    key += StampOf(project_.Resolve(clip.file));
+    key += FileStamp(project_.Resolve(clip.file));
   }
   return key;
 }
@@ -195,9 +188,9 @@ void CastPictures::SetObjects(const std::vector<ObjectDocument>& objects) {
     if (const auto known = objects_.find(object.name); known != objects_.end()) {
       thing = std::move(known->second);
     }
-    thing.key = StampOf(project_.Prop(object.name));
-    if (thing.key == kNoFile) {
-      thing.done = thing.key;
+    thing.key = FileStamp(project_.Prop(object.name));
+    if (thing.key == "none") {
+      thing.done = thing.key;  // Nothing was baked yet.
     }
   }
   objects_ = std::move(now);

@@ -5,8 +5,9 @@
 
 namespace lararium::editor {
 
-std::string TaskText(const std::string& name, const BackgroundTask::State& state) {
-  std::string text = Tr(name.c_str());
+std::string TaskText(TaskKind kind, const BackgroundTask::State& state) {
+  const char* name = TaskName(kind);
+  std::string text = Tr(name);
   // A task with only one step has the step's name.
   if (!state.step.empty() && state.step != LowerCase(name)) {
     text += std::string(": ") + Tr(state.step.c_str());

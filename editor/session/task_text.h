@@ -7,7 +7,7 @@
 namespace lararium::editor {
 
 // The current step of a task, its number and the remaining time, as far as they are known, in the
-// language of the interface: "Training: matching (3 of 7), 20 s left". name: the task's name.
-std::string TaskText(const std::string& name, const BackgroundTask::State& state);
+// language of the interface: "Training: matching (3 of 7), 20 s left".
+std::string TaskText(TaskKind kind, const BackgroundTask::State& state);
 
 }  // namespace lararium::editor

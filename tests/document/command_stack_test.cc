@@ -19,10 +19,10 @@ TEST(CommandStack, UndoAndRedoWalkThroughEveryState) {
   Append(stack, "a");
   Append(stack, "b");
   EXPECT_EQ(stack.document(), "ab");
-  EXPECT_EQ(stack.undo_name(), "append b");
+  EXPECT_EQ(stack.undo_name().English(), "append b");
   stack.Undo();
   EXPECT_EQ(stack.document(), "a");
-  EXPECT_EQ(stack.redo_name(), "append b");
+  EXPECT_EQ(stack.redo_name().English(), "append b");
   stack.Undo();
   EXPECT_EQ(stack.document(), "");
   EXPECT_FALSE(stack.CanUndo());
@@ -86,7 +86,7 @@ TEST(CommandStack, AGestureThatIsGivenUpWasNeverThere) {
   EXPECT_FALSE(stack.in_gesture());
   EXPECT_FALSE(stack.dirty());
   EXPECT_FALSE(stack.CanRedo());
-  EXPECT_EQ(stack.undo_name(), "append a");
+  EXPECT_EQ(stack.undo_name().English(), "append a");
 }
 
 TEST(CommandStack, ANewGestureIsANewCommand) {
@@ -129,7 +129,7 @@ TEST(CommandStack, ForgetsTheOldestBeyondItsLimit) {
   CommandStack<int> stack(0);
   const int edits = static_cast<int>(CommandStack<int>::kMaxCommands) + 5;
   for (int i = 1; i <= edits; ++i) {
-    stack.Edit("count", [&](int& value) { value = i; });
+    stack.Edit(Sentence("count"), [&](int& value) { value = i; });
   }
   while (stack.CanUndo()) {
     stack.Undo();

@@ -67,6 +67,44 @@ TEST_F(JournalTest, HoldsEachEditAtOnce) {
   EXPECT_EQ(MustLoad().script, "once two");
 }
 
+TEST_F(JournalTest, HoldsTheLastStepOfAGestureAndWhatFollowsIt) {
+  const auto step = [](int n) {
+    return std::make_shared<const ProjectDocument>(Titled(std::to_string(n)));
+  };
+  {
+    Journal journal(file_, Titled("saved"), Script("one"));
+    for (int n = 1; n <= 100; ++n) {
+      ASSERT_TRUE(journal.NoteGesture(step(n)).ok());
+    }
+    ASSERT_TRUE(journal.NoteScript({3, "", " two"}).ok());
+  }
+  EXPECT_EQ(MustLoad().project.title, "100");
+  EXPECT_EQ(MustLoad().script, "one two");
+  std::filesystem::remove(file_);
+  Journal journal(file_, Titled("saved"), Script("one"));
+  for (int round = 0; round < 50; ++round) {
+    ASSERT_TRUE(journal.NoteGesture(step(round)).ok());
+    ASSERT_TRUE(journal.NoteProject(Titled("undone")).ok());
+    EXPECT_EQ(MustLoad().project.title, "undone") << "no step is written behind a later edit";
+  }
+  ASSERT_TRUE(journal.NoteGesture(step(1)).ok());
+  journal.Discard(Titled("1"), Script("one"));
+  EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+TEST_F(JournalTest, AStepOfAGestureReachesTheFileWithoutALaterCall) {
+  Journal journal(file_, Titled("saved"), Script("one"));
+  ASSERT_TRUE(journal.NoteGesture(std::make_shared<const ProjectDocument>(Titled("dragged"))).ok());
+  for (int wait = 0; wait < 10'000 && !std::filesystem::exists(file_); ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  // The file appears before its first record.
+  for (int wait = 0; wait < 10'000 && MustLoad().edits == 0; ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(MustLoad().project.title, "dragged");
+}
+
 TEST_F(JournalTest, HoldsEachEditOfTheLinesAtOnce) {
   Journal journal(file_, TitledAndSaying("saved", "Salve"), Script("one"));
   ASSERT_TRUE(journal.NoteProject(TitledAndSaying("saved", "Salve, \"hospes\"\nmi")).ok());

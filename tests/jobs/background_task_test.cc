@@ -51,13 +51,13 @@ TEST(TaskList, HandsTheStatusToTheCallerOfPoll) {
   TaskList tasks;
   std::string message;
   tasks.Start(
-      "work", [](Progress&) { return Status::Error("here", "went wrong"); },
+      TaskKind::kBaking, [](Progress&) { return Status::Error("here", "went wrong"); },
       [&](const Status& status, bool) { message = status.message(); });
   PollUntilEmpty(tasks);
   EXPECT_EQ(message, "here: went wrong");
 }
 
-TEST(TaskList, RunsOneTaskOfANameAtATime) {
+TEST(TaskList, RunsOneTaskOfAKindAtATime) {
   TaskList tasks;
   std::promise<void> release;
   const auto work = [gate = release.get_future().share()](Progress&) {
@@ -65,20 +65,20 @@ TEST(TaskList, RunsOneTaskOfANameAtATime) {
     return Status();
   };
   const auto ignore = [](const Status&, bool) {};
-  EXPECT_TRUE(tasks.Start("work", work, ignore));
-  EXPECT_TRUE(tasks.Running("work"));
-  EXPECT_FALSE(tasks.Start("work", work, ignore));
-  EXPECT_TRUE(tasks.Start("other", work, ignore));
+  EXPECT_TRUE(tasks.Start(TaskKind::kBaking, work, ignore));
+  EXPECT_TRUE(tasks.Running(TaskKind::kBaking));
+  EXPECT_FALSE(tasks.Start(TaskKind::kBaking, work, ignore));
+  EXPECT_TRUE(tasks.Start(TaskKind::kTraining, work, ignore));
   release.set_value();
   PollUntilEmpty(tasks);
-  EXPECT_FALSE(tasks.Running("work"));
+  EXPECT_FALSE(tasks.Running(TaskKind::kBaking));
 }
 
 TEST(TaskList, WorkThatAsksLearnsThatItIsCancelled) {
   TaskList tasks;
   bool was_cancelled = false;
   tasks.Start(
-      "work",
+      TaskKind::kBaking,
       [](Progress& progress) {
         while (!progress.Cancelled()) {
           std::this_thread::yield();
@@ -86,7 +86,7 @@ TEST(TaskList, WorkThatAsksLearnsThatItIsCancelled) {
         return Status::Error("work", "cancelled");
       },
       [&](const Status&, bool cancelled) { was_cancelled = cancelled; });
-  tasks.Cancel("work");
+  tasks.Cancel(TaskKind::kBaking);
   PollUntilEmpty(tasks);
   EXPECT_TRUE(was_cancelled);
 }
@@ -95,10 +95,10 @@ TEST(TaskList, DoneMayStartTheNextTask) {
   TaskList tasks;
   bool second_done = false;
   tasks.Start(
-      "first", [](Progress&) { return Status(); },
+      TaskKind::kBaking, [](Progress&) { return Status(); },
       [&](const Status&, bool) {
         tasks.Start(
-            "second", [](Progress&) { return Status(); },
+            TaskKind::kTraining, [](Progress&) { return Status(); },
             [&](const Status&, bool) { second_done = true; });
       });
   PollUntilEmpty(tasks);
@@ -108,7 +108,7 @@ TEST(TaskList, DoneMayStartTheNextTask) {
 TEST(BackgroundTask, ReportsItsStepAndFraction) {
   std::promise<void> reported;
   std::promise<void> release;
-  BackgroundTask task("work", [&](Progress& progress) {
+  BackgroundTask task(TaskKind::kBaking, [&](Progress& progress) {
     progress.Report("matching", 0.25);
     reported.set_value();
     release.get_future().wait();

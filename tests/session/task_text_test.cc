@@ -14,23 +14,23 @@ class TaskTextTest : public testing::Test {
 };
 
 TEST_F(TaskTextTest, NamesTheTaskItsStepAndTheTimeLeft) {
-  EXPECT_EQ(TaskText("Exporting", {.step = "packing", .fraction = 0.5, .seconds = 20.0}),
+  EXPECT_EQ(TaskText(TaskKind::kExporting, {.step = "packing", .fraction = 0.5, .seconds = 20.0}),
             "Exporting: packing, 20 s left");
 }
 
 TEST_F(TaskTextTest, SaysWhichOfTheStepsIsAtWorkWhereTheyAreKnown) {
-  EXPECT_EQ(TaskText("Training", {.step = "matching", .number = 3, .count = 7}),
+  EXPECT_EQ(TaskText(TaskKind::kTraining, {.step = "matching", .number = 3, .count = 7}),
             "Training: matching (3 of 7)");
 }
 
 TEST_F(TaskTextTest, SaysNoTimeBeforeItIsKnownAndNoStepThatIsCalledAlike) {
-  EXPECT_EQ(TaskText("Exporting", {.step = "exporting"}), "Exporting");
-  EXPECT_EQ(TaskText("Exporting", {}), "Exporting");
+  EXPECT_EQ(TaskText(TaskKind::kExporting, {.step = "exporting"}), "Exporting");
+  EXPECT_EQ(TaskText(TaskKind::kExporting, {}), "Exporting");
 }
 
 TEST_F(TaskTextTest, IsInTheLanguageOfTheInterface) {
   LoadTexts(LARARIUM_LOCALE_DIR, "it");
-  EXPECT_EQ(TaskText("Exporting", {.step = "writing", .fraction = 0.5, .seconds = 20.0}),
+  EXPECT_EQ(TaskText(TaskKind::kExporting, {.step = "writing", .fraction = 0.5, .seconds = 20.0}),
             std::string(Tr("Exporting")) + ": scrittura, ancora 20 s");
 }
 

@@ -347,7 +347,7 @@ TEST_F(WorkspaceTest, ARemovedSessionIsGoneFromMapAndDocumentAndNoUndoBringsItBa
   workspace->EditPlace("nudge", [](PlaceDocument& place) { place.camera_nudge.x() = 0.1; });
   workspace->Undo();
   workspace->RemoveSession(1);
-  while (workspace->tasks().Running(Workspace::kTraining)) {
+  while (workspace->tasks().Running(TaskKind::kTraining)) {
     workspace->Update(0.01);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -133,7 +133,7 @@ int CountProblems(const editor::Workspace& workspace) {
 }
 
 void DrawChecksTools(editor::Workspace& workspace) {
-  const bool busy = workspace.tasks().Running(editor::Workspace::kChecking);
+  const bool busy = workspace.tasks().Running(editor::TaskKind::kChecking);
   ImGui::BeginDisabled(busy);
   if (ImGui::Button(busy ? Tr("Checking\xe2\x80\xa6") : Tr("Check the saved project"))) {
     workspace.Check();

@@ -170,21 +170,12 @@ void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& a
   }
 }
 
-editor::BackgroundTask* Exporting(editor::Workspace& workspace) {
-  for (const editor::TaskList::Entry& entry : workspace.tasks().entries()) {
-    if (entry.task->name() == editor::Workspace::kExporting) {
-      return entry.task.get();
-    }
-  }
-  return nullptr;
-}
-
 void DrawDuring(editor::BackgroundTask& task, Dialogs& dialogs) {
   const editor::BackgroundTask::State now = task.state();
   Hint(Tr("The window can be used meanwhile: the export goes on when this is closed."));
   ImGui::Dummy(ImVec2(0, Px(6)));
   const std::string text =
-      now.cancelling ? Tr("Stopping\xe2\x80\xa6") : editor::TaskText(task.name(), now);
+      now.cancelling ? Tr("Stopping\xe2\x80\xa6") : editor::TaskText(task.kind(), now);
   ImGui::TextUnformatted(text.c_str());
   ImGui::ProgressBar(static_cast<float>(now.fraction), ImVec2(-FLT_MIN, Px(8)), "");
   switch (DialogButtons(Tr("Close"), "", Tr("Stop"))) {
@@ -207,11 +198,11 @@ void DrawAfter(editor::Workspace& workspace, Dialogs& dialogs) {
   DimText(shown.contents.is_signed ? Tr("Signed.")
                                    : Tr("Not signed: players that ask for a signature refuse it."));
   DimText(Tr("The player is left with Escape."));
-  const bool playing = workspace.tasks().Running(editor::Workspace::kTrying);
+  const bool playing = workspace.tasks().Running(editor::TaskKind::kTrying);
   switch (DialogButtons(playing ? Tr("Stop player") : Tr("Test in player"), "", Tr("Close"))) {
     case DialogAnswer::kAct:
       if (playing) {
-        workspace.tasks().Cancel(editor::Workspace::kTrying);
+        workspace.tasks().Cancel(editor::TaskKind::kTrying);
       } else {
         workspace.TryShow();
       }
@@ -232,7 +223,7 @@ void ExportDialog(editor::Workspace& workspace, Dialogs& dialogs, EditorActions&
     const std::filesystem::path folder = workspace.paths().folder;
     fields.file = (folder.parent_path() / folder.stem()).string() + ".larshow";
   }
-  if (editor::BackgroundTask* task = Exporting(workspace)) {
+  if (editor::BackgroundTask* task = workspace.tasks().Find(editor::TaskKind::kExporting)) {
     fields.exporting = true;
     DrawDuring(*task, dialogs);
   } else if (fields.exporting && workspace.export_problem().empty() &&

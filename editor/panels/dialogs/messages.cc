@@ -43,7 +43,7 @@ Icon IconOf(editor::Message::Level level) {
 void DrawTask(editor::BackgroundTask& task) {
   const editor::BackgroundTask::State state = task.state();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(editor::TaskText(task.name(), state).c_str());
+  ImGui::TextUnformatted(editor::TaskText(task.kind(), state).c_str());
   ImGui::SameLine(0.0f, Px(12));
   const float height = Px(6);
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (ImGui::GetFrameHeight() - height));

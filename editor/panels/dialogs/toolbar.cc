@@ -43,7 +43,7 @@ void OpenTrainDialog(const editor::Workspace& workspace, Dialogs& dialogs) {
 
 bool CanAddSession(editor::Workspace& workspace) {
   return workspace.place() != nullptr && workspace.loaded().database != nullptr &&
-         !workspace.tasks().Running(editor::Workspace::kTraining);
+         !workspace.tasks().Running(editor::TaskKind::kTraining);
 }
 
 std::string UndoLabel(const editor::Workspace& workspace) {
@@ -538,7 +538,7 @@ void DrawToolbar(editor::Workspace& workspace,
     dialogs.Open(Dialog::kAddSession);
   }
   ImGui::SameLine();
-  if (DrawTool(kBake, words, !tasks.Running(editor::Workspace::kBaking))) {
+  if (DrawTool(kBake, words, !tasks.Running(editor::TaskKind::kBaking))) {
     workspace.Bake();
   }
   ImGui::SameLine();

@@ -172,7 +172,7 @@ void DrawBones(editor::Workspace& workspace,
   }
   const editor::BoneReview* review = workspace.bone_review(member);
   if (review == nullptr) {
-    Hint(workspace.tasks().Running(editor::Workspace::kReview)
+    Hint(workspace.tasks().Running(editor::TaskKind::kBoneReview)
              ? Tr("Reading the figure\xe2\x80\xa6")
              : Tr("The figure could not be read; the messages below say why."));
     return;
@@ -183,7 +183,7 @@ void DrawBones(editor::Workspace& workspace,
   for (const std::string& note : review->notes) {
     Hint(note);
   }
-  ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kReview));
+  ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kBoneReview));
   if (ImGui::Button(Tr("Save the map"), ImVec2(-FLT_MIN, 0))) {
     workspace.SaveBones(member);
   }

@@ -64,7 +64,7 @@ RecipeChange DrawFigure(editor::Workspace& workspace,
     DrawBones(workspace, cast_view, member);
   } else if (BeginProperties("plain figure")) {
     if (DrawPlainFigure(workspace, member)) {
-      change.Drag(Tr("figure"));
+      change.Drag(Sentence("figure"));
     }
     EndProperties();
   }
@@ -92,7 +92,7 @@ void DrawActor(editor::Workspace& workspace,
   DrawVoice(workspace, edited, change);
   if (change.any()) {
     workspace.Edit(
-        Text(Tr("%s of %s"), change.what.c_str(), member.name.c_str()),
+        Sentence("%s of %s", {change.what, member.name}),
         [&edited](editor::ProjectDocument& document) {
           std::replace_if(
               document.cast.begin(), document.cast.end(),

@@ -53,8 +53,8 @@ class ClipsPanel {
   }
 
  private:
-  void Edit(const std::string& what, const std::function<Status(editor::CastDocument&)>& change) {
-    workspace_.Edit(Text(Tr("%s of %s"), what.c_str(), member_.name.c_str()),
+  void Edit(const Sentence& what, const std::function<Status(editor::CastDocument&)>& change) {
+    workspace_.Edit(Sentence("%s of %s", {what, member_.name}),
                     [&](editor::ProjectDocument& document) {
                       for (editor::CastDocument& known : document.cast) {
                         if (known.name == member_.name) {
@@ -85,13 +85,13 @@ class ClipsPanel {
       Tell(status);
       return;
     }
-    Edit(Text(Tr("rename the clip %s"), name.c_str()),
+    Edit(Sentence("rename the clip %s", {name}),
          [&](editor::CastDocument& known) { return editor::RenameClip(name, to, known); });
     WarnOfUses(name);
   }
 
   void Remove(const std::string& name) {
-    Edit(Text(Tr("remove the clip %s"), name.c_str()),
+    Edit(Sentence("remove the clip %s", {name}),
          [&](editor::CastDocument& known) { return editor::RemoveClip(name, known); });
     WarnOfUses(name);
   }
@@ -148,7 +148,7 @@ class ClipsPanel {
 
   void SetLoops(editor::ClipDocument clip, bool loops) {
     clip.loops = loops;
-    Edit(Text(Tr("loop of the clip %s"), clip.name.c_str()), [&](editor::CastDocument& known) {
+    Edit(Sentence("loop of the clip %s", {clip.name}), [&](editor::CastDocument& known) {
       std::replace_if(
           known.clips.begin(), known.clips.end(),
           [&](const auto& other) { return other.name == clip.name; }, clip);
@@ -215,7 +215,7 @@ class ClipsPanel {
   void Add() {
     const std::filesystem::path file = workspace_.paths().Resolve(fields_.file);
     const editor::ClipDocument clip{NewName(), workspace_.paths().Shorten(file), false};
-    Edit(Text(Tr("add the clip %s"), clip.name.c_str()),
+    Edit(Sentence("add the clip %s", {clip.name}),
          [&](editor::CastDocument& known) { return editor::AddClip(clip, known); });
   }
 

@@ -244,7 +244,7 @@ void DrawOtherPlaces(editor::Workspace& workspace, const editor::PlaceDocument& 
 // undone.
 void RemoveSessionButton(editor::Workspace& workspace, uint32_t session, const std::string& name) {
   ImGui::PushID(static_cast<int>(session));
-  ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kTraining));
+  ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kTraining));
   if (ImGui::Button(Tr("Remove\xe2\x80\xa6"))) {
     ImGui::OpenPopup("remove");
   }
@@ -278,7 +278,7 @@ void DrawTraining(editor::Workspace& workspace, Dialogs& dialogs) {
     dialogs.shown = Dialog::kTrainingReport;
   }
   if (workspace.loaded().has_previous) {
-    ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kTraining));
+    ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kTraining));
     if (ImGui::Button(Tr("Put the former map back"), ImVec2(-FLT_MIN, 0))) {
       workspace.RestorePreviousMap();
     }

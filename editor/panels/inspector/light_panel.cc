@@ -29,7 +29,7 @@ glm::quat Rotation(const ProbeDocument& probe) { return geometry::ToGlm(probe.st
 
 void EditProbe(editor::Workspace& workspace,
                const ProbeDocument& changed,
-               const std::string& name,
+               const Sentence& name,
                std::string_view gesture = {}) {
   workspace.EditPlace(
       name,
@@ -59,7 +59,7 @@ void DragPanorama(editor::Workspace& workspace,
     const glm::quat turned = light.level
                                  ? bake::TurnedTo(now, *light.dragged_in_probe, under_pointer)
                                  : bake::DraggedTo(now, *light.dragged_in_probe, under_pointer);
-    TurnProbe(workspace, probe, turned, Tr("turn the light"), "probe panorama");
+    TurnProbe(workspace, probe, turned, Sentence("turn the light"), "probe panorama");
   }
   if (ImGui::IsItemDeactivated()) {
     light.dragged_in_probe.reset();
@@ -185,7 +185,7 @@ void DrawDirections(editor::Workspace& workspace,
   if (BeginProperties("turn")) {
     Eigen::Quaterniond rotation = probe.stage_from_probe;
     if (RotationProperty(workspace, Tr("Rotation"), rotation)) {
-      TurnProbe(workspace, probe, geometry::ToGlm(rotation), Tr("turn the light"),
+      TurnProbe(workspace, probe, geometry::ToGlm(rotation), Sentence("turn the light"),
                 "probe rotation");
     }
     EndProperties();
@@ -221,7 +221,7 @@ void DrawBrightness(editor::Workspace& workspace,
     if (SliderProperty(workspace, Tr("Exposure"), stops, kMinStops / 2, kMaxStops / 2,
                        Tr("%+.2f stops"))) {
       changed.scale = std::exp2(stops);
-      EditProbe(workspace, changed, Tr("the light's exposure"), "probe exposure");
+      EditProbe(workspace, changed, Sentence("the light's exposure"), "probe exposure");
     }
     editor::WhiteBalance white = editor::WhiteBalanceOf(geometry::ToGlm(probe.balance));
     bool balanced =
@@ -230,7 +230,7 @@ void DrawBrightness(editor::Workspace& workspace,
     if (balanced) {
       const glm::vec3 balance = editor::BalanceOf(white);
       changed.balance = {balance.r, balance.g, balance.b};
-      EditProbe(workspace, changed, Tr("the light's white balance"), "probe balance");
+      EditProbe(workspace, changed, Sentence("the light's white balance"), "probe balance");
     }
     double albedo = light.albedo;
     if (NumberProperty(workspace, Tr("Grey is"), albedo, 0.002, 0.02, 1.0, Tr("%.2f albedo"))) {
@@ -275,7 +275,7 @@ void DrawViews(editor::Workspace& workspace, ViewOptions& options, LightView& li
                      100.0 * std::sqrt(camera->noise_floor * camera->noise_floor +
                                        0.5f * camera->noise_slope))
               : std::string(Tr("Not measured yet")));
-  ImGui::BeginDisabled(workspace.tasks().Running(editor::Workspace::kCamera) ||
+  ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kCamera) ||
                        workspace.place()->training.empty());
   if (ImGui::Button(Tr("Measure the camera"), ImVec2(-FLT_MIN, 0))) {
     workspace.MeasureCameraTraits();
@@ -313,7 +313,7 @@ const ProbeDocument* SelectedProbe(const editor::Workspace& workspace, const Sel
 void TurnProbe(editor::Workspace& workspace,
                const ProbeDocument& probe,
                const glm::quat& stage_from_probe,
-               const char* name,
+               const Sentence& name,
                const char* gesture) {
   ProbeDocument changed = probe;
   const glm::quat q = glm::normalize(stage_from_probe);
@@ -346,7 +346,7 @@ void AddGreyPatch(editor::Workspace& workspace,
   light.scale_match = *match;
   ProbeDocument changed = probe;
   changed.scale = match->scale;
-  EditProbe(workspace, changed, Tr("brightness from a grey surface"));
+  EditProbe(workspace, changed, Sentence("brightness from a grey surface"));
 }
 
 void AddDirection(editor::Workspace& workspace,
@@ -368,7 +368,7 @@ void AddDirection(editor::Workspace& workspace,
     const glm::quat now = Rotation(probe);
     const glm::quat turned = light.level ? bake::TurnedTo(now, light.pairs[0].in_probe, in_stage)
                                          : bake::DraggedTo(now, light.pairs[0].in_probe, in_stage);
-    TurnProbe(workspace, probe, turned, Tr("match the light's direction"), "");
+    TurnProbe(workspace, probe, turned, Sentence("match the light's direction"), "");
     return;
   }
   const Result<bake::DirectionMatch> match = bake::MatchDirections(light.pairs[0], light.pairs[1]);
@@ -378,7 +378,8 @@ void AddDirection(editor::Workspace& workspace,
     return;
   }
   light.direction_match = *match;
-  TurnProbe(workspace, probe, match->stage_from_probe, Tr("match the light's directions"), "");
+  TurnProbe(workspace, probe, match->stage_from_probe, Sentence("match the light's directions"),
+            "");
 }
 
 editor::ProbeLook LookAtProbe(const editor::Workspace& workspace, const ProbeDocument& probe) {
@@ -439,12 +440,12 @@ bool HandleLightKey(editor::Workspace& workspace,
   const auto turn = [&](double degrees) {
     const glm::quat by = glm::angleAxis(static_cast<float>(degrees / kDegreesPerRadian),
                                         glm::vec3(0.0f, 1.0f, 0.0f));
-    TurnProbe(workspace, *probe, by * Rotation(*probe), Tr("turn the light"), "probe keys");
+    TurnProbe(workspace, *probe, by * Rotation(*probe), Sentence("turn the light"), "probe keys");
   };
   const auto brighten = [&](double stops) {
     ProbeDocument changed = *probe;
     changed.scale = std::max(probe->scale, 1e-9) * std::exp2(stops / 6.0);
-    EditProbe(workspace, changed, Tr("the light's exposure"), "probe exposure keys");
+    EditProbe(workspace, changed, Sentence("the light's exposure"), "probe exposure keys");
   };
   if (!press.repeats) {
     workspace.EndGesture();  // Each press is a separate command.

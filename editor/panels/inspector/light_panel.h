@@ -55,7 +55,7 @@ const editor::ProbeDocument* SelectedProbe(const editor::Workspace& workspace,
 void TurnProbe(editor::Workspace& workspace,
                const editor::ProbeDocument& probe,
                const glm::quat& stage_from_probe,
-               const char* name,
+               const Sentence& name,
                const char* gesture);
 // Complete a pick on the stage that the panel has started. The direction is from the probe.
 void AddGreyPatch(editor::Workspace& workspace,

@@ -78,7 +78,7 @@ void LookAt(editor::Workspace& workspace,
 
 // gesture: see CommandStack::Edit.
 void EditAcoustics(editor::Workspace& workspace,
-                   const std::string& name,
+                   const Sentence& name,
                    const std::function<void(stage::Acoustics&)>& change,
                    std::string_view gesture = {}) {
   workspace.EditPlace(
@@ -92,7 +92,7 @@ void DrawReverb(editor::Workspace& workspace, const stage::Acoustics& acoustics)
   int reverb = static_cast<int>(acoustics.reverb);
   if (ImGui::Combo("##reverb", &reverb, names.data(), static_cast<int>(names.size()),
                    static_cast<int>(names.size()))) {
-    EditAcoustics(workspace, Tr("reverberation"), [&](stage::Acoustics& edited) {
+    EditAcoustics(workspace, Sentence("reverberation"), [&](stage::Acoustics& edited) {
       edited.reverb = static_cast<stage::Reverb>(reverb);
     });
   }
@@ -103,7 +103,7 @@ void DrawReverb(editor::Workspace& workspace, const stage::Acoustics& acoustics)
   double level = static_cast<double>(acoustics.reverb_db);
   if (NumberProperty(workspace, Tr("Reverberation"), level, 0.1, kMinDb, kMaxDb, "%+.1f dB")) {
     EditAcoustics(
-        workspace, Tr("reverberation"),
+        workspace, Sentence("reverberation"),
         [&](stage::Acoustics& edited) { edited.reverb_db = static_cast<float>(level); }, "reverb");
   }
   Tooltip(Tr("How loud the reverberation is, beside what such walls give"));
@@ -159,7 +159,7 @@ bool NameAndRemove(const std::string& name) {
 void DrawAmbience(editor::Workspace& workspace, stage::Ambience ambience, size_t index) {
   const std::string name = ambience.sound;
   if (NameAndRemove(name)) {
-    EditAcoustics(workspace, Text(Tr("remove %s"), name.c_str()), [&](stage::Acoustics& edited) {
+    EditAcoustics(workspace, Sentence("remove %s", {name}), [&](stage::Acoustics& edited) {
       edited.ambience.erase(edited.ambience.begin() + static_cast<ptrdiff_t>(index));
     });
     return;
@@ -178,7 +178,7 @@ void DrawAmbience(editor::Workspace& workspace, stage::Ambience ambience, size_t
   EndProperties();
   if (chosen || dragged) {
     EditAcoustics(
-        workspace, Text(Tr("sound %s"), name.c_str()),
+        workspace, Sentence("sound %s", {name}),
         [&](stage::Acoustics& edited) { edited.ambience[index] = ambience; },
         chosen ? "" : "ambience " + std::to_string(index));
   }
@@ -194,10 +194,9 @@ void AddAmbienceCombo(editor::Workspace& workspace, const stage::Acoustics& acou
       const bool heard = std::any_of(acoustics.ambience.begin(), acoustics.ambience.end(),
                                      [&](const auto& known) { return known.sound == sound.name; });
       if (!heard && ImGui::Selectable(sound.name.c_str())) {
-        EditAcoustics(workspace, Text(Tr("add %s"), sound.name.c_str()),
-                      [&](stage::Acoustics& edited) {
-                        edited.ambience.push_back({sound.name, 0.0f, std::nullopt});
-                      });
+        EditAcoustics(workspace, Sentence("add %s", {sound.name}), [&](stage::Acoustics& edited) {
+          edited.ambience.push_back({sound.name, 0.0f, std::nullopt});
+        });
       }
     }
     ImGui::EndCombo();
@@ -330,8 +329,8 @@ void DrawPlaceName(editor::Workspace& workspace,
   const std::string name = place.name;
   const std::string title = Label(Tr("Rename a place"), "rename");
   const ImVec2 wide(-FLT_MIN, 0);
-  const bool busy = workspace.tasks().Running(editor::Workspace::kTraining) ||
-                    workspace.tasks().Running(editor::Workspace::kKeeping);
+  const bool busy = workspace.tasks().Running(editor::TaskKind::kTraining) ||
+                    workspace.tasks().Running(editor::TaskKind::kWritingMap);
   ImGui::BeginDisabled(busy);
   if (ImGui::Button(Text(Tr("Rename %s\xe2\x80\xa6"), name.c_str()).c_str(), wide)) {
     dialogs.fields = {};

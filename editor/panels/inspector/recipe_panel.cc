@@ -97,7 +97,7 @@ class RecipePanel {
     if (SliderProperty(workspace_, TrIn("person", "Height"), height, editor::kMinHeight,
                        editor::kMaxHeight, "%.2f m")) {
       recipe_.height = static_cast<float>(height);
-      change_.Drag(Tr("height"));
+      change_.Drag(Sentence("height"));
     }
     DrawDescent();
     EndProperties();
@@ -109,7 +109,7 @@ class RecipePanel {
       double share = recipe_.ethnicity[i];
       if (SliderProperty(workspace_, labels[static_cast<size_t>(i)], share, 0.0, 1.0, "%.2f")) {
         recipe_.ethnicity[i] = static_cast<float>(share);
-        change_.Drag(Tr("descent"));
+        change_.Drag(Sentence("descent"));
       }
     }
     if (recipe_.ethnicity.x + recipe_.ethnicity.y + recipe_.ethnicity.z <= 0.0f) {
@@ -136,7 +136,7 @@ class RecipePanel {
     ImGui::BeginDisabled(recipe_.modifiers.empty());
     if (ImGui::Button(Tr("Reset all features"), ImVec2(-FLT_MIN, 0))) {
       recipe_.modifiers.clear();
-      change_.Choose(Tr("reset of all features"));
+      change_.Choose(Sentence("reset of all features"));
     }
     ImGui::EndDisabled();
   }
@@ -193,7 +193,7 @@ class RecipePanel {
     if (set) {
       if (ImGui::Button(kReset, ImVec2(reset, 0))) {
         recipe_.modifiers.erase(slider.modifier);
-        change_.Choose(Text(Tr("reset of %s"), what.c_str()));
+        change_.Choose(Sentence("reset of %s", {what}));
       }
       Tip(Tr("As it was before it was changed"));
     }
@@ -217,7 +217,7 @@ class RecipePanel {
     }
     PropertyLabel(Tr("Skin"));
     if (NameCombo("##skin", recipe_.skin, catalogue_->skins, Tr("by age, sex and descent"))) {
-      change_.Choose(Tr("skin"));
+      change_.Choose(Sentence("skin"));
     }
     PropertyLabel(Tr("Tint"));
     ColourField(Tr("skin tint"), recipe_.skin_tint, glm::vec3(0.7f, 0.52f, 0.4f));
@@ -225,7 +225,7 @@ class RecipePanel {
     PartField(Tr("Eyes"), recipe_.eyes, catalogue_->eyes, nullptr);
     PropertyLabel(Tr("Eyelashes"));
     if (NameCombo("##eyelashes", recipe_.eyelashes, catalogue_->eyelashes, Tr("none"))) {
-      change_.Choose(Tr("eyelashes"));
+      change_.Choose(Sentence("eyelashes"));
     }
     EndProperties();
   }
@@ -242,7 +242,7 @@ class RecipePanel {
       double volume = recipe_.hair->volume;
       if (SliderProperty(workspace_, Tr("Volume"), volume, 0.1, 2.0, "%.2f")) {
         recipe_.hair->volume = static_cast<float>(volume);
-        change_.Drag(Tr("volume of the hair"));
+        change_.Drag(Sentence("volume of the hair"));
       }
     }
     PartField(Tr("Brows"), recipe_.eyebrows, catalogue_->eyebrows, Tr("none"));
@@ -257,7 +257,7 @@ class RecipePanel {
     if (ImGui::Button(Tr("Add a beard"), ImVec2(-FLT_MIN, 0))) {
       const auto colour = recipe_.hair ? recipe_.hair->colour : std::nullopt;
       recipe_.beard.push_back({catalogue_->beards.front(), colour});
-      change_.Choose(Tr("beard"));
+      change_.Choose(Sentence("beard"));
     }
     ImGui::EndDisabled();
   }
@@ -305,7 +305,7 @@ class RecipePanel {
       ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
       if (ImGui::Button(kReset, ImVec2(ImGui::GetFrameHeight(), 0))) {
         colour.reset();
-        change_.Choose(Text(Tr("reset of the %s"), what.c_str()));
+        change_.Choose(Sentence("reset of the %s", {what}));
         changed = true;
       }
       Tip(Tr("Without a dye: the colour that the part was made with"));

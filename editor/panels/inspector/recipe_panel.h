@@ -7,18 +7,19 @@
 #include "editor/import/cast/cast_recipe.h"
 #include "editor/panels/viewport/portrait_view.h"
 #include "editor/session/workspace.h"
+#include "shared/core/sentence.h"
 
 namespace lararium::panels {
 
 // The changes that the widgets made in one frame.
 struct RecipeChange {
-  std::string what;     // The name of the command, for example "nose hump"; empty: no change.
+  Sentence what;        // The name of the command, for example "nose hump"; empty: no change.
   std::string gesture;  // See CommandStack::Edit.
 
-  bool any() const { return !what.empty(); }
+  bool any() const { return what != Sentence(); }
   // A choice is one command; a drag of a slider is one command.
-  void Choose(const std::string& name) { *this = {name, ""}; }
-  void Drag(const std::string& name) { *this = {name, "recipe " + name}; }
+  void Choose(const Sentence& name) { *this = {name, ""}; }
+  void Drag(const Sentence& name) { *this = {name, "recipe " + name.English()}; }
 };
 
 // Shows the recipe and edits it.

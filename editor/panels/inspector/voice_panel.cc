@@ -61,7 +61,7 @@ void VariantRow(bake::VoiceSettings& voice, RecipeChange& change) {
     names.push_back(voice.variant);
   }
   if (NameCombo("##variant", voice.variant, names, Tr("the language's own"))) {
-    change.Choose(Tr("voice"));
+    change.Choose(Sentence("voice"));
   }
   Tip(Tr("m1 to m8 are men, f1 to f5 women"));
 }
@@ -83,20 +83,17 @@ void SliderRow(editor::Workspace& workspace,
   Tip(Tr(slider.tip));
   if (value != usual && ResetButton(Text(Tr("As it was: %d"), usual))) {
     value = usual;
-    change.Choose(Text(Tr("reset of %s"), WhatOf(slider.label).c_str()));
+    change.Choose(Sentence("reset of %s", {WhatOf(slider.label)}));
   }
   ImGui::PopID();
 }
-
-// The name of the task in the status bar.
-constexpr const char* kSpeaking = TrLater("Speaking");
 
 void Listen(editor::Workspace& workspace, const editor::CastDocument& member) {
   const auto lines = workspace.document().lines;
   const editor::VoiceSample sample = editor::SampleOf(lines != nullptr ? *lines : bake::LineTable(),
                                                       workspace.document().speech, member);
   workspace.tasks().Start(
-      kSpeaking,
+      editor::TaskKind::kSpeaking,
       [sample, voice = member.voice](Progress& progress) {
         return editor::PlaySample(sample, voice, progress);
       },
@@ -109,12 +106,12 @@ void Listen(editor::Workspace& workspace, const editor::CastDocument& member) {
 
 // Plays the voice, or stops it.
 void ListenButton(editor::Workspace& workspace, const editor::CastDocument& member) {
-  const bool speaking = workspace.tasks().Running(kSpeaking);
+  const bool speaking = workspace.tasks().Running(editor::TaskKind::kSpeaking);
   const std::string text =
       speaking ? WithIcon(Icon::kPause, Tr("Stop")) : WithIcon(Icon::kPlay, Tr("Listen"));
   if (ImGui::Button(Label(text.c_str(), "listen").c_str(), ImVec2(-FLT_MIN, 0))) {
     if (speaking) {
-      workspace.tasks().Cancel(kSpeaking);
+      workspace.tasks().Cancel(editor::TaskKind::kSpeaking);
     } else {
       Listen(workspace, member);
     }

@@ -101,8 +101,7 @@ void WordRows(Json& garment, RecipeChange& change) {
     const std::vector<std::string> words = import::GarmentWords(field.field);
     if (NameCombo("##word", word, words, Tr("as usual"))) {
       Set(garment, field.field, word);
-      change.Choose(
-          Text(Tr("%s of the %s"), LowerCase(Tr(field.label)).c_str(), NameOf(garment).c_str()));
+      change.Choose(Sentence("%s of the %s", {LowerCase(Tr(field.label)), NameOf(garment)}));
     }
     ImGui::PopID();
   }
@@ -116,13 +115,13 @@ void WearRow(editor::Workspace& workspace, Json& garment, RecipeChange& change) 
   double wear = pattern.ok() ? pattern->wear : 0.3;
   if (SliderProperty(workspace, Tr("Wear"), wear, 0.0, 1.0, "%.2f")) {
     garment["wear"] = std::round(wear * 100.0) / 100.0;
-    change.Drag(Text(Tr("wear of the %s"), NameOf(garment).c_str()));
+    change.Drag(Sentence("wear of the %s", {NameOf(garment)}));
   }
   bool border = pattern.ok() && pattern->border;
   PropertyLabel(Tr("Border"));
   if (ImGui::Checkbox("##border", &border)) {
     garment["border"] = border;
-    change.Choose(Text(Tr("border of the %s"), NameOf(garment).c_str()));
+    change.Choose(Sentence("border of the %s", {NameOf(garment)}));
   }
 }
 
@@ -140,7 +139,7 @@ Order Header(Json& garment, bool first, RecipeChange& change) {
     if (garment.contains("colour")) {
       other["colour"] = garment["colour"];
     }
-    change.Choose(Text(Tr("%s for the %s"), name.c_str(), NameOf(garment).c_str()));
+    change.Choose(Sentence("%s for the %s", {name, NameOf(garment)}));
     garment = std::move(other);
   }
   ImGui::SameLine(0, gap);
@@ -192,10 +191,10 @@ void DrawWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, Reci
     ImGui::PopID();
     const auto at = recipe.garments.begin() + static_cast<std::ptrdiff_t>(i);
     if (order == Order::kUp) {
-      change.Choose(Text(Tr("order of the %s"), NameOf(*at).c_str()));
+      change.Choose(Sentence("order of the %s", {NameOf(*at)}));
       std::iter_swap(at - 1, at);
     } else if (order == Order::kTakeOff) {
-      change.Choose(Text(Tr("no %s"), NameOf(*at).c_str()));
+      change.Choose(Sentence("no %s", {NameOf(*at)}));
       recipe.garments.erase(at);
       break;
     }

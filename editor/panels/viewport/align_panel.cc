@@ -150,7 +150,7 @@ void DrawRefining(editor::Workspace& workspace,
     EndProperties();
   }
   ImGui::BeginDisabled(workspace.loaded().staged == nullptr ||
-                       workspace.tasks().Running(editor::Workspace::kRefining));
+                       workspace.tasks().Running(editor::TaskKind::kRefining));
   if (ImGui::Button(Tr("Refine on the map"), ImVec2(-FLT_MIN, 0))) {
     workspace.RefineOccluder(occluder.name, align.search_m);
   }

@@ -46,7 +46,7 @@ void Sign(Verdict verdict) {
 
 void EditPoint(editor::Workspace& workspace,
                const std::string& name,
-               const std::string& command,
+               const Sentence& command,
                const Eigen::Vector3d& position,
                std::string_view gesture) {
   workspace.Edit(
@@ -86,7 +86,7 @@ void DrawPointButtons(editor::Workspace& workspace,
   }
   ImGui::BeginDisabled(!here.located());
   if (ImGui::Button(Tr("Its position is where it was picked here"), wide)) {
-    EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), here.found, "");
+    EditPoint(workspace, name, Sentence("move %s", {name}), here.found, "");
   }
   ImGui::EndDisabled();
   ImGui::BeginDisabled(here.verdict == Verdict::kNotPicked);
@@ -249,7 +249,7 @@ void DrawCheckPoint(editor::Workspace& workspace,
     DrawName(workspace, selection, name);
     Eigen::Vector3d position = point.position;
     if (VectorProperty(workspace, Tr("Position"), position, 0.005, "%.3f")) {
-      EditPoint(workspace, name, Text(Tr("move %s"), name.c_str()), position, "check point");
+      EditPoint(workspace, name, Sentence("move %s", {name}), position, "check point");
     }
     DrawHere(here);
     EndProperties();

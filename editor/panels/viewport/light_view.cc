@@ -99,7 +99,7 @@ void TurnByMirror(editor::Workspace& workspace,
   TurnProbe(workspace, probe,
             light.level ? bake::TurnedTo(now, *light.dragged_in_probe, target)
                         : bake::DraggedTo(now, *light.dragged_in_probe, target),
-            Tr("turn the light"), "probe ball");
+            Sentence("turn the light"), "probe ball");
 }
 
 float LinearBeforeShoulder(float shown, float knee) {

@@ -87,9 +87,7 @@ void Remove(editor::Workspace& workspace,
             const PickTarget& picks,
             const AlignView& align,
             const Line& line) {
-  const auto command = [](const std::string& of) {
-    return Text(Tr("remove a pick of %s"), of.c_str());
-  };
+  const auto command = [](const Sentence& of) { return Sentence("remove a pick of %s", {of}); };
   const stage::Pick pick = line.image.pick;
   if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, selection)) {
     const std::string name = drawn->name;
@@ -109,7 +107,7 @@ void Remove(editor::Workspace& workspace,
     });
   } else {
     const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(picks.anchor)];
-    workspace.EditPlace(command(Tr(entry.label)), [&](editor::PlaceDocument& place) {
+    workspace.EditPlace(command(Sentence(entry.label)), [&](editor::PlaceDocument& place) {
       editor::RemovePick(place.picks.*entry.anchor, pick);
     });
   }
