@@ -98,6 +98,9 @@ void ProjectFiles::ReportUnreadable(File<Content>& file, const std::string& prob
   }
 }
 
+ProjectFiles::Script ProjectFiles::TakeScript() { return script_.TakeOutside(); }
+ProjectFiles::Document ProjectFiles::TakeDocument() { return document_.TakeOutside(); }
+
 void ProjectFiles::KeepLocal() {
   ForgetOutside(script_);
   ForgetOutside(document_);

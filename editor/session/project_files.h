@@ -41,8 +41,8 @@ class ProjectFiles {
     return script_.damage.empty() ? document_.damage : script_.damage;
   }
   // Returns the version of another program once; nullptr: there is none.
-  Script TakeScript() { return script_.TakeOutside(); }
-  Document TakeDocument() { return document_.TakeOutside(); }
+  Script TakeScript();
+  Document TakeDocument();
   // Forgets the versions of other programs, so that Save() overwrites them. A file that cannot be
   // read is copied to NAME.damaged before, so that its author can correct it.
   void KeepLocal();
