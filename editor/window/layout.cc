@@ -142,7 +142,7 @@ void Layout::DrawBottom(Workspace& workspace) {
     state_.bottom = static_cast<BottomTab>(tab);
   }
   if (state_.bottom == BottomTab::kMessages) {
-    state_.messages_read = workspace.messages_told();
+    state_.messages_read = workspace.messages().told();
   } else {
     panels::MarkUnread(workspace, state_.messages_read);
   }
@@ -328,7 +328,7 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
   panels::DrawToolbar(workspace, state_);
   DrawPanels(workspace, sizes);
   if (calibration_.is_open()) {
-    calibration_.Show(workspace.paths(), state_.pictures, state_.fields);
+    calibration_.Show(workspace.project().paths(), state_.pictures, state_.fields);
   } else if (panels::DrawDialogs(workspace, state_)) {
     calibration_.Open();
   }

@@ -73,7 +73,7 @@ std::vector<double> ParseNumbers(const std::string& text) {
 
 std::string TrainProblem(const editor::Workspace& workspace, const DialogFields& fields) {
   const std::string problem = NameProblem(fields.place);
-  return problem.empty() ? RecordingProblem(workspace.paths(), fields) : problem;
+  return problem.empty() ? RecordingProblem(workspace.project().paths(), fields) : problem;
 }
 
 // The recording of the input, with its intrinsics. Opens the recording, because the intrinsics need
@@ -83,10 +83,10 @@ Result<editor::SessionDocument> ChosenRecording(const editor::Workspace& workspa
   editor::SessionDocument recording;
   recording.source = {
       fields.images ? editor::SourceDocument::Kind::kImages : editor::SourceDocument::Kind::kVideo,
-      workspace.paths().Shorten(workspace.paths().Resolve(fields.file))};
+      workspace.project().paths().Shorten(workspace.project().paths().Resolve(fields.file))};
   if (const std::vector<double> numbers = ParseNumbers(fields.intrinsics); !numbers.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(const auto source,
-                              editor::OpenSource(workspace.paths(), recording.source));
+                              editor::OpenSource(workspace.project().paths(), recording.source));
     LARARIUM_ASSIGN_OR_RETURN(
         recording.intrinsics,
         geometry::CameraModel::FromNumbers(numbers, source->width(), source->height()));
@@ -104,12 +104,12 @@ bool TrainDialog(editor::Workspace& workspace, EditorState& state) {
   if (BeginProperties("train")) {
     PropertyLabel(Tr("Place"));
     ImGui::InputText("##place", &fields.place);
-    calibrate =
-        RecordingFields(workspace.paths().folder, fields, Tr(kFromVideo), Tr(kFromVideoHint));
+    calibrate = RecordingFields(workspace.project().paths().folder, fields, Tr(kFromVideo),
+                                Tr(kFromVideoHint));
     EndProperties();
   }
   if (editor::IsPlainName(fields.place)) {
-    const editor::ProjectDocument& document = workspace.document();
+    const editor::ProjectDocument& document = workspace.project().document();
     Hint(Text(document.FindPlace(fields.place) != nullptr
                   ? Tr("%s is trained anew; its picks keep the stage where it is.")
               : document.places.empty() ? Tr("%s will be the place of the drama.")
@@ -134,16 +134,17 @@ bool AddSessionDialog(editor::Workspace& workspace, EditorState& state) {
          "visitors are located in both. The stage stays where it is."));
   bool calibrate = false;
   if (BeginProperties("add session")) {
-    calibrate = RecordingFields(workspace.paths().folder, fields, Tr("as the map's camera"),
-                                Tr("Empty: it was filmed with the camera of the map."));
+    calibrate =
+        RecordingFields(workspace.project().paths().folder, fields, Tr("as the map's camera"),
+                        Tr("Empty: it was filmed with the camera of the map."));
     EndProperties();
   }
-  if (DialogDone(state, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
+  if (DialogDone(state, Tr("Add"), RecordingProblem(workspace.project().paths(), fields))) {
     const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
     if (recording.ok()) {
-      workspace.AddSession(*recording);
+      workspace.training().AddSession(*recording);
     } else {
-      workspace.Tell(editor::Message::Level::kError, recording.message());
+      workspace.messages().Tell(editor::Message::Level::kError, recording.message());
     }
   }
   return calibrate;
@@ -156,7 +157,9 @@ bool Taken(const std::vector<Entry>& entries, const std::string& name) {
 }
 
 std::string DocumentPath(const editor::Workspace& workspace, const std::string& typed) {
-  return typed.empty() ? "" : workspace.paths().Shorten(workspace.paths().Resolve(typed));
+  return typed.empty()
+             ? ""
+             : workspace.project().paths().Shorten(workspace.project().paths().Resolve(typed));
 }
 
 // A name that is not in use: "box", "box2" and so on.
@@ -185,7 +188,7 @@ void ShapeFields(editor::Workspace& workspace, editor::OccluderShape& shape) {
 
 // A shape or a model. Without a name it is named after its kind.
 void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
-  if (workspace.place() == nullptr) {
+  if (workspace.project().place() == nullptr) {
     state.dialog = Dialog::kNone;
     return;
   }
@@ -197,7 +200,7 @@ void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
     fields.own_model = way == 1;
   }
   ImGui::Dummy(ImVec2(0, Px(2)));  // Such a row leaves no space below it.
-  const std::vector<editor::OccluderDocument>& known = workspace.place()->occluders;
+  const std::vector<editor::OccluderDocument>& known = workspace.project().place()->occluders;
   const std::string usual_name =
       fields.own_model ? "" : FreeName(known, editor::EntryOf(fields.shape.kind).name);
   if (BeginProperties("occluder")) {
@@ -205,7 +208,7 @@ void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
     ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
     if (fields.own_model) {
       PropertyLabel(Tr("File"));
-      PathField("file", fields.file, workspace.paths().folder, kModels);
+      PathField("file", fields.file, workspace.project().paths().folder, kModels);
     } else {
       ShapeFields(workspace, fields.shape);
     }
@@ -219,7 +222,7 @@ void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
   if (problem.empty() && Taken(known, occluder.name)) {
     problem = Tr("That name is taken.");
   }
-  if (problem.empty() && fields.own_model && !Exists(workspace.paths(), fields.file)) {
+  if (problem.empty() && fields.own_model && !Exists(workspace.project().paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   }
   if (DialogDone(state, Tr("Add"), problem)) {
@@ -227,15 +230,16 @@ void OccluderDialog(editor::Workspace& workspace, EditorState& state) {
       occluder.file = DocumentPath(workspace, fields.file);
     } else {
       occluder = editor::NewOccluder(occluder.name, fields.shape);
-      const auto& picture = workspace.picture();
+      const auto& picture = workspace.preview().picture();
       occluder.stage_from_mesh.translation =
           editor::FloorBefore(picture != nullptr ? picture->camera_from_stage : std::nullopt);
     }
-    workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
-                        [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
+    workspace.project().EditPlace(
+        Sentence("add %s", {occluder.name}),
+        [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
     state.selection = {Selection::Kind::kOccluder, occluder.name};
   }
-  if (workspace.loaded().database != nullptr &&
+  if (workspace.map().loaded().database != nullptr &&
       ImGui::Button(Tr("Draw it on the training images instead"), ImVec2(-FLT_MIN, 0))) {
     state.dialog = Dialog::kNone;
     DrawNewOccluder(workspace, state);
@@ -250,11 +254,12 @@ void LoadFigure(editor::Workspace& workspace,
     member.model = DocumentPath(workspace, file);
     return;
   }
-  Result<import::CastRecipe> recipe = import::LoadCastRecipe(workspace.paths().Resolve(file));
+  Result<import::CastRecipe> recipe =
+      import::LoadCastRecipe(workspace.project().paths().Resolve(file));
   if (recipe.ok()) {
     member.recipe = *std::move(recipe);
   } else {
-    workspace.Tell(editor::Message::Level::kError, recipe.message());
+    workspace.messages().Tell(editor::Message::Level::kError, recipe.message());
   }
 }
 
@@ -268,14 +273,14 @@ bool PresetGrid(editor::Workspace& workspace, EditorState& state) {
   const float side =
       std::floor((ImGui::GetContentRegionAvail().x - (columns - 1.0f) * gap) / columns);
   bool changed = false;
-  workspace.cast_pictures().WantPresets();
+  workspace.cast().pictures().WantPresets();
   for (const std::string& name : names) {
     ImGui::PushID(name.c_str());
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float height = side + ImGui::GetTextLineHeight() + Px(6);
     ImGui::BeginGroup();
-    DrawThumbnail(state.pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
-                  side);
+    DrawThumbnail(state.pictures, "preset " + name,
+                  workspace.cast().pictures().PresetThumbnail(name), side);
     DimText(name);
     ImGui::EndGroup();
     ImGui::SetCursorScreenPos(from);
@@ -302,13 +307,13 @@ std::string CastProblem(const editor::Workspace& workspace, const DialogFields& 
   if (!problem.empty()) {
     return problem;
   }
-  if (Taken(workspace.document().cast, fields.name)) {
+  if (Taken(workspace.project().document().cast, fields.name)) {
     return Tr("That name is taken.");
   }
   if (!fields.preset.empty() && !fields.file.empty()) {
     return Tr("Choose a preset or a file.");
   }
-  return fields.file.empty() || Exists(workspace.paths(), fields.file)
+  return fields.file.empty() || Exists(workspace.project().paths(), fields.file)
              ? ""
              : Tr("Choose a file that exists.");
 }
@@ -326,7 +331,7 @@ void CastDialog(editor::Workspace& workspace, EditorState& state) {
     PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder, kFigures);
+    PathField("file", fields.file, workspace.project().paths().folder, kFigures);
     EndProperties();
   }
   if (DialogDone(state, Tr("Add"), CastProblem(workspace, fields))) {
@@ -334,8 +339,9 @@ void CastDialog(editor::Workspace& workspace, EditorState& state) {
     member.name = fields.name;
     member.preset = fields.preset;
     LoadFigure(workspace, fields.file, member);
-    workspace.Edit(Text(Tr("add %s"), member.name.c_str()),
-                   [&](editor::ProjectDocument& document) { document.cast.push_back(member); });
+    workspace.project().Edit(
+        Sentence("add %s", {member.name}),
+        [&](editor::ProjectDocument& document) { document.cast.push_back(member); });
     state.selection = {Selection::Kind::kActor, member.name};
   }
 }
@@ -364,7 +370,7 @@ void ObjectDialog(editor::Workspace& workspace, EditorState& state) {
   if (BeginProperties("object")) {
     PropertyLabel(Tr("Model"));
     if (fields.own_model) {
-      PathField("file", fields.file, workspace.paths().folder, kModels);
+      PathField("file", fields.file, workspace.project().paths().folder, kModels);
       object.file = DocumentPath(workspace, fields.file);
     } else {
       BuiltInObject(fields);
@@ -372,7 +378,7 @@ void ObjectDialog(editor::Workspace& workspace, EditorState& state) {
     }
     EndProperties();
   }
-  const std::vector<editor::ObjectDocument>& known = workspace.document().objects;
+  const std::vector<editor::ObjectDocument>& known = workspace.project().document().objects;
   const std::string kind = object.model + std::filesystem::path(object.file).stem().string();
   const std::string usual_name = editor::IsPlainName(kind) ? FreeName(known, kind) : "";
   if (BeginProperties("name")) {
@@ -387,14 +393,15 @@ void ObjectDialog(editor::Workspace& workspace, EditorState& state) {
   }
   object.name = fields.name.empty() ? usual_name : fields.name;
   std::string problem = NameProblem(object.name);
-  if (fields.own_model && !Exists(workspace.paths(), fields.file)) {
+  if (fields.own_model && !Exists(workspace.project().paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   } else if (problem.empty() && Taken(known, object.name)) {
     problem = Tr("That name is taken.");
   }
   if (DialogDone(state, Tr("Add"), problem)) {
-    workspace.Edit(Text(Tr("add %s"), object.name.c_str()),
-                   [&](editor::ProjectDocument& document) { document.objects.push_back(object); });
+    workspace.project().Edit(
+        Sentence("add %s", {object.name}),
+        [&](editor::ProjectDocument& document) { document.objects.push_back(object); });
     state.selection = {Selection::Kind::kObject, object.name};
   }
 }
@@ -408,22 +415,23 @@ void ProbeDialog(editor::Workspace& workspace, EditorState& state) {
     PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder, kProbes);
+    PathField("file", fields.file, workspace.project().paths().folder, kProbes);
     EndProperties();
   }
   std::string problem = NameProblem(fields.name);
-  if (problem.empty() && Taken(workspace.place()->probes, fields.name)) {
+  if (problem.empty() && Taken(workspace.project().place()->probes, fields.name)) {
     problem = Tr("That name is taken.");
   }
-  if (problem.empty() && !Exists(workspace.paths(), fields.file)) {
+  if (problem.empty() && !Exists(workspace.project().paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   }
   if (DialogDone(state, Tr("Add"), problem)) {
     editor::ProbeDocument probe;
     probe.name = fields.name;
     probe.file = DocumentPath(workspace, fields.file);
-    workspace.EditPlace(Text(Tr("add %s"), probe.name.c_str()),
-                        [&](editor::PlaceDocument& place) { place.probes.push_back(probe); });
+    workspace.project().EditPlace(
+        Sentence("add %s", {probe.name}),
+        [&](editor::PlaceDocument& place) { place.probes.push_back(probe); });
     state.selection = {Selection::Kind::kProbe, probe.name};
   }
 }
@@ -546,10 +554,10 @@ bool RecordingFields(const std::filesystem::path& folder,
 void TrainRecording(editor::Workspace& workspace, const DialogFields& fields) {
   const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
   if (!recording.ok()) {
-    workspace.Tell(editor::Message::Level::kError, recording.message());
+    workspace.messages().Tell(editor::Message::Level::kError, recording.message());
     return;
   }
-  workspace.TrainFrom(fields.place, *recording);
+  workspace.training().TrainFrom(fields.place, *recording);
 }
 
 bool OpenDialog(EditorState& state, Dialog dialog) {
@@ -560,7 +568,7 @@ bool OpenDialog(EditorState& state, Dialog dialog) {
 }
 
 bool DrawDialogs(editor::Workspace& workspace, EditorState& state) {
-  if (state.dialog == Dialog::kNone && workspace.TakeNewReport()) {
+  if (state.dialog == Dialog::kNone && workspace.training().TakeNewReport()) {
     state.dialog = Dialog::kTrainingReport;
   }
   if (state.dialog == Dialog::kKeys && !DrawKeyList(state.keys)) {

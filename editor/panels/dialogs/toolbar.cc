@@ -34,7 +34,7 @@ void OpenTrainDialog(const editor::Workspace& workspace, EditorState& state) {
     return;
   }
   state.fields.place = "place";
-  if (const editor::PlaceDocument* place = workspace.place()) {
+  if (const editor::PlaceDocument* place = workspace.project().place()) {
     state.fields.place = place->name;
     state.fields.file = place->training.path;
     state.fields.images = place->training.kind == editor::SourceDocument::Kind::kImages;
@@ -43,19 +43,21 @@ void OpenTrainDialog(const editor::Workspace& workspace, EditorState& state) {
 }
 
 bool CanAddSession(editor::Workspace& workspace) {
-  return workspace.place() != nullptr && workspace.loaded().database != nullptr &&
+  return workspace.project().place() != nullptr && workspace.map().loaded().database != nullptr &&
          !workspace.tasks().Running(editor::TaskKind::kTraining);
 }
 
 std::string UndoLabel(const editor::Workspace& workspace) {
-  return workspace.commands().CanUndo()
-             ? Text(Tr("Undo %s"), workspace.commands().undo_name().c_str())
+  return workspace.project().commands().CanUndo()
+             ? Text(Tr("Undo %s"),
+                    workspace.project().commands().undo_name().Translated(Tr).c_str())
              : Tr("Undo");
 }
 
 std::string RedoLabel(const editor::Workspace& workspace) {
-  return workspace.commands().CanRedo()
-             ? Text(Tr("Redo %s"), workspace.commands().redo_name().c_str())
+  return workspace.project().commands().CanRedo()
+             ? Text(Tr("Redo %s"),
+                    workspace.project().commands().redo_name().Translated(Tr).c_str())
              : Tr("Redo");
 }
 
@@ -64,7 +66,7 @@ void FileMenu(editor::Workspace& workspace, EditorState& state) {
     state.leave = true;
   }
   if (MenuItem(Tr("Save"), KeyAction::kSave)) {
-    workspace.Save();
+    workspace.project().Save();
   }
   if (ImGui::MenuItem(Tr("Export\xe2\x80\xa6"))) {
     OpenDialog(state, Dialog::kExport);
@@ -77,12 +79,12 @@ void FileMenu(editor::Workspace& workspace, EditorState& state) {
 
 void EditMenu(editor::Workspace& workspace) {
   if (MenuItem(UndoLabel(workspace).c_str(), KeyAction::kUndo, false,
-               workspace.commands().CanUndo())) {
-    workspace.Undo();
+               workspace.project().commands().CanUndo())) {
+    workspace.project().Undo();
   }
   if (MenuItem(RedoLabel(workspace).c_str(), KeyAction::kRedo, false,
-               workspace.commands().CanRedo())) {
-    workspace.Redo();
+               workspace.project().commands().CanRedo())) {
+    workspace.project().Redo();
   }
 }
 
@@ -95,27 +97,27 @@ void PlaceMenu(editor::Workspace& workspace, EditorState& state) {
     OpenDialog(state, Dialog::kAddSession);
   }
   if (ImGui::MenuItem(Tr("The training's report\xe2\x80\xa6"), nullptr, false,
-                      workspace.loaded().report != nullptr)) {
+                      workspace.map().loaded().report != nullptr)) {
     OpenDialog(state, Dialog::kTrainingReport);
   }
   if (ImGui::MenuItem(Tr("Put the former map back"), nullptr, false,
-                      workspace.loaded().has_previous && !training)) {
-    workspace.RestorePreviousMap();
+                      workspace.map().loaded().has_previous && !training)) {
+    workspace.training().RestorePreviousMap();
   }
   if (ImGui::MenuItem(Tr("Bake"))) {
-    workspace.Bake();
+    workspace.jobs().Bake();
   }
   if (MenuItem(Tr("Lay the stage on the floor"), KeyAction::kLayOnFloor, false,
-               workspace.loaded().measures.floor.has_value())) {
-    workspace.LayStageOnFloor();
+               workspace.map().loaded().measures.floor.has_value())) {
+    workspace.map().LayStageOnFloor();
   }
   ImGui::Separator();
-  const bool any = workspace.place() != nullptr;
+  const bool any = workspace.project().place() != nullptr;
   if (ImGui::MenuItem(Tr("Add an occluder\xe2\x80\xa6"), nullptr, false, any)) {
     OpenDialog(state, Dialog::kOccluder);
   }
   if (ImGui::MenuItem(Tr("Draw an occluder"), nullptr, false,
-                      any && workspace.loaded().database != nullptr)) {
+                      any && workspace.map().loaded().database != nullptr)) {
     DrawNewOccluder(workspace, state);
   }
   if (ImGui::MenuItem(Tr("Add a light probe\xe2\x80\xa6"), nullptr, false, any)) {
@@ -136,18 +138,18 @@ void DrawTab(EditorState& state, BottomTab tab) {
 
 // The menu of the camera view's source.
 void ViewSourceMenu(editor::Workspace& workspace, EditorState& state) {
-  using Source = editor::Workspace::ViewSource;
-  const Source now = workspace.view_source();
+  using Source = editor::PreviewSession::ViewSource;
+  const Source now = workspace.preview().view_source();
   if (!ImGui::BeginMenu(Label(Tr("The camera is"), "source").c_str(),
-                        workspace.place() != nullptr)) {
+                        workspace.project().place() != nullptr)) {
     return;
   }
   if (ImGui::MenuItem(Tr("The place's recording"), nullptr, now == Source::kRecording)) {
-    workspace.SetViewSource(Source::kRecording);
+    workspace.preview().SetViewSource(Source::kRecording);
   }
   if (ImGui::MenuItem(Tr("The training's recording"), nullptr, now == Source::kTraining,
-                      workspace.has_own_recording())) {
-    workspace.SetViewSource(Source::kTraining);
+                      workspace.preview().has_own_recording())) {
+    workspace.preview().SetViewSource(Source::kTraining);
   }
   if (ImGui::MenuItem(Tr("A live camera\xe2\x80\xa6"), nullptr, now == Source::kLive)) {
     OpenDialog(state, Dialog::kLiveCamera);
@@ -193,11 +195,11 @@ void ViewMenu(editor::Workspace& workspace, EditorState& state) {
     state.show_occluders = !state.show_occluders;
   }
   ImGui::Separator();
-  if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.shows_evidence())) {
-    workspace.SetEvidence(!workspace.shows_evidence());
+  if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.preview().look().evidence)) {
+    workspace.preview().look().evidence = !workspace.preview().look().evidence;
   }
-  if (MenuItem(Tr("Sound"), KeyAction::kSound, workspace.sound())) {
-    workspace.SetSound(!workspace.sound());
+  if (MenuItem(Tr("Sound"), KeyAction::kSound, workspace.playback().sound())) {
+    workspace.playback().SetSound(!workspace.playback().sound());
   }
   ImGui::Separator();
   LookMenu(state.settings);
@@ -230,8 +232,8 @@ void ViewMenu(editor::Workspace& workspace, EditorState& state) {
   }
   ViewSourceMenu(workspace, state);
   ImGui::Separator();
-  if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.descriptions())) {
-    workspace.SetDescriptions(!workspace.descriptions());
+  if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.preview().look().descriptions)) {
+    workspace.preview().look().descriptions = !workspace.preview().look().descriptions;
   }
 }
 
@@ -241,8 +243,8 @@ void SetGizmo(EditorState& state, GizmoMode mode) {
 }
 
 void SelectLight(const editor::Workspace& workspace, EditorState& state) {
-  if (workspace.place() != nullptr && !workspace.place()->probes.empty()) {
-    state.selection = {Selection::Kind::kProbe, workspace.place()->probes.front().name};
+  if (workspace.project().place() != nullptr && !workspace.project().place()->probes.empty()) {
+    state.selection = {Selection::Kind::kProbe, workspace.project().place()->probes.front().name};
     state.view = ViewKind::kCamera;
   }
 }
@@ -334,12 +336,12 @@ void Do(editor::Workspace& workspace, EditorState& state, KeyAction action) {
       ImGui::GetIO().WantTextInput && state.focus != Focus::kScript && !TypesIntoWrappedField();
   switch (action) {
     case KeyAction::kSave:
-      workspace.Save();
+      workspace.project().Save();
       break;
     case KeyAction::kUndo:
     case KeyAction::kRedo:
       if (!own_undo) {  // The active text field may have its own undo.
-        action == KeyAction::kUndo ? workspace.Undo() : workspace.Redo();
+        action == KeyAction::kUndo ? workspace.project().Undo() : workspace.project().Redo();
       }
       break;
     case KeyAction::kLeave:
@@ -352,7 +354,7 @@ void Do(editor::Workspace& workspace, EditorState& state, KeyAction action) {
       OpenDialog(state, Dialog::kKeys);
       break;
     case KeyAction::kEvidence:
-      workspace.SetEvidence(!workspace.shows_evidence());
+      workspace.preview().look().evidence = !workspace.preview().look().evidence;
       break;
     case KeyAction::kTimelineTab:
       DrawTab(state, BottomTab::kTimeline);
@@ -367,7 +369,7 @@ void Do(editor::Workspace& workspace, EditorState& state, KeyAction action) {
       DrawTab(state, BottomTab::kMessages);
       break;
     case KeyAction::kPlay:
-      workspace.SetPlaying(!workspace.playing());
+      workspace.playback().SetPlaying(!workspace.playback().playing());
       break;
     case KeyAction::kPanelAfter:
     case KeyAction::kPanelBefore:
@@ -402,7 +404,7 @@ void DoInViews(editor::Workspace& workspace, EditorState& state, KeyAction actio
       SetGizmo(state, GizmoMode::kScale);
       break;
     case KeyAction::kLayOnFloor:
-      workspace.LayStageOnFloor();
+      workspace.map().LayStageOnFloor();
       break;
     case KeyAction::kLight:
       SelectLight(workspace, state);
@@ -423,7 +425,7 @@ void DoInViews(editor::Workspace& workspace, EditorState& state, KeyAction actio
       AskForOnionMore(state);
       break;
     case KeyAction::kSound:
-      workspace.SetSound(!workspace.sound());
+      workspace.playback().SetSound(!workspace.playback().sound());
       break;
     case KeyAction::kPointColours:
       state.place.colours = After(state.place.colours);
@@ -436,8 +438,8 @@ void DoInViews(editor::Workspace& workspace, EditorState& state, KeyAction actio
       break;
     case KeyAction::kFrameBack:
     case KeyAction::kFrameOn:
-      workspace.SetPlaying(false);
-      workspace.StepFrames(action == KeyAction::kFrameOn ? 1 : -1);
+      workspace.playback().SetPlaying(false);
+      workspace.playback().StepFrames(action == KeyAction::kFrameOn ? 1 : -1);
       break;
     case KeyAction::kUnselect:
       if (state.align.picking) {
@@ -510,7 +512,7 @@ void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
   }
   ImGui::SameLine();
   if (DrawTool(kBake, words, !tasks.Running(editor::TaskKind::kBaking))) {
-    workspace.Bake();
+    workspace.jobs().Bake();
   }
   ImGui::SameLine();
   if (DrawTool(kExport, words, !tasks.Running(editor::TaskKind::kExporting))) {
@@ -527,12 +529,12 @@ void DrawToolbar(editor::Workspace& workspace, EditorState& state) {
     SetGizmo(state, static_cast<GizmoMode>(mode));
   }
   ImGui::SameLine(0.0f, gap);
-  if (DrawTool(kUndo, words, workspace.commands().CanUndo())) {
-    workspace.Undo();
+  if (DrawTool(kUndo, words, workspace.project().commands().CanUndo())) {
+    workspace.project().Undo();
   }
   ImGui::SameLine();
-  if (DrawTool(kRedo, words, workspace.commands().CanRedo())) {
-    workspace.Redo();
+  if (DrawTool(kRedo, words, workspace.project().commands().CanRedo())) {
+    workspace.project().Redo();
   }
 }
 
@@ -542,7 +544,7 @@ void HandleShortcuts(editor::Workspace& workspace, EditorState& state) {
   }
   if (ImGui::GetIO().WantTextInput && Pressed(state, KeyAction::kStopWalking)) {
     // Escape restores the old text as a separate command, so that undo brings the typed text back.
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
   for (const KeyPress& press : state.keys) {
     if (ImGui::GetIO().WantTextInput && !IsNoTyping(press)) {

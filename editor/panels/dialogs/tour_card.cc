@@ -34,18 +34,18 @@ void DrawStep(const TourStep& step) {
 
 TourFacts FactsOf(const editor::Workspace& workspace, const EditorState& state) {
   TourFacts facts;
-  facts.trained = workspace.loaded().database != nullptr;
-  facts.picture = workspace.picture() != nullptr;
-  facts.playing = workspace.playing();
+  facts.trained = workspace.map().loaded().database != nullptr;
+  facts.picture = workspace.preview().picture() != nullptr;
+  facts.playing = workspace.playback().playing();
   facts.around = state.view == ViewKind::kAround;
   facts.matches = state.show_matches;
   facts.person = state.selection.kind == Selection::Kind::kActor;
-  facts.script = workspace.script().revision();
-  facts.can_redo = workspace.commands().CanRedo();
-  facts.checked = workspace.checked();
-  facts.dirty = workspace.commands().dirty();
-  facts.exported = workspace.exported() != nullptr;
-  if (const editor::PlaceDocument* place = workspace.place()) {
+  facts.script = workspace.project().script().revision();
+  facts.can_redo = workspace.project().commands().CanRedo();
+  facts.checked = workspace.jobs().checked();
+  facts.dirty = workspace.project().commands().dirty();
+  facts.exported = workspace.jobs().exported() != nullptr;
+  if (const editor::PlaceDocument* place = workspace.project().place()) {
     const geometry::Similarity3& stage = place->picked_from_stage;
     facts.stage = Text("%g %g %g %g %g %g %g %g", stage.scale, stage.translation.x(),
                        stage.translation.y(), stage.translation.z(), stage.rotation.w(),

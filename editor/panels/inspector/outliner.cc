@@ -87,16 +87,16 @@ void DrawOutliner(editor::Workspace& workspace, EditorState& state) {
   using Kind = Selection::Kind;
   Row(state, Icon::kProject, Tr("Project"), {Kind::kProject, ""});
   Section(Tr("Places"), &state, Dialog::kTrain, Tr("Adds a place"));
-  for (const editor::PlaceDocument& place : workspace.document().places) {
-    const bool shown = workspace.place() == &place;
+  for (const editor::PlaceDocument& place : workspace.project().document().places) {
+    const bool shown = workspace.project().place() == &place;
     const std::string label = shown ? place.name : Text(Tr("%s (not shown)"), place.name.c_str());
     Row(state, Icon::kPlace, label, {Kind::kPlace, place.name});
     if (!shown && state.selection == Selection{Kind::kPlace, place.name}) {
-      workspace.SelectPlace(place.name);
+      workspace.project().SelectPlace(place.name);
       return;  // The document has changed.
     }
   }
-  if (const editor::PlaceDocument* place = workspace.place()) {
+  if (const editor::PlaceDocument* place = workspace.project().place()) {
     Section(Tr("On the stage"));
     Row(state, Icon::kStage, Tr("Stage"), {Kind::kStage, ""});
     Row(state, Icon::kPicks, Tr("Picks"), {Kind::kPicks, ""});
@@ -111,16 +111,16 @@ void DrawOutliner(editor::Workspace& workspace, EditorState& state) {
     }
   }
   Section(Tr("Cast"), &state, Dialog::kCast, Tr("Adds a person"));
-  for (const editor::CastDocument& member : workspace.document().cast) {
+  for (const editor::CastDocument& member : workspace.project().document().cast) {
     PicturedRow(state, {Kind::kActor, member.name},
-                workspace.cast_pictures().Thumbnail(member.name));
+                workspace.cast().pictures().Thumbnail(member.name));
   }
   Section(Tr("Objects"), &state, Dialog::kObject, Tr("Adds an object"));
-  for (const editor::ObjectDocument& object : workspace.document().objects) {
+  for (const editor::ObjectDocument& object : workspace.project().document().objects) {
     PicturedRow(state, {Kind::kObject, object.name},
-                workspace.cast_pictures().ObjectThumbnail(object.name));
+                workspace.cast().pictures().ObjectThumbnail(object.name));
   }
-  if (workspace.place() != nullptr) {
+  if (workspace.project().place() != nullptr) {
     Section(Tr("Check points"), &state, Dialog::kCheckPoint, Tr("Adds a check point"));
     for (const editor::CheckPointReport& point : CheckedPoints(workspace, state).points) {
       CheckPointRow(state, point);

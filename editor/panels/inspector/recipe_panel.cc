@@ -49,7 +49,10 @@ constexpr RecipeSlider kSkinSliders[] = {
 class RecipePanel {
  public:
   RecipePanel(editor::Workspace& workspace, EditorState& state, CastRecipe& recipe)
-      : workspace_(workspace), state_(state), recipe_(recipe), catalogue_(workspace.catalogue()) {}
+      : workspace_(workspace),
+        state_(state),
+        recipe_(recipe),
+        catalogue_(workspace.cast().catalogue()) {}
 
   RecipeChange Show() {
     if (Fold(Label(Tr("Body"), "body"), true)) {
@@ -312,8 +315,9 @@ class RecipePanel {
 
   bool HasCatalogue() {
     if (catalogue_ == nullptr) {
-      Hint(workspace_.catalogue_problem().empty() ? Tr("Opening the cast library\xe2\x80\xa6")
-                                                  : workspace_.catalogue_problem());
+      Hint(workspace_.cast().catalogue_problem().empty()
+               ? Tr("Opening the cast library\xe2\x80\xa6")
+               : workspace_.cast().catalogue_problem());
     }
     return catalogue_ != nullptr;
   }

@@ -52,16 +52,16 @@ bool ToggleButton(const std::string& label, bool& on, const std::string& tip) {
 // ---- Content ----
 
 void TimelinePanel::Refresh(const editor::Workspace& workspace) {
-  const editor::ScriptDocument& script = workspace.script();
-  const std::vector<editor::CastDocument>& cast = workspace.document().cast;
-  if (script.revision() == script_ && workspace.drama_run_number() == run_ &&
+  const editor::ScriptDocument& script = workspace.project().script();
+  const std::vector<editor::CastDocument>& cast = workspace.project().document().cast;
+  if (script.revision() == script_ && workspace.dry_run().number() == run_ &&
       cast.size() == cast_) {
     FillShown();
     return;
   }
-  const bool new_run = workspace.drama_run_number() != run_;
+  const bool new_run = workspace.dry_run().number() != run_;
   script_ = script.revision();
-  run_ = workspace.drama_run_number();
+  run_ = workspace.dry_run().number();
   cast_ = cast.size();
   faces_.clear();
   std::vector<std::string> people;
@@ -69,8 +69,9 @@ void TimelinePanel::Refresh(const editor::Workspace& workspace) {
     people.push_back(member.name);
   }
   const std::span<const TaskRecord> tasks =
-      workspace.drama_run() != nullptr ? std::span<const TaskRecord>(workspace.drama_run()->tasks)
-                                       : std::span<const TaskRecord>();
+      workspace.dry_run().newest() != nullptr
+          ? std::span<const TaskRecord>(workspace.dry_run().newest()->tasks)
+          : std::span<const TaskRecord>();
   rows_ = MakeRows(script.timeline(), people, tasks);
   if (new_run) {
     block_.reset();
@@ -98,7 +99,7 @@ const TimelinePanel::Face& TimelinePanel::FaceOf(const editor::Workspace& worksp
   if (!is_new) {
     return face;
   }
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   const TimelineLane& lane = text.lanes()[item.lane];
   Json fields = Json::object();
   for (drama::TimelineField& field : text.Fields(item)) {
@@ -106,7 +107,7 @@ const TimelinePanel::Face& TimelinePanel::FaceOf(const editor::Workspace& worksp
   }
   face.label = LabelOf(lane.kind, fields);
   face.line = TextOf(fields, "line");
-  const editor::DramaRun* run = workspace.drama_run();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   if (run == nullptr || lane.length[item.item] > 0.0) {
     return face;
   }
@@ -117,7 +118,7 @@ const TimelinePanel::Face& TimelinePanel::FaceOf(const editor::Workspace& worksp
 
 editor::TimeSpan TimelinePanel::Shown(const editor::Workspace& workspace,
                                       const TimelineItem& item) {
-  const TimelineLane& lane = workspace.script().timeline()->lanes()[item.lane];
+  const TimelineLane& lane = workspace.project().script().timeline()->lanes()[item.lane];
   editor::TimeSpan span{lane.at[item.item], lane.at[item.item] + lane.length[item.item]};
   if (lane.length[item.item] <= 0.0 &&
       drama::SpecOf(lane.kind).duration != drama::ItemDuration::kMoment) {
@@ -151,7 +152,7 @@ void TimelinePanel::DrawVoiceOf(const editor::Workspace& workspace,
                                 const ImVec2& to,
                                 ImU32 colour,
                                 ImDrawList& draw) const {
-  const editor::DramaRun* run = workspace.drama_run();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   const editor::StageWords::Line* voice = run != nullptr ? run->words.FindLine(line) : nullptr;
   if (voice != nullptr && !voice->peaks.empty()) {
     DrawVoice(draw, scale_,
@@ -189,7 +190,7 @@ void TimelinePanel::DrawItems(const editor::Workspace& workspace,
                               float height,
                               const Hit& hit,
                               ImDrawList& draw) {
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   const ImVec4 colour = LaneColour(row.lane);
   const float y0 = top + Px(2);
   const float y1 = top + height - Px(2);
@@ -246,10 +247,10 @@ void TimelinePanel::DrawBlocks(const editor::Workspace& workspace,
                                float height,
                                const Hit& hit,
                                ImDrawList& draw) {
-  if (workspace.drama_run() == nullptr) {
+  if (workspace.dry_run().newest() == nullptr) {
     return;
   }
-  const std::vector<TaskRecord>& tasks = workspace.drama_run()->tasks;
+  const std::vector<TaskRecord>& tasks = workspace.dry_run().newest()->tasks;
   const ImVec4 colour = LaneColour(row.lane);
   found_.clear();
   row.index.Query(scale_.first, scale_.last(), found_);
@@ -345,13 +346,13 @@ void TimelinePanel::DrawRuler(editor::Workspace& workspace, float height) {
     }
   }
   if (ImGui::IsItemActive()) {
-    workspace.SetPlaying(false);
+    workspace.playback().SetPlaying(false);
     const RulerStep step = ChooseStep(scale_.seconds_per_px, Px(76));
     double time = std::max(scale_.TimeAt(ImGui::GetIO().MousePos.x), 0.0);
     if (ImGui::GetIO().KeyCtrl) {
       time = Snap(time, {}, step.seconds / step.parts, 1e9);
     }
-    workspace.SetTime(time);
+    workspace.playback().SetTime(time);
   }
   draw.PushClipRect(ImVec2(scale_.left, at.y), ImVec2(scale_.left + scale_.width, at.y + height),
                     true);
@@ -360,7 +361,7 @@ void TimelinePanel::DrawRuler(editor::Workspace& workspace, float height) {
     const float x = scale_.XOf(drag_.snapped_to);
     draw.AddLine(ImVec2(x, at.y), ImVec2(x, at.y + height), Packed(Colours().text, 0.8f), Px(1));
   }
-  DrawPlayheadHandle(draw, scale_.XOf(workspace.time()), at.y, height);
+  DrawPlayheadHandle(draw, scale_.XOf(workspace.playback().time()), at.y, height);
   draw.PopClipRect();
 }
 
@@ -402,7 +403,7 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
   draw.PushClipRect(ImVec2(scale_.left, view.y),
                     ImVec2(scale_.left + scale_.width, view.y + view_size.y), true);
   DrawGrid(draw, scale_, view.y, view.y + view_size.y);
-  const float end = scale_.XOf(workspace.duration());
+  const float end = scale_.XOf(workspace.playback().duration());
   draw.AddRectFilled(ImVec2(std::max(end, scale_.left), view.y),
                      ImVec2(scale_.left + scale_.width, view.y + view_size.y),
                      Packed(Colours().window, 0.45f));
@@ -431,9 +432,9 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, EditorState& state) {
     draw.AddRectFilled(from, to, Packed(Colours().accent, 0.15f));
     draw.AddRect(from, to, Packed(Colours().accent, 0.8f));
   }
-  DrawPlayhead(draw, scale_.XOf(workspace.time()), view.y, view.y + view_size.y);
+  DrawPlayhead(draw, scale_.XOf(workspace.playback().time()), view.y, view.y + view_size.y);
   draw.PopClipRect();
-  if (shown_.empty() || (rows_.size() <= 1 && workspace.document().cast.empty())) {
+  if (shown_.empty() || (rows_.size() <= 1 && workspace.project().document().cast.empty())) {
     const char* text = Tr("Nobody is on the stage yet. Add a person in the list at the left.");
     draw.AddText(ImVec2(scale_.left + Px(24), view.y + Px(34)), Packed(Colours().dim), text);
   }
@@ -463,8 +464,8 @@ void TimelinePanel::DrawKindMenu(editor::Workspace& workspace, const std::string
 }
 
 void TimelinePanel::DrawAddMenu(editor::Workspace& workspace) {
-  DimText(Text(Tr("At %s"), FormatTime(workspace.time(), 0.01).c_str()));
-  for (const editor::CastDocument& member : workspace.document().cast) {
+  DimText(Text(Tr("At %s"), FormatTime(workspace.playback().time(), 0.01).c_str()));
+  for (const editor::CastDocument& member : workspace.project().document().cast) {
     if (ImGui::BeginMenu(WithIcon(Icon::kPerson, member.name).c_str())) {
       DrawKindMenu(workspace, member.name);
       ImGui::EndMenu();
@@ -534,11 +535,11 @@ void TimelinePanel::DrawTools(editor::Workspace& workspace, EditorState& state) 
   PlayButton(workspace);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(FormatTime(workspace.time(), 0.01).c_str());
+  ImGui::TextUnformatted(FormatTime(workspace.playback().time(), 0.01).c_str());
   ImGui::SameLine(0.0f, Px(4));
-  DimText("/ " + FormatTime(workspace.duration(), 1.0));
+  DimText("/ " + FormatTime(workspace.playback().duration(), 1.0));
   ImGui::SameLine(0.0f, Px(16));
-  ImGui::BeginDisabled(workspace.script().timeline() == nullptr);
+  ImGui::BeginDisabled(workspace.project().script().timeline() == nullptr);
   if (ImGui::Button(WithIcon(Icon::kAdd, Tr("Add")).c_str())) {
     open_add_ = true;
     state.focus = Focus::kTimeline;
@@ -566,7 +567,7 @@ void TimelinePanel::DrawSwitches(const editor::Workspace& workspace) {
                WithKey(Tr("What comes later moves along"), KeyAction::kRipple));
   ImGui::SameLine();
   if (ImGui::Button(WithIcon(Icon::kFit, Tr("Fit")).c_str())) {
-    ZoomToFit(scale_, workspace.duration());
+    ZoomToFit(scale_, workspace.playback().duration());
   }
   Tip(WithKey(Tr("Shows all of the drama; Ctrl and the wheel zoom"), KeyAction::kFit));
 }
@@ -581,7 +582,7 @@ void TimelinePanel::DrawSwitchMenu(const editor::Workspace& workspace) {
     ImGui::MenuItem(Tr("Snap"), KeyText(KeyAction::kSnap).c_str(), &snap_);
     ImGui::MenuItem(Tr("Ripple"), KeyText(KeyAction::kRipple).c_str(), &ripple_);
     if (ImGui::MenuItem(Tr("Fit"), KeyText(KeyAction::kFit).c_str())) {
-      ZoomToFit(scale_, workspace.duration());
+      ZoomToFit(scale_, workspace.playback().duration());
     }
     ImGui::EndPopup();
   }
@@ -590,7 +591,8 @@ void TimelinePanel::DrawSwitchMenu(const editor::Workspace& workspace) {
 void TimelinePanel::Show(editor::Workspace& workspace, EditorState& state) {
   Refresh(workspace);
   const auto asked = std::exchange(state.timeline_item, std::nullopt);
-  if (const TimelineText* text = workspace.script().timeline(); asked && text != nullptr) {
+  if (const TimelineText* text = workspace.project().script().timeline();
+      asked && text != nullptr) {
     editor::ItemSet still_there = {*asked};
     editor::KeepValid(*text, still_there);
     for (const TimelineItem& item : still_there) {
@@ -603,12 +605,12 @@ void TimelinePanel::Show(editor::Workspace& workspace, EditorState& state) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
   ImGui::BeginChild("canvas", ImVec2(available.x - inspector - Px(12), available.y), false,
                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoScrollbar);
-  if (!fitted_ && workspace.duration() > 0.0 && scale_.width > 0.0f) {
+  if (!fitted_ && workspace.playback().duration() > 0.0 && scale_.width > 0.0f) {
     fitted_ = true;
-    ZoomToFit(scale_, std::min(workspace.duration(), 120.0));
+    ZoomToFit(scale_, std::min(workspace.playback().duration(), 120.0));
   }
-  if (workspace.playing() && drag_.kind == Drag::Kind::kNone) {
-    ScrollTo(scale_, workspace.time());
+  if (workspace.playback().playing() && drag_.kind == Drag::Kind::kNone) {
+    ScrollTo(scale_, workspace.playback().time());
   }
   DrawRuler(workspace, Px(kRuler));
   DrawRows(workspace, state);

@@ -29,9 +29,9 @@ constexpr double kNudge = 0.1;
 
 void TimelinePanel::Add(editor::Workspace& workspace, LaneKind kind, const std::string& actor) {
   editor::ItemSet added;
-  const double at = std::round(workspace.time() * 100.0) / 100.0;
-  const bool done =
-      workspace.EditTimeline(Text(Tr("add %s"), ItemTitle(kind)), [&](TimelineText& text) {
+  const double at = std::round(workspace.playback().time() * 100.0) / 100.0;
+  const bool done = workspace.project().EditTimeline(
+      Sentence("add %s", {std::string(ItemTitle(kind))}), [&](TimelineText& text) {
         return editor::AddItem(text, kind, actor, NewFields(workspace, kind, actor, at), added);
       });
   if (done) {
@@ -46,8 +46,8 @@ void TimelinePanel::Delete(editor::Workspace& workspace) {
     return;
   }
   const std::string name = NameOfSelection(workspace);
-  const bool done = workspace.EditTimeline(
-      Text(Tr("delete %s"), name.c_str()),
+  const bool done = workspace.project().EditTimeline(
+      Sentence("delete %s", {name}),
       [&](TimelineText& text) { return editor::DeleteItems(text, selection_, ripple_); });
   if (done) {
     selection_.clear();
@@ -57,7 +57,8 @@ void TimelinePanel::Delete(editor::Workspace& workspace) {
 void TimelinePanel::Copy(const editor::Workspace& workspace) {
   if (!selection_.empty()) {
     ImGui::SetClipboardText(
-        editor::FormatCopied(editor::CopyItems(*workspace.script().timeline(), selection_))
+        editor::FormatCopied(
+            editor::CopyItems(*workspace.project().script().timeline(), selection_))
             .c_str());
   }
 }
@@ -69,8 +70,8 @@ void TimelinePanel::Paste(editor::Workspace& workspace) {
     return;
   }
   editor::ItemSet added;
-  const bool done = workspace.EditTimeline(Tr("paste"), [&](TimelineText& text) {
-    return editor::PasteItems(text, *items, workspace.time(), added);
+  const bool done = workspace.project().EditTimeline(Sentence("paste"), [&](TimelineText& text) {
+    return editor::PasteItems(text, *items, workspace.playback().time(), added);
   });
   if (done) {
     selection_ = added;
@@ -81,7 +82,7 @@ void TimelinePanel::Duplicate(editor::Workspace& workspace) {
   if (selection_.empty()) {
     return;
   }
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   double end = 0.0;
   for (const TimelineItem& item : selection_) {
     end = std::max(end, Shown(workspace, item).end);
@@ -89,8 +90,8 @@ void TimelinePanel::Duplicate(editor::Workspace& workspace) {
   const std::vector<editor::CopiedItem> copied = editor::CopyItems(text, selection_);
   const double at = std::max(end, editor::SpanOf(text, selection_).begin + 0.5);
   editor::ItemSet added;
-  const bool done = workspace.EditTimeline(
-      Text(Tr("duplicate %s"), NameOfSelection(workspace).c_str()),
+  const bool done = workspace.project().EditTimeline(
+      Sentence("duplicate %s", {NameOfSelection(workspace)}),
       [&](TimelineText& changed) { return editor::PasteItems(changed, copied, at, added); });
   if (done) {
     selection_ = added;
@@ -99,8 +100,8 @@ void TimelinePanel::Duplicate(editor::Workspace& workspace) {
 
 void TimelinePanel::Nudge(editor::Workspace& workspace, double seconds) {
   if (!selection_.empty()) {
-    workspace.EditTimeline(
-        Text(Tr("move %s"), NameOfSelection(workspace).c_str()),
+    workspace.project().EditTimeline(
+        Sentence("move %s", {NameOfSelection(workspace)}),
         [&](TimelineText& text) { return editor::MoveItems(text, selection_, seconds, ripple_); });
   }
 }
@@ -111,18 +112,19 @@ void TimelinePanel::TrimToPlayhead(editor::Workspace& workspace, bool begins) {
   }
   const std::vector<double> naturals = Naturals(workspace);
   const editor::TimeSpan span = Shown(workspace, selection_.front());
-  const std::string name = Text(Tr("trim %s"), NameOfSelection(workspace).c_str());
-  workspace.EditTimeline(name, [&](TimelineText& text) {
-    return begins
-               ? editor::TrimBegins(text, selection_, naturals, workspace.time() - span.begin)
-               : editor::TrimEnds(text, selection_, naturals, workspace.time() - span.end, ripple_);
+  const Sentence name("trim %s", {NameOfSelection(workspace)});
+  workspace.project().EditTimeline(name, [&](TimelineText& text) {
+    return begins ? editor::TrimBegins(text, selection_, naturals,
+                                       workspace.playback().time() - span.begin)
+                  : editor::TrimEnds(text, selection_, naturals,
+                                     workspace.playback().time() - span.end, ripple_);
   });
 }
 
 void TimelinePanel::SelectAll(const editor::Workspace& workspace) {
   selection_.clear();
   block_.reset();
-  const auto lanes = workspace.script().timeline()->lanes();
+  const auto lanes = workspace.project().script().timeline()->lanes();
   for (size_t lane = 0; lane < lanes.size(); ++lane) {
     for (size_t item = 0; item < lanes[lane].size(); ++item) {
       selection_.push_back({lane, item});
@@ -158,12 +160,12 @@ bool TimelinePanel::HasStop(const TimelineRow& row, const TimelineStop& stop) {
 }
 
 void TimelinePanel::StepSelection(const editor::Workspace& workspace, const TimelineStep& step) {
-  const TimelineText& text = *workspace.script().timeline();
-  const editor::DramaRun* run = workspace.drama_run();
+  const TimelineText& text = *workspace.project().script().timeline();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   const std::vector<TimelineLine> lines = LinesOf(
       rows_, text, run != nullptr ? std::span(run->tasks) : std::span<const TaskRecord>(), folded_);
   const std::optional<TimelineStop> from = ChosenLast();
-  const std::optional<TimelineStop> to = StepFrom(lines, from, workspace.time(), step);
+  const std::optional<TimelineStop> to = StepFrom(lines, from, workspace.playback().time(), step);
   if (!to || (step.items && !to->item)) {
     return;
   }
@@ -216,14 +218,14 @@ void TimelinePanel::FoldAll() {
 // Moves the playhead to the next begin or end of an item.
 void TimelinePanel::JumpToEdge(editor::Workspace& workspace, int direction) {
   constexpr double kSame = 1e-3;
-  const double now = workspace.time();
-  double best = direction > 0 ? workspace.duration() : 0.0;
+  const double now = workspace.playback().time();
+  double best = direction > 0 ? workspace.playback().duration() : 0.0;
   const auto offer = [&](double time) {
     if (direction > 0 ? time > now + kSame && time < best : time < now - kSame && time > best) {
       best = time;
     }
   };
-  if (const TimelineText* text = workspace.script().timeline()) {
+  if (const TimelineText* text = workspace.project().script().timeline()) {
     for (const TimelineLane& lane : text->lanes()) {
       for (size_t i = 0; i < lane.size(); ++i) {
         offer(lane.at[i]);
@@ -231,24 +233,24 @@ void TimelinePanel::JumpToEdge(editor::Workspace& workspace, int direction) {
       }
     }
   }
-  if (const editor::DramaRun* run = workspace.drama_run()) {
+  if (const editor::DramaRun* run = workspace.dry_run().newest()) {
     for (const TaskRecord& task : run->tasks) {
       offer(task.began);
       offer(task.ended);
     }
   }
-  workspace.SetPlaying(false);
-  workspace.SetTime(best);
+  workspace.playback().SetPlaying(false);
+  workspace.playback().SetTime(best);
   ScrollTo(scale_, best);
 }
 
 void TimelinePanel::GoToScript(const editor::Workspace& workspace, EditorState& state) {
   int line = 0;
-  if (!selection_.empty() && workspace.script().timeline() != nullptr) {
-    line = static_cast<int>(workspace.script().timeline()->LineOf(selection_.front()));
-  } else if (block_ && workspace.drama_run() != nullptr) {
-    line = LineOfPlace(workspace.drama_run()->tasks[*block_].where,
-                       workspace.paths().Drama().filename().string());
+  if (!selection_.empty() && workspace.project().script().timeline() != nullptr) {
+    line = static_cast<int>(workspace.project().script().timeline()->LineOf(selection_.front()));
+  } else if (block_ && workspace.dry_run().newest() != nullptr) {
+    line = LineOfPlace(workspace.dry_run().newest()->tasks[*block_].where,
+                       workspace.project().paths().Drama().filename().string());
   }
   if (line > 0) {
     state.script_line = line;
@@ -288,22 +290,23 @@ bool TimelinePanel::HandleSelectionKey(editor::Workspace& workspace, KeyAction a
 
 bool TimelinePanel::HandleTimeKey(editor::Workspace& workspace, KeyAction action, bool shift) {
   const auto go = [&](double time) {
-    workspace.SetPlaying(false);
-    workspace.SetTime(std::clamp(time, 0.0, std::max(workspace.duration(), workspace.time())));
-    ScrollTo(scale_, workspace.time());
+    workspace.playback().SetPlaying(false);
+    workspace.playback().SetTime(std::clamp(
+        time, 0.0, std::max(workspace.playback().duration(), workspace.playback().time())));
+    ScrollTo(scale_, workspace.playback().time());
   };
   switch (action) {
     case KeyAction::kBack:
-      go(workspace.time() - (shift ? 1.0 : kFrame));
+      go(workspace.playback().time() - (shift ? 1.0 : kFrame));
       return true;
     case KeyAction::kOn:
-      go(workspace.time() + (shift ? 1.0 : kFrame));
+      go(workspace.playback().time() + (shift ? 1.0 : kFrame));
       return true;
     case KeyAction::kBegin:
       go(0.0);
       return true;
     case KeyAction::kEnd:
-      go(workspace.duration());
+      go(workspace.playback().duration());
       return true;
     case KeyAction::kEdgeBack:
       JumpToEdge(workspace, -1);
@@ -312,13 +315,13 @@ bool TimelinePanel::HandleTimeKey(editor::Workspace& workspace, KeyAction action
       JumpToEdge(workspace, 1);
       return true;
     case KeyAction::kNearer:
-      Zoom(scale_, 0.8, scale_.XOf(workspace.time()));
+      Zoom(scale_, 0.8, scale_.XOf(workspace.playback().time()));
       return true;
     case KeyAction::kFurther:
-      Zoom(scale_, 1.25, scale_.XOf(workspace.time()));
+      Zoom(scale_, 1.25, scale_.XOf(workspace.playback().time()));
       return true;
     case KeyAction::kFit:
-      ZoomToFit(scale_, workspace.duration());
+      ZoomToFit(scale_, workspace.playback().duration());
       return true;
     default:
       return false;
@@ -381,7 +384,7 @@ bool TimelinePanel::HandleEditKey(editor::Workspace& workspace,
 void TimelinePanel::HandleKeys(editor::Workspace& workspace, EditorState& state) {
   if (state.focus != Focus::kTimeline || state.bottom != BottomTab::kTimeline ||
       state.dialog != Dialog::kNone || ImGui::GetIO().WantTextInput ||
-      workspace.script().timeline() == nullptr) {
+      workspace.project().script().timeline() == nullptr) {
     return;
   }
   Refresh(workspace);

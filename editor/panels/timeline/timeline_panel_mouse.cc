@@ -56,7 +56,7 @@ TimelinePanel::Hit TimelinePanel::HitAt(const editor::Workspace& workspace,
   if (row.kind == TimelineRow::Kind::kItems) {
     for (const size_t lane : row.lanes) {
       found_.clear();
-      workspace.script().timeline()->Query(lane, before - kLongNatural, after, found_);
+      workspace.project().script().timeline()->Query(lane, before - kLongNatural, after, found_);
       for (auto item = found_.rbegin(); item != found_.rend() && !hit.item; ++item) {
         if (covers(Shown(workspace, {lane, *item}))) {
           hit.item = {lane, *item};
@@ -66,11 +66,11 @@ TimelinePanel::Hit TimelinePanel::HitAt(const editor::Workspace& workspace,
     if (hit.item && row.lane == LaneKind::kMarkers) {
       hit.part = Hit::Part::kBody;
     }
-  } else if (row.kind == TimelineRow::Kind::kBlocks && workspace.drama_run() != nullptr) {
+  } else if (row.kind == TimelineRow::Kind::kBlocks && workspace.dry_run().newest() != nullptr) {
     found_.clear();
     row.index.Query(before, after, found_);
     for (auto block = found_.rbegin(); block != found_.rend() && !hit.block; ++block) {
-      const TaskRecord& task = workspace.drama_run()->tasks[row.blocks[*block]];
+      const TaskRecord& task = workspace.dry_run().newest()->tasks[row.blocks[*block]];
       if (covers({task.began, task.ended})) {
         hit.block = row.blocks[*block];
         hit.part = Hit::Part::kBody;
@@ -105,7 +105,7 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && hit.row >= 0 &&
         shown_[static_cast<size_t>(hit.row)]->kind == TimelineRow::Kind::kItems) {
       const TimelineRow& row = *shown_[static_cast<size_t>(hit.row)];
-      workspace.SetTime(std::max(drag_.from, 0.0));
+      workspace.playback().SetTime(std::max(drag_.from, 0.0));
       Add(workspace, row.lane, row.group);
       return;
     }
@@ -127,8 +127,8 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
                : hit.part == Hit::Part::kEnd ? Drag::Kind::kTrimEnd
                                              : Drag::Kind::kMove;
   // The drag snaps to the playhead and to the ends of all other items.
-  drag_.marks = {0.0, workspace.time()};
-  const TimelineText& text = *workspace.script().timeline();
+  drag_.marks = {0.0, workspace.playback().time()};
+  const TimelineText& text = *workspace.project().script().timeline();
   for (size_t lane = 0; lane < text.lanes().size(); ++lane) {
     const TimelineLane& in = text.lanes()[lane];
     for (size_t i = 0; i < in.size(); ++i) {
@@ -138,7 +138,7 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
       }
     }
   }
-  if (const editor::DramaRun* run = workspace.drama_run()) {
+  if (const editor::DramaRun* run = workspace.dry_run().newest()) {
     for (const TaskRecord& task : run->tasks) {
       if (!task.from_timeline) {
         drag_.marks.push_back(task.began);
@@ -150,7 +150,7 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
 
 // Snaps a drag. by: the move of the mouse, seconds.
 void TimelinePanel::SnapDrag(const editor::Workspace& workspace, double by) {
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   const double by_before = std::exchange(drag_.by, 0.0);
   const editor::TimeSpan grabbed = Shown(workspace, drag_.grabbed);
   drag_.by = by_before;
@@ -200,7 +200,7 @@ void TimelinePanel::SelectBox(const editor::Workspace& workspace, double to, flo
     }
     for (const size_t lane : row.lanes) {
       found_.clear();
-      workspace.script().timeline()->Query(lane, begin - kLongNatural, end, found_);
+      workspace.project().script().timeline()->Query(lane, begin - kLongNatural, end, found_);
       for (const uint32_t item : found_) {
         if (Shown(workspace, {lane, item}).end >= begin) {
           selection_.push_back({lane, item});
@@ -217,7 +217,7 @@ void TimelinePanel::UpdateDrag(editor::Workspace& workspace, float rows_top) {
   const double now = scale_.TimeAt(io.MousePos.x);
   const float y = io.MousePos.y - rows_top;
   drag_.moved |= ImGui::IsMouseDragging(ImGuiMouseButton_Left, Px(kClick));
-  if (!drag_.moved || workspace.script().timeline() == nullptr) {
+  if (!drag_.moved || workspace.project().script().timeline() == nullptr) {
     return;
   }
   switch (drag_.kind) {
@@ -252,7 +252,7 @@ std::string TimelinePanel::NameOfSelection(const editor::Workspace& workspace) {
 
 void TimelinePanel::EndDrag(editor::Workspace& workspace) {
   const Drag drag = std::exchange(drag_, Drag());
-  if (!drag.moved || drag.by == 0.0 || workspace.script().timeline() == nullptr) {
+  if (!drag.moved || drag.by == 0.0 || workspace.project().script().timeline() == nullptr) {
     if (!drag.moved && drag.kind == Drag::Kind::kMove) {
       selection_ = {drag.grabbed};  // A click on one of several selected items.
     }
@@ -261,15 +261,15 @@ void TimelinePanel::EndDrag(editor::Workspace& workspace) {
   const std::string name = NameOfSelection(workspace);
   const std::vector<double> naturals = Naturals(workspace);
   if (drag.kind == Drag::Kind::kMove) {
-    workspace.EditTimeline(Text(Tr("move %s"), name.c_str()), [&](TimelineText& text) {
+    workspace.project().EditTimeline(Sentence("move %s", {name}), [&](TimelineText& text) {
       return editor::MoveItems(text, selection_, drag.by, ripple_);
     });
   } else if (drag.kind == Drag::Kind::kTrimBegin) {
-    workspace.EditTimeline(Text(Tr("trim %s"), name.c_str()), [&](TimelineText& text) {
+    workspace.project().EditTimeline(Sentence("trim %s", {name}), [&](TimelineText& text) {
       return editor::TrimBegins(text, selection_, naturals, drag.by);
     });
   } else if (drag.kind == Drag::Kind::kTrimEnd) {
-    workspace.EditTimeline(Text(Tr("trim %s"), name.c_str()), [&](TimelineText& text) {
+    workspace.project().EditTimeline(Sentence("trim %s", {name}), [&](TimelineText& text) {
       return editor::TrimEnds(text, selection_, naturals, drag.by, ripple_);
     });
   }
@@ -359,12 +359,13 @@ void TimelinePanel::DrawTooltip(editor::Workspace& workspace, const Hit& hit) {
   std::string hint;
   if (hit.item) {
     const editor::TimeSpan span = Shown(workspace, *hit.item);
-    const TimelineLane& lane = workspace.script().timeline()->lanes()[hit.item->lane];
+    const TimelineLane& lane = workspace.project().script().timeline()->lanes()[hit.item->lane];
     title = std::string(ItemTitle(lane.kind)) + ": " + FaceOf(workspace, *hit.item).label;
     times = FormatTime(span.begin, 0.01) + " \xe2\x80\x93 " + FormatTime(span.end, 0.01);
-    hint = Text(Tr("line %zu of the script"), workspace.script().timeline()->LineOf(*hit.item));
+    hint = Text(Tr("line %zu of the script"),
+                workspace.project().script().timeline()->LineOf(*hit.item));
   } else {
-    const TaskRecord& task = workspace.drama_run()->tasks[*hit.block];
+    const TaskRecord& task = workspace.dry_run().newest()->tasks[*hit.block];
     title = task.actor + ": " + BlockLabel(task, false);
     times = FormatTime(task.began, 0.01) + " \xe2\x80\x93 " + FormatTime(task.ended, 0.01);
     hint = task.failed

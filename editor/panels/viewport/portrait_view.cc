@@ -171,9 +171,9 @@ void DrawPortrait(editor::Workspace& workspace,
                   const editor::CastDocument& member,
                   bool bones) {
   const cv::Size size = PictureSize(state.cast.frame);
-  workspace.cast_pictures().Look(
+  workspace.cast().pictures().Look(
       member.name, {.azimuth = state.cast.azimuth, .frame = kFrames[state.cast.frame]}, size);
-  state.portrait = workspace.cast_pictures().portrait();
+  state.portrait = workspace.cast().pictures().portrait();
   const bool known = state.portrait != nullptr && state.portrait->name == member.name;
   const editor::CastPortrait* portrait = known ? state.portrait.get() : nullptr;
   const ImVec2 begin = ImGui::GetCursorScreenPos();
@@ -192,7 +192,7 @@ void DrawPortrait(editor::Workspace& workspace,
   }
   Interact(state, portrait, picture, bones);
   ImGui::SetCursorScreenPos(ImVec2(begin.x, frame.to.y + ImGui::GetStyle().ItemSpacing.y));
-  if (workspace.cast_pictures().Working(member.name)) {
+  if (workspace.cast().pictures().Working(member.name)) {
     Caption(frame, Tr("Building\xe2\x80\xa6"));
   }
   const char* const labels[] = {Tr("Bust"), Tr("Face"), Tr("Figure")};

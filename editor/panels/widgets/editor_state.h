@@ -231,7 +231,7 @@ struct EditorState {
   bool quit = false;                    // Requests to close the window.
   bool leave = false;                   // Requests to close the project and to show the start page.
   bool stops_work = false;              // Leaving may stop long work.
-  uint64_t messages_read = 0;           // See Workspace::messages_told().
+  uint64_t messages_read = 0;           // See MessageLog::told().
 };
 
 // Opens a dialog with empty fields, or with those from when Escape closed it; returns true in that
