@@ -144,7 +144,7 @@ void Layout::DrawBottom(Workspace& workspace) {
     bottom_ = static_cast<BottomTab>(tab);
   }
   if (bottom_ == BottomTab::kMessages) {
-    messages_read_ = workspace.messages_told();
+    messages_read_ = workspace.messages().told();
   } else {
     panels::MarkUnread(workspace, messages_read_);
   }
@@ -361,7 +361,7 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
   input_.dialog_open = dialogs_.shown != panels::Dialog::kNone;
   DrawPanels(workspace, sizes);
   if (calibration_.is_open()) {
-    calibration_.Show(workspace.paths(), pictures_, dialogs_.fields);
+    calibration_.Show(workspace.project().paths(), pictures_, dialogs_.fields);
   } else if (panels::DrawDialogs(workspace, selection_, options_, pictures_, input_, dialogs_,
                                  actions_)) {
     calibration_.Open();

@@ -76,7 +76,7 @@ class Layout {
   panels::CalibrationDialog calibration_;
   panels::Tour tour_;
   panels::BottomTab bottom_ = panels::BottomTab::kTimeline;
-  uint64_t messages_read_ = 0;  // See Workspace::messages_told().
+  uint64_t messages_read_ = 0;  // See MessageLog::told().
   bool opened_ = false;         // True after the first frame.
   bool menus_ = false;          // True if menus had the keyboard at the end of the last frame.
   bool quit_ = false;           // The window was asked to close.

@@ -68,7 +68,8 @@ std::string WindowContent::Title() const {
   if (workspace_ == nullptr) {
     return "Lararium";
   }
-  return workspace_->document().title + (workspace_->commands().dirty() ? " \xe2\x80\xa2" : "") +
+  return workspace_->project().document().title +
+         (workspace_->project().commands().dirty() ? " \xe2\x80\xa2" : "") +
          " \xe2\x80\x93 Lararium";
 }
 
@@ -83,7 +84,8 @@ void WindowContent::Enter(std::unique_ptr<Workspace> workspace) {
   workspace_ = std::move(workspace);
   pictured_ = false;
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const RecentProject project{workspace_->paths().folder, workspace_->document().title,
+  const RecentProject project{workspace_->project().paths().folder,
+                              workspace_->project().document().title,
                               std::chrono::duration_cast<std::chrono::seconds>(now).count()};
   if (const Status status = recent_.NoteOpened(project); !status.ok()) {
     log_.warn("{}", status.message());  // Not fatal.
@@ -109,10 +111,10 @@ void WindowContent::RequestQuit() {
 }
 
 void WindowContent::KeepPicture() {
-  if (workspace_ != nullptr && workspace_->picture() != nullptr) {
+  if (workspace_ != nullptr && workspace_->preview().picture() != nullptr) {
     pictured_ = true;
-    const PreviewPicture& picture = *workspace_->picture();
-    const Status status = SaveProjectPicture(workspace_->paths().folder, picture.bgr);
+    const PreviewPicture& picture = *workspace_->preview().picture();
+    const Status status = SaveProjectPicture(workspace_->project().paths().folder, picture.bgr);
     if (!status.ok()) {
       log_.warn("{}", status.message());
     }
@@ -143,7 +145,7 @@ Status WindowContent::MakeNew(const StartChoice& choice) {
     case StartChoice::Begin::kEmpty:
       break;
   }
-  workspace_->Save();
+  workspace_->project().Save();
   return Status();
 }
 

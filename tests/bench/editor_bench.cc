@@ -175,8 +175,8 @@ int main(int argc, char** argv) {
   for (int i = 0; i < 3000 && argc > 3 && points == 0; ++i) {  // Wait until the map is loaded.
     (*workspace)->Update(0.01);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    if ((*workspace)->loaded().database != nullptr) {
-      points = (*workspace)->loaded().database->points.size();
+    if ((*workspace)->map().loaded().database != nullptr) {
+      points = (*workspace)->map().loaded().database->points.size();
     }
   }
   editor::FramePainter painter;

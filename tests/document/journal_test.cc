@@ -244,8 +244,8 @@ std::string WhatEditWrites(int32_t n, uint32_t way) {
 }
 
 Edited WhatIsIn(const Workspace& workspace) {
-  const bake::Line* line = workspace.document().lines->Find("hail");
-  return {workspace.document().title, workspace.script().text(),
+  const bake::Line* line = workspace.project().document().lines->Find("hail");
+  return {workspace.project().document().title, workspace.project().script().text(),
           line == nullptr ? "" : line->text.find("la")->second};
 }
 
@@ -262,20 +262,21 @@ Edited WhatIsIn(const Workspace& workspace) {
     const uint32_t way = random.Below(kWays);
     const std::string text = WhatEditWrites(n, way);
     if (way == 0) {
-      (*workspace)->Edit("title", [&](ProjectDocument& d) { d.title = text; });
+      (*workspace)->project().Edit(Sentence("title"), [&](ProjectDocument& d) { d.title = text; });
     } else if (way == 1) {
-      (*workspace)->EditScript("script", text);
+      (*workspace)->project().EditScript(Sentence("script"), text);
     } else {
       (*workspace)
-          ->EditLines("line",
-                      WithText(*(*workspace)->document().lines, "hail", "keeper", "la", text));
+          ->project()
+          .EditLines(Sentence("line"), WithText(*(*workspace)->project().document().lines, "hail",
+                                                "keeper", "la", text));
     }
     const uint32_t also = random.Below(40);
     if (also == 0) {
-      (*workspace)->Save();
+      (*workspace)->project().Save();
     } else if (also < 4) {
-      (*workspace)->Undo();
-      (*workspace)->Redo();
+      (*workspace)->project().Undo();
+      (*workspace)->project().Redo();
     } else if (also < 8) {
       (*workspace)->Update(1.5);  // Writes the file of lines.
     }

@@ -122,18 +122,18 @@ TEST_F(MissingFilesTest, LocatingOneNamesItWhereverItIsUsedAndCanBeUndone) {
   const std::shared_ptr<Log> log = MakeSilentLog();
   const auto workspace = Workspace::Open(paths_, *log);
   ASSERT_TRUE(workspace.ok()) << workspace.message();
-  (*workspace)->Edit("locate", [&](ProjectDocument& document) {
+  (*workspace)->project().Edit(Sentence("locate"), [&](ProjectDocument& document) {
     Relocate({old_ + "/film/walk.mp4", "walk.mp4"}, document);
     Relocate({old_ + "/clips/wave.bvh", "wave.bvh"}, document);
   });
-  const ProjectDocument& now = (*workspace)->document();
+  const ProjectDocument& now = (*workspace)->project().document();
   EXPECT_EQ(now.places[0].training.path, "walk.mp4");
   EXPECT_EQ(now.places[0].preview.path, "walk.mp4");
   EXPECT_EQ(now.cast[0].clips[0].file, "wave.bvh");
   EXPECT_EQ(now.places[0].occluders[0].file, old_ + "/models/counter.glb");
-  (*workspace)->Undo();
-  EXPECT_EQ((*workspace)->document().places[0].training.path, old_ + "/film/walk.mp4");
-  EXPECT_EQ((*workspace)->document().cast[0].clips[0].file, old_ + "/clips/wave.bvh");
+  (*workspace)->project().Undo();
+  EXPECT_EQ((*workspace)->project().document().places[0].training.path, old_ + "/film/walk.mp4");
+  EXPECT_EQ((*workspace)->project().document().cast[0].clips[0].file, old_ + "/clips/wave.bvh");
 }
 
 // A quarter of a second of silence.

@@ -37,18 +37,18 @@ std::vector<Problem> Problems(const editor::Workspace& workspace) {
       }
     }
   };
-  const editor::ScriptDocument& script = workspace.script();
+  const editor::ScriptDocument& script = workspace.project().script();
   if (!script.problem().ok()) {
     add(std::array{script.problem().message()}, false);
   }
-  add(workspace.problems(), false);
-  if (workspace.drama_run() != nullptr) {
-    add(workspace.drama_run()->problems, false);
+  add(workspace.jobs().problems(), false);
+  if (workspace.dry_run().newest() != nullptr) {
+    add(workspace.dry_run().newest()->problems, false);
   }
   if (script.timeline() != nullptr) {
     add(script.timeline()->problems(), true);
   }
-  add(workspace.warnings(), true);
+  add(workspace.jobs().warnings(), true);
   return problems;
 }
 
@@ -65,13 +65,13 @@ std::optional<Selection> NamedThing(const editor::Workspace& workspace,
       }
     }
   };
-  offer(Selection::Kind::kActor, workspace.document().cast);
-  offer(Selection::Kind::kObject, workspace.document().objects);
-  if (workspace.place() != nullptr) {
-    offer(Selection::Kind::kOccluder, workspace.place()->occluders);
-    offer(Selection::Kind::kProbe, workspace.place()->probes);
+  offer(Selection::Kind::kActor, workspace.project().document().cast);
+  offer(Selection::Kind::kObject, workspace.project().document().objects);
+  if (workspace.project().place() != nullptr) {
+    offer(Selection::Kind::kOccluder, workspace.project().place()->occluders);
+    offer(Selection::Kind::kProbe, workspace.project().place()->probes);
   }
-  offer(Selection::Kind::kPlace, workspace.document().places);
+  offer(Selection::Kind::kPlace, workspace.project().document().places);
   return named;
 }
 
@@ -82,13 +82,14 @@ void GoTo(editor::Workspace& workspace,
           Input& input,
           EditorActions& actions,
           const std::string& problem) {
-  const ProblemPlace place = PlaceOfProblem(problem, workspace.paths().Drama().filename().string());
+  const ProblemPlace place =
+      PlaceOfProblem(problem, workspace.project().paths().Drama().filename().string());
   if (place.seconds >= 0.0) {
-    workspace.SetPlaying(false);
-    workspace.SetTime(place.seconds);
+    workspace.playback().SetPlaying(false);
+    workspace.playback().SetTime(place.seconds);
   }
   std::optional<drama::TimelineItem> item;
-  if (const drama::TimelineText* text = workspace.script().timeline()) {
+  if (const drama::TimelineText* text = workspace.project().script().timeline()) {
     item = place.script_line > 0 ? ItemOnLine(*text, place.script_line)
            : !place.line.empty() ? ItemSaying(*text, place.line)
                                  : std::nullopt;
@@ -136,13 +137,13 @@ void DrawChecksTools(editor::Workspace& workspace) {
   const bool busy = workspace.tasks().Running(editor::TaskKind::kChecking);
   ImGui::BeginDisabled(busy);
   if (ImGui::Button(busy ? Tr("Checking\xe2\x80\xa6") : Tr("Check the saved project"))) {
-    workspace.Check();
+    workspace.jobs().Check();
   }
   ImGui::EndDisabled();
   Tooltip(
       Tr("Looks at every file, and runs the drama in every language "
          "(lararium-editor check)."));
-  if (workspace.commands().dirty()) {
+  if (workspace.project().commands().dirty()) {
     ImGui::SameLine(0.0f, Px(12));
     DimText(Tr("There are edits that are not saved."));
   }
@@ -155,9 +156,10 @@ void DrawChecks(editor::Workspace& workspace,
   const std::vector<Problem> problems = Problems(workspace);
   ImGui::BeginChild("list", ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
   if (problems.empty()) {
-    Hint(workspace.checked() ? Tr("Nothing is wrong.")
-                             : Tr("Nothing is known to be wrong with the script. A check also "
-                                  "looks at files, lines and places."));
+    Hint(workspace.jobs().checked()
+             ? Tr("Nothing is wrong.")
+             : Tr("Nothing is known to be wrong with the script. A check also "
+                  "looks at files, lines and places."));
   }
   for (size_t i = 0; i < problems.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));

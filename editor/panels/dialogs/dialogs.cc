@@ -72,7 +72,7 @@ std::vector<double> ParseNumbers(const std::string& text) {
 
 std::string TrainProblem(const editor::Workspace& workspace, const DialogFields& fields) {
   const std::string problem = NameProblem(fields.place);
-  return problem.empty() ? RecordingProblem(workspace.paths(), fields) : problem;
+  return problem.empty() ? RecordingProblem(workspace.project().paths(), fields) : problem;
 }
 
 // The recording of the input, with its intrinsics. Opens the recording, because the intrinsics need
@@ -82,10 +82,10 @@ Result<editor::SessionDocument> ChosenRecording(const editor::Workspace& workspa
   editor::SessionDocument recording;
   recording.source = {
       fields.images ? editor::SourceDocument::Kind::kImages : editor::SourceDocument::Kind::kVideo,
-      workspace.paths().Shorten(workspace.paths().Resolve(fields.file))};
+      workspace.project().paths().Shorten(workspace.project().paths().Resolve(fields.file))};
   if (const std::vector<double> numbers = ParseNumbers(fields.intrinsics); !numbers.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(const auto source,
-                              editor::OpenSource(workspace.paths(), recording.source));
+                              editor::OpenSource(workspace.project().paths(), recording.source));
     LARARIUM_ASSIGN_OR_RETURN(
         recording.intrinsics,
         geometry::CameraModel::FromNumbers(numbers, source->width(), source->height()));
@@ -103,12 +103,12 @@ bool TrainDialog(editor::Workspace& workspace, Dialogs& dialogs) {
   if (BeginProperties("train")) {
     PropertyLabel(Tr("Place"));
     ImGui::InputText("##place", &fields.place);
-    calibrate =
-        RecordingFields(workspace.paths().folder, fields, Tr(kFromVideo), Tr(kFromVideoHint));
+    calibrate = RecordingFields(workspace.project().paths().folder, fields, Tr(kFromVideo),
+                                Tr(kFromVideoHint));
     EndProperties();
   }
   if (editor::IsPlainName(fields.place)) {
-    const editor::ProjectDocument& document = workspace.document();
+    const editor::ProjectDocument& document = workspace.project().document();
     Hint(Text(document.FindPlace(fields.place) != nullptr
                   ? Tr("%s is trained anew; its picks keep the stage where it is.")
               : document.places.empty() ? Tr("%s will be the place of the drama.")
@@ -133,16 +133,17 @@ bool AddSessionDialog(editor::Workspace& workspace, Dialogs& dialogs) {
          "visitors are located in both. The stage stays where it is."));
   bool calibrate = false;
   if (BeginProperties("add session")) {
-    calibrate = RecordingFields(workspace.paths().folder, fields, Tr("as the map's camera"),
-                                Tr("Empty: it was filmed with the camera of the map."));
+    calibrate =
+        RecordingFields(workspace.project().paths().folder, fields, Tr("as the map's camera"),
+                        Tr("Empty: it was filmed with the camera of the map."));
     EndProperties();
   }
-  if (DialogDone(dialogs, Tr("Add"), RecordingProblem(workspace.paths(), fields))) {
+  if (DialogDone(dialogs, Tr("Add"), RecordingProblem(workspace.project().paths(), fields))) {
     const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
     if (recording.ok()) {
-      workspace.AddSession(*recording);
+      workspace.training().AddSession(*recording);
     } else {
-      workspace.Tell(editor::Message::Level::kError, recording.message());
+      workspace.messages().Tell(editor::Message::Level::kError, recording.message());
     }
   }
   return calibrate;
@@ -155,7 +156,9 @@ bool Taken(const std::vector<Entry>& entries, const std::string& name) {
 }
 
 std::string DocumentPath(const editor::Workspace& workspace, const std::string& typed) {
-  return typed.empty() ? "" : workspace.paths().Shorten(workspace.paths().Resolve(typed));
+  return typed.empty()
+             ? ""
+             : workspace.project().paths().Shorten(workspace.project().paths().Resolve(typed));
 }
 
 // A name that is not in use: "box", "box2" and so on.
@@ -187,7 +190,7 @@ void OccluderDialog(editor::Workspace& workspace,
                     Selection& selection,
                     ViewOptions& options,
                     Dialogs& dialogs) {
-  if (workspace.place() == nullptr) {
+  if (workspace.project().place() == nullptr) {
     dialogs.shown = Dialog::kNone;
     return;
   }
@@ -199,7 +202,7 @@ void OccluderDialog(editor::Workspace& workspace,
     fields.own_model = way == 1;
   }
   ImGui::Dummy(ImVec2(0, Px(2)));  // Such a row leaves no space below it.
-  const std::vector<editor::OccluderDocument>& known = workspace.place()->occluders;
+  const std::vector<editor::OccluderDocument>& known = workspace.project().place()->occluders;
   const std::string usual_name =
       fields.own_model ? "" : FreeName(known, editor::EntryOf(fields.shape.kind).name);
   if (BeginProperties("occluder")) {
@@ -207,7 +210,7 @@ void OccluderDialog(editor::Workspace& workspace,
     ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
     if (fields.own_model) {
       PropertyLabel(Tr("File"));
-      PathField("file", fields.file, workspace.paths().folder, kModels);
+      PathField("file", fields.file, workspace.project().paths().folder, kModels);
     } else {
       ShapeFields(workspace, fields.shape);
     }
@@ -221,7 +224,7 @@ void OccluderDialog(editor::Workspace& workspace,
   if (problem.empty() && Taken(known, occluder.name)) {
     problem = Tr("That name is taken.");
   }
-  if (problem.empty() && fields.own_model && !Exists(workspace.paths(), fields.file)) {
+  if (problem.empty() && fields.own_model && !Exists(workspace.project().paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   }
   if (DialogDone(dialogs, Tr("Add"), problem)) {
@@ -229,15 +232,16 @@ void OccluderDialog(editor::Workspace& workspace,
       occluder.file = DocumentPath(workspace, fields.file);
     } else {
       occluder = editor::NewOccluder(occluder.name, fields.shape);
-      const auto& picture = workspace.picture();
+      const auto& picture = workspace.preview().picture();
       occluder.stage_from_mesh.translation =
           editor::FloorBefore(picture != nullptr ? picture->camera_from_stage : std::nullopt);
     }
-    workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
-                        [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
+    workspace.project().EditPlace(
+        Sentence("add %s", {occluder.name}),
+        [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
     selection = {Selection::Kind::kOccluder, occluder.name};
   }
-  if (workspace.loaded().database != nullptr &&
+  if (workspace.map().loaded().database != nullptr &&
       ImGui::Button(Tr("Draw it on the training images instead"), ImVec2(-FLT_MIN, 0))) {
     dialogs.shown = Dialog::kNone;
     DrawNewOccluder(workspace, selection, options);
@@ -252,11 +256,12 @@ void LoadFigure(editor::Workspace& workspace,
     member.model = DocumentPath(workspace, file);
     return;
   }
-  Result<import::CastRecipe> recipe = import::LoadCastRecipe(workspace.paths().Resolve(file));
+  Result<import::CastRecipe> recipe =
+      import::LoadCastRecipe(workspace.project().paths().Resolve(file));
   if (recipe.ok()) {
     member.recipe = *std::move(recipe);
   } else {
-    workspace.Tell(editor::Message::Level::kError, recipe.message());
+    workspace.messages().Tell(editor::Message::Level::kError, recipe.message());
   }
 }
 
@@ -270,13 +275,13 @@ bool PresetGrid(editor::Workspace& workspace, PictureTextures& pictures, Dialogs
   const float side =
       std::floor((ImGui::GetContentRegionAvail().x - (columns - 1.0f) * gap) / columns);
   bool changed = false;
-  workspace.cast_pictures().WantPresets();
+  workspace.cast().pictures().WantPresets();
   for (const std::string& name : names) {
     ImGui::PushID(name.c_str());
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float height = side + ImGui::GetTextLineHeight() + Px(6);
     ImGui::BeginGroup();
-    DrawThumbnail(pictures, "preset " + name, workspace.cast_pictures().PresetThumbnail(name),
+    DrawThumbnail(pictures, "preset " + name, workspace.cast().pictures().PresetThumbnail(name),
                   side);
     DimText(name);
     ImGui::EndGroup();
@@ -304,13 +309,13 @@ std::string CastProblem(const editor::Workspace& workspace, const DialogFields& 
   if (!problem.empty()) {
     return problem;
   }
-  if (Taken(workspace.document().cast, fields.name)) {
+  if (Taken(workspace.project().document().cast, fields.name)) {
     return Tr("That name is taken.");
   }
   if (!fields.preset.empty() && !fields.file.empty()) {
     return Tr("Choose a preset or a file.");
   }
-  return fields.file.empty() || Exists(workspace.paths(), fields.file)
+  return fields.file.empty() || Exists(workspace.project().paths(), fields.file)
              ? ""
              : Tr("Choose a file that exists.");
 }
@@ -331,7 +336,7 @@ void CastDialog(editor::Workspace& workspace,
     PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder, kFigures);
+    PathField("file", fields.file, workspace.project().paths().folder, kFigures);
     EndProperties();
   }
   if (DialogDone(dialogs, Tr("Add"), CastProblem(workspace, fields))) {
@@ -339,8 +344,9 @@ void CastDialog(editor::Workspace& workspace,
     member.name = fields.name;
     member.preset = fields.preset;
     LoadFigure(workspace, fields.file, member);
-    workspace.Edit(Text(Tr("add %s"), member.name.c_str()),
-                   [&](editor::ProjectDocument& document) { document.cast.push_back(member); });
+    workspace.project().Edit(
+        Sentence("add %s", {member.name}),
+        [&](editor::ProjectDocument& document) { document.cast.push_back(member); });
     selection = {Selection::Kind::kActor, member.name};
   }
 }
@@ -369,7 +375,7 @@ void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& d
   if (BeginProperties("object")) {
     PropertyLabel(Tr("Model"));
     if (fields.own_model) {
-      PathField("file", fields.file, workspace.paths().folder, kModels);
+      PathField("file", fields.file, workspace.project().paths().folder, kModels);
       object.file = DocumentPath(workspace, fields.file);
     } else {
       BuiltInObject(fields);
@@ -377,7 +383,7 @@ void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& d
     }
     EndProperties();
   }
-  const std::vector<editor::ObjectDocument>& known = workspace.document().objects;
+  const std::vector<editor::ObjectDocument>& known = workspace.project().document().objects;
   const std::string kind = object.model + std::filesystem::path(object.file).stem().string();
   const std::string usual_name = editor::IsPlainName(kind) ? FreeName(known, kind) : "";
   if (BeginProperties("name")) {
@@ -392,14 +398,15 @@ void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& d
   }
   object.name = fields.name.empty() ? usual_name : fields.name;
   std::string problem = NameProblem(object.name);
-  if (fields.own_model && !Exists(workspace.paths(), fields.file)) {
+  if (fields.own_model && !Exists(workspace.project().paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   } else if (problem.empty() && Taken(known, object.name)) {
     problem = Tr("That name is taken.");
   }
   if (DialogDone(dialogs, Tr("Add"), problem)) {
-    workspace.Edit(Text(Tr("add %s"), object.name.c_str()),
-                   [&](editor::ProjectDocument& document) { document.objects.push_back(object); });
+    workspace.project().Edit(
+        Sentence("add %s", {object.name}),
+        [&](editor::ProjectDocument& document) { document.objects.push_back(object); });
     selection = {Selection::Kind::kObject, object.name};
   }
 }
@@ -413,29 +420,30 @@ void ProbeDialog(editor::Workspace& workspace, Selection& selection, Dialogs& di
     PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder, kProbes);
+    PathField("file", fields.file, workspace.project().paths().folder, kProbes);
     EndProperties();
   }
   std::string problem = NameProblem(fields.name);
-  if (problem.empty() && Taken(workspace.place()->probes, fields.name)) {
+  if (problem.empty() && Taken(workspace.project().place()->probes, fields.name)) {
     problem = Tr("That name is taken.");
   }
-  if (problem.empty() && !Exists(workspace.paths(), fields.file)) {
+  if (problem.empty() && !Exists(workspace.project().paths(), fields.file)) {
     problem = Tr("Choose a file that exists.");
   }
   if (DialogDone(dialogs, Tr("Add"), problem)) {
     editor::ProbeDocument probe;
     probe.name = fields.name;
     probe.file = DocumentPath(workspace, fields.file);
-    workspace.EditPlace(Text(Tr("add %s"), probe.name.c_str()),
-                        [&](editor::PlaceDocument& place) { place.probes.push_back(probe); });
+    workspace.project().EditPlace(
+        Sentence("add %s", {probe.name}),
+        [&](editor::PlaceDocument& place) { place.probes.push_back(probe); });
     selection = {Selection::Kind::kProbe, probe.name};
   }
 }
 
 // Asks before long work is stopped.
 void LeaveDialog(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
-  Hint(workspace.tasks().Running(editor::Workspace::kTraining)
+  Hint(workspace.tasks().Running(editor::TaskKind::kTraining)
            ? Tr("The place is being trained. Leaving stops that: the place keeps the map that it "
                 "has.")
            : Tr("The show is being exported. Leaving stops that: nothing is written."));
@@ -583,10 +591,10 @@ bool RecordingFields(const std::filesystem::path& folder,
 void TrainRecording(editor::Workspace& workspace, const DialogFields& fields) {
   const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
   if (!recording.ok()) {
-    workspace.Tell(editor::Message::Level::kError, recording.message());
+    workspace.messages().Tell(editor::Message::Level::kError, recording.message());
     return;
   }
-  workspace.TrainFrom(fields.place, *recording);
+  workspace.training().TrainFrom(fields.place, *recording);
 }
 
 bool DrawDialogs(editor::Workspace& workspace,
@@ -596,7 +604,7 @@ bool DrawDialogs(editor::Workspace& workspace,
                  Input& input,
                  Dialogs& dialogs,
                  EditorActions& actions) {
-  if (dialogs.shown == Dialog::kNone && workspace.TakeNewReport()) {
+  if (dialogs.shown == Dialog::kNone && workspace.training().TakeNewReport()) {
     dialogs.shown = Dialog::kTrainingReport;
   }
   if (dialogs.shown == Dialog::kKeys && !DrawKeyList(input.keys)) {

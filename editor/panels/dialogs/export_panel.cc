@@ -67,13 +67,13 @@ void DrawWarnings(editor::Workspace& workspace, Dialogs& dialogs, EditorActions&
     ImGui::TextColored(Colours().warning, "%s",
                        TrCount("%d problem is known.", "%d problems are known.", problems).c_str());
   } else {
-    DimText(workspace.checked() ? Tr("The last check found no problem.")
-                                : Tr("The project was not checked yet."));
+    DimText(workspace.jobs().checked() ? Tr("The last check found no problem.")
+                                       : Tr("The project was not checked yet."));
   }
   ImGui::SameLine();
   if (ImGui::Button(problems > 0 ? Tr("Look at them") : Tr("Check"))) {
     if (problems == 0) {
-      workspace.Check();
+      workspace.jobs().Check();
     }
     actions.push_back(OpenTab{BottomTab::kChecks});
     dialogs.shown = Dialog::kNone;
@@ -83,7 +83,7 @@ void DrawWarnings(editor::Workspace& workspace, Dialogs& dialogs, EditorActions&
 // Makes a pair of keys beside the project: NAME.key, to be kept secret, and NAME.pub for the
 // players.
 void MakeKeys(editor::Workspace& workspace, DialogFields& fields) {
-  const std::filesystem::path folder = workspace.paths().folder;
+  const std::filesystem::path folder = workspace.project().paths().folder;
   const std::filesystem::path stem = folder.parent_path() / folder.stem();
   const bundle::SecretKey key = bundle::MakeSecretKey();
   Status made = bundle::SaveSecretKey(stem.string() + ".key", key);
@@ -91,13 +91,13 @@ void MakeKeys(editor::Workspace& workspace, DialogFields& fields) {
     made = bundle::SavePublicKey(stem.string() + ".pub", key.public_key());
   }
   if (!made.ok()) {
-    workspace.Tell(editor::Message::Level::kError, made.message());
+    workspace.messages().Tell(editor::Message::Level::kError, made.message());
     return;
   }
   fields.key = stem.string() + ".key";
-  workspace.Tell(editor::Message::Level::kInfo,
-                 Text(Tr("Keep %s to yourself, give %s to the players."), fields.key.c_str(),
-                      (stem.string() + ".pub").c_str()));
+  workspace.messages().Tell(editor::Message::Level::kInfo,
+                            Text(Tr("Keep %s to yourself, give %s to the players."),
+                                 fields.key.c_str(), (stem.string() + ".pub").c_str()));
 }
 
 void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
@@ -105,7 +105,7 @@ void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
     return;
   }
   PropertyLabel(Tr("File"));
-  PathField("file", fields.file, workspace.paths().folder, kShows);
+  PathField("file", fields.file, workspace.project().paths().folder, kShows);
   PropertyLabel(Tr("Points of a map"));
   if (ImGui::InputInt("##points", &fields.points, 1000, 5000)) {
     fields.points = std::clamp(fields.points, kFewestPoints, kMostPoints);
@@ -114,7 +114,8 @@ void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
   PropertyLabel(Tr("Signed with"));
   const ImGuiStyle& style = ImGui::GetStyle();
   const float button = ImGui::CalcTextSize(Tr("New keys")).x + 2 * style.FramePadding.x;
-  PathField("key", fields.key, workspace.paths().folder, kKeys, button + style.ItemSpacing.x);
+  PathField("key", fields.key, workspace.project().paths().folder, kKeys,
+            button + style.ItemSpacing.x);
   ImGui::SameLine();
   if (ImGui::Button(Tr("New keys"))) {
     MakeKeys(workspace, fields);
@@ -131,10 +132,12 @@ std::string DrawProblem(const editor::Workspace& workspace, const DialogFields& 
     return Tr("The name ends in .larshow.");
   }
   if (!fields.key.empty() &&
-      !std::filesystem::exists(workspace.paths().Resolve(fields.key), ignored)) {
+      !std::filesystem::exists(workspace.project().paths().Resolve(fields.key), ignored)) {
     return Tr("Choose a key that exists, or none.");
   }
-  return workspace.document().places.empty() ? Tr("A show needs a place: train one first.") : "";
+  return workspace.project().document().places.empty()
+             ? Tr("A show needs a place: train one first.")
+             : "";
 }
 
 void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
@@ -144,15 +147,15 @@ void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& a
          "baked first."));
   DrawFields(workspace, fields);
   if (!fields.contents) {
-    fields.contents = editor::ForecastShow(workspace.paths(), workspace.document(),
-                                           {.max_points = fields.points});
+    fields.contents = editor::ForecastShow(
+        workspace.project().paths(), workspace.project().document(), {.max_points = fields.points});
   }
   Heading(Tr("What goes in"));
   DrawContentsTable(*fields.contents, false);
   DrawWarnings(workspace, dialogs, actions);
-  if (fields.exporting && !workspace.export_problem().empty()) {
+  if (fields.exporting && !workspace.jobs().export_problem().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
-    ImGui::TextWrapped("%s", workspace.export_problem().c_str());
+    ImGui::TextWrapped("%s", workspace.jobs().export_problem().c_str());
     ImGui::PopStyleColor();
   }
   const DialogAnswer answer = DialogButtons(Tr("Export"), DrawProblem(workspace, fields));
@@ -160,12 +163,12 @@ void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& a
     dialogs.shown = Dialog::kNone;
   }
   if (answer == DialogAnswer::kAct) {
-    editor::ExportRequest request{.out = workspace.paths().Resolve(fields.file)};
+    editor::ExportRequest request{.out = workspace.project().paths().Resolve(fields.file)};
     request.budget.max_points = fields.points;
     if (!fields.key.empty()) {
-      request.key = workspace.paths().Resolve(fields.key);
+      request.key = workspace.project().paths().Resolve(fields.key);
     }
-    workspace.Export(request);
+    workspace.jobs().Export(request);
     fields.exporting = true;
   }
 }
@@ -191,7 +194,7 @@ void DrawDuring(editor::BackgroundTask& task, Dialogs& dialogs) {
 }
 
 void DrawAfter(editor::Workspace& workspace, Dialogs& dialogs) {
-  const editor::Workspace::ExportedShow& shown = *workspace.exported();
+  const editor::JobRunner::ExportedShow& shown = *workspace.jobs().exported();
   Hint(Text(Tr("Wrote %s."), shown.file.c_str()));
   Heading(Tr("What went in"));
   DrawContentsTable(shown.contents, true);
@@ -204,7 +207,7 @@ void DrawAfter(editor::Workspace& workspace, Dialogs& dialogs) {
       if (playing) {
         workspace.tasks().Cancel(editor::TaskKind::kTrying);
       } else {
-        workspace.TryShow();
+        workspace.jobs().TryShow();
       }
       break;
     case DialogAnswer::kCancel:
@@ -220,14 +223,14 @@ void DrawAfter(editor::Workspace& workspace, Dialogs& dialogs) {
 void ExportDialog(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
   DialogFields& fields = dialogs.fields;
   if (fields.file.empty()) {
-    const std::filesystem::path folder = workspace.paths().folder;
+    const std::filesystem::path folder = workspace.project().paths().folder;
     fields.file = (folder.parent_path() / folder.stem()).string() + ".larshow";
   }
   if (editor::BackgroundTask* task = workspace.tasks().Find(editor::TaskKind::kExporting)) {
     fields.exporting = true;
     DrawDuring(*task, dialogs);
-  } else if (fields.exporting && workspace.export_problem().empty() &&
-             workspace.exported() != nullptr) {
+  } else if (fields.exporting && workspace.jobs().export_problem().empty() &&
+             workspace.jobs().exported() != nullptr) {
     DrawAfter(workspace, dialogs);
   } else {
     DrawBefore(workspace, dialogs, actions);

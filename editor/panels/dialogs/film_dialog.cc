@@ -141,14 +141,14 @@ void FilmDialog::Discard(Dialogs& dialogs) {
 
 void FilmDialog::Begin(editor::Workspace& workspace, const std::string& place) {
   std::error_code ignored;
-  const std::filesystem::path file = workspace.paths().Resolve(camera_);
+  const std::filesystem::path file = workspace.project().paths().Resolve(camera_);
   auto camera = editor::OpenFilmCamera(
       std::filesystem::is_regular_file(file, ignored) ? file.string() : camera_);
   problem_ = camera.ok() ? "" : camera.message();
   if (camera.ok()) {
     place_ = place;
     asks_ = false;
-    const std::filesystem::path folder = workspace.paths().Place(place);
+    const std::filesystem::path folder = workspace.project().paths().Place(place);
     film_ = std::make_unique<editor::FilmTask>(*std::move(camera), editor::NewFilmFile(folder));
   }
 }
@@ -161,7 +161,7 @@ void FilmDialog::DrawStart(editor::Workspace& workspace, Dialogs& dialogs) {
   if (BeginProperties("film")) {
     PropertyLabel(Tr("Place"));
     ImGui::InputText("##place", &dialogs.fields.place);
-    field_.Show(camera_, workspace.paths().folder);
+    field_.Show(camera_, workspace.project().paths().folder);
     EndProperties();
   }
   field_.DrawHint();
@@ -284,8 +284,8 @@ void FilmDialog::DrawFilming(editor::Workspace& workspace,
 
 void FilmDialog::Leave(editor::Workspace& workspace, Dialogs& dialogs) {
   if (film_ != nullptr && film_->outcome() && film_->outcome()->ok()) {
-    workspace.Tell(editor::Message::Level::kInfo,
-                   Text(Tr("What was filmed is kept in %s."), film_->file().c_str()));
+    workspace.messages().Tell(editor::Message::Level::kInfo,
+                              Text(Tr("What was filmed is kept in %s."), film_->file().c_str()));
     Close(dialogs);
   } else if (film_ != nullptr && !film_->outcome() && film_->moment().frames > 0) {
     const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);

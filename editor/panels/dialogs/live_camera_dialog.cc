@@ -14,19 +14,19 @@ void LiveCameraDialog::DrawContent(editor::Workspace& workspace,
          "of the lens and proportions that the place was trained with. Nothing of it is saved."));
   std::string& camera = dialogs.fields.camera;
   if (BeginProperties("live")) {
-    field_.Show(camera, workspace.paths().folder);
+    field_.Show(camera, workspace.project().paths().folder);
     EndProperties();
   }
   field_.DrawHint();
   std::string problem;
   std::error_code ignored;
   if (!editor::IsCameraNumber(camera) &&
-      !std::filesystem::is_regular_file(workspace.paths().Resolve(camera), ignored)) {
+      !std::filesystem::is_regular_file(workspace.project().paths().Resolve(camera), ignored)) {
     problem = Tr("Choose a file that exists.");
   }
   const DialogAnswer answer = DialogButtons(Tr("Show"), problem);
   if (answer == DialogAnswer::kAct) {
-    workspace.PreviewLiveCamera(camera);
+    workspace.preview().PreviewLiveCamera(camera);
     options.view = ViewKind::kCamera;
   }
   if (answer != DialogAnswer::kNone) {

@@ -62,7 +62,7 @@ void DrawTask(editor::BackgroundTask& task) {
 
 // The choice between two versions of the project; nothing is saved before it.
 void DrawOutsideChoice(editor::Workspace& workspace) {
-  const std::string& damage = workspace.outside_damage();
+  const std::string& damage = workspace.project().files().damage();
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(
       Colours().warning, "%s",
@@ -73,13 +73,13 @@ void DrawOutsideChoice(editor::Workspace& workspace) {
   ImGui::SameLine();
   ImGui::BeginDisabled(!damage.empty());
   if (ImGui::Button(Tr("Take what is in the files"))) {
-    workspace.AdoptExternal();
+    workspace.project().AdoptExternal();
   }
   ImGui::EndDisabled();
   Tooltip(damage.empty() ? Tr("An edit like any other: undo brings back what is here.") : damage);
   ImGui::SameLine();
   if (ImGui::Button(Tr("Keep what is here"))) {
-    workspace.KeepLocal();
+    workspace.project().KeepLocal();
   }
   Tooltip(Tr("Saving will then overwrite the files."));
   ImGui::SameLine();
@@ -89,10 +89,10 @@ void DrawOutsideChoice(editor::Workspace& workspace) {
 
 void DrawMessages(const editor::Workspace& workspace) {
   const bool at_end = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0f;
-  if (workspace.messages().empty()) {
+  if (workspace.messages().entries().empty()) {
     DimText(Tr("Nothing to report."));
   }
-  for (const editor::Message& message : workspace.messages()) {
+  for (const editor::Message& message : workspace.messages().entries()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ColourOf(message.level));
     ImGui::TextWrapped("%s", WithIcon(IconOf(message.level), message.text).c_str());
     ImGui::PopStyleColor();
@@ -105,9 +105,9 @@ void DrawMessages(const editor::Workspace& workspace) {
 
 void MarkUnread(const editor::Workspace& workspace, uint64_t read) {
   using Level = editor::Message::Level;
-  const std::deque<editor::Message>& messages = workspace.messages();
+  const std::deque<editor::Message>& messages = workspace.messages().entries();
   const auto unread =
-      static_cast<size_t>(std::min<uint64_t>(workspace.messages_told() - read, messages.size()));
+      static_cast<size_t>(std::min<uint64_t>(workspace.messages().told() - read, messages.size()));
   Level level = Level::kInfo;
   for (size_t i = messages.size() - unread; i < messages.size(); ++i) {
     level = std::max(level, messages[i].level);
@@ -127,23 +127,25 @@ void DrawStatusBar(editor::Workspace& workspace) {
   for (const editor::TaskList::Entry& entry : workspace.tasks().entries()) {
     DrawTask(*entry.task);
   }
-  if (workspace.changed_outside()) {
+  if (workspace.project().files().changed_outside()) {
     DrawOutsideChoice(workspace);
   }
-  const size_t unbuilt = workspace.PeopleLeft();
+  const size_t unbuilt = workspace.cast().PeopleLeft();
   if (unbuilt > 0) {
     ImGui::AlignTextToFramePadding();
-    const char* text = workspace.HasStandIns() ? Tr("Building people: %d left; others stand in")
-                                               : Tr("Building people: %d left");
+    const char* text = workspace.preview().has_stand_ins()
+                           ? Tr("Building people: %d left; others stand in")
+                           : Tr("Building people: %d left");
     DimText(Text(text, static_cast<int>(unbuilt)));
     ImGui::SameLine();
   }
   // The newest message, in every layout; while tasks run, only warnings and errors.
-  const bool tells = !workspace.messages().empty() && !workspace.changed_outside() &&
-                     (workspace.tasks_empty() ||
-                      workspace.messages().back().level != editor::Message::Level::kInfo);
+  const bool tells = !workspace.messages().entries().empty() &&
+                     !workspace.project().files().changed_outside() &&
+                     (workspace.tasks().entries().empty() ||
+                      workspace.messages().entries().back().level != editor::Message::Level::kInfo);
   if (tells) {
-    const editor::Message& newest = workspace.messages().back();
+    const editor::Message& newest = workspace.messages().entries().back();
     ImGui::AlignTextToFramePadding();
     const float room = 0.62f * ImGui::GetContentRegionAvail().x;
     const std::string shown = Elided(WithIcon(IconOf(newest.level), newest.text), room);
@@ -151,13 +153,14 @@ void DrawStatusBar(editor::Workspace& workspace) {
     Tooltip(newest.text);
     ImGui::SameLine();
   }
-  std::string text = workspace.paths().folder.string();
-  if (workspace.commands().dirty()) {
+  std::string text = workspace.project().paths().folder.string();
+  if (workspace.project().commands().dirty()) {
     text += std::string("  \xe2\x80\xa2  ") + Tr("not saved");
   }
   const float width = ImGui::CalcTextSize(text.c_str()).x;
   const float right = ImGui::GetContentRegionMax().x - width;
-  if (workspace.tasks_empty() && workspace.messages().empty() && unbuilt == 0) {
+  if (workspace.tasks().entries().empty() && workspace.messages().entries().empty() &&
+      unbuilt == 0) {
     ImGui::AlignTextToFramePadding();
     DimText(Tr("Ready"));
     ImGui::SameLine();

@@ -37,8 +37,8 @@ std::string LocateProblem(const editor::ProjectPaths& paths,
 void MissingFilesPanel::Look(const editor::Workspace& workspace) {
   if (looked_ < 0.0 || ImGui::GetTime() > looked_ + kFileCheckInterval) {
     looked_ = ImGui::GetTime();
-    const editor::DramaRun* run = workspace.drama_run();
-    missing_ = editor::MissingFiles(workspace.paths(), workspace.document(),
+    const editor::DramaRun* run = workspace.dry_run().newest();
+    missing_ = editor::MissingFiles(workspace.project().paths(), workspace.project().document(),
                                     run != nullptr
                                         ? std::span<const editor::MissingSound>(run->missing_sounds)
                                         : std::span<const editor::MissingSound>());
@@ -49,7 +49,7 @@ void MissingFilesPanel::FillOffers(const editor::Workspace& workspace,
                                    const editor::Relocation& located) {
   if (offered_for_ != located.to) {
     offered_for_ = located.to;
-    offers_ = editor::SameMove(workspace.paths(), missing_, located);
+    offers_ = editor::SameMove(workspace.project().paths(), missing_, located);
   }
 }
 
@@ -58,11 +58,11 @@ void MissingFilesPanel::DrawRow(const editor::Workspace& workspace,
   ImGui::PushID(file.path.c_str());
   if (ImGui::Button(Tr("Locate\xe2\x80\xa6"))) {
     locating_ = file;
-    const std::filesystem::path was = workspace.paths().Resolve(file.path);
+    const std::filesystem::path was = workspace.project().paths().Resolve(file.path);
     std::error_code ignored;
     typed_ = std::filesystem::is_directory(was.parent_path(), ignored)
                  ? was.string()
-                 : workspace.paths().folder.string();
+                 : workspace.project().paths().folder.string();
     offered_for_.clear();
     offers_.clear();
     take_offers_ = true;
@@ -76,7 +76,7 @@ void MissingFilesPanel::DrawRow(const editor::Workspace& workspace,
 }
 
 void MissingFilesPanel::DrawDialog(editor::Workspace& workspace) {
-  const editor::ProjectPaths& paths = workspace.paths();
+  const editor::ProjectPaths& paths = workspace.project().paths();
   if (locating_->kind == editor::FileKind::kSound) {
     Hint(Text(Tr("Which recording is %s? It is copied into the project's audio folder."),
               locating_->shown.c_str()));
@@ -127,15 +127,15 @@ void MissingFilesPanel::Take(editor::Workspace& workspace,
       return file.kind == editor::FileKind::kSound && file.path == move.from;
     });
     if (sound) {
-      workspace.BringInSound(std::filesystem::path(move.from).filename().string(),
-                             workspace.paths().Resolve(move.to));
+      workspace.project().BringInSound(std::filesystem::path(move.from).filename().string(),
+                                       workspace.project().paths().Resolve(move.to));
     } else {
       renamed.push_back(move);
     }
   }
   if (!renamed.empty()) {
     const std::string name = std::filesystem::path(renamed.front().to).filename().string();
-    workspace.Edit(Text(Tr("locate %s"), name.c_str()), [&](editor::ProjectDocument& document) {
+    workspace.project().Edit(Sentence("locate %s", {name}), [&](editor::ProjectDocument& document) {
       for (const editor::Relocation& move : renamed) {
         editor::Relocate(move, document);
       }

@@ -33,7 +33,7 @@ void OpenTrainDialog(const editor::Workspace& workspace, Dialogs& dialogs) {
     return;
   }
   dialogs.fields.place = "place";
-  if (const editor::PlaceDocument* place = workspace.place()) {
+  if (const editor::PlaceDocument* place = workspace.project().place()) {
     dialogs.fields.place = place->name;
     dialogs.fields.file = place->training.path;
     dialogs.fields.images = place->training.kind == editor::SourceDocument::Kind::kImages;
@@ -42,19 +42,21 @@ void OpenTrainDialog(const editor::Workspace& workspace, Dialogs& dialogs) {
 }
 
 bool CanAddSession(editor::Workspace& workspace) {
-  return workspace.place() != nullptr && workspace.loaded().database != nullptr &&
+  return workspace.project().place() != nullptr && workspace.map().loaded().database != nullptr &&
          !workspace.tasks().Running(editor::TaskKind::kTraining);
 }
 
 std::string UndoLabel(const editor::Workspace& workspace) {
-  return workspace.commands().CanUndo()
-             ? Text(Tr("Undo %s"), workspace.commands().undo_name().c_str())
+  return workspace.project().commands().CanUndo()
+             ? Text(Tr("Undo %s"),
+                    workspace.project().commands().undo_name().Translated(Tr).c_str())
              : Tr("Undo");
 }
 
 std::string RedoLabel(const editor::Workspace& workspace) {
-  return workspace.commands().CanRedo()
-             ? Text(Tr("Redo %s"), workspace.commands().redo_name().c_str())
+  return workspace.project().commands().CanRedo()
+             ? Text(Tr("Redo %s"),
+                    workspace.project().commands().redo_name().Translated(Tr).c_str())
              : Tr("Redo");
 }
 
@@ -63,7 +65,7 @@ void FileMenu(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& act
     actions.push_back(CloseProject{});
   }
   if (MenuItem(Tr("Save"), KeyAction::kSave)) {
-    workspace.Save();
+    workspace.project().Save();
   }
   if (ImGui::MenuItem(Tr("Export\xe2\x80\xa6"))) {
     dialogs.Open(Dialog::kExport);
@@ -76,12 +78,12 @@ void FileMenu(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& act
 
 void EditMenu(editor::Workspace& workspace) {
   if (MenuItem(UndoLabel(workspace).c_str(), KeyAction::kUndo, false,
-               workspace.commands().CanUndo())) {
-    workspace.Undo();
+               workspace.project().commands().CanUndo())) {
+    workspace.project().Undo();
   }
   if (MenuItem(RedoLabel(workspace).c_str(), KeyAction::kRedo, false,
-               workspace.commands().CanRedo())) {
-    workspace.Redo();
+               workspace.project().commands().CanRedo())) {
+    workspace.project().Redo();
   }
 }
 
@@ -89,7 +91,7 @@ void PlaceMenu(editor::Workspace& workspace,
                Selection& selection,
                ViewOptions& options,
                Dialogs& dialogs) {
-  const bool training = workspace.tasks().Running(editor::Workspace::kTraining);
+  const bool training = workspace.tasks().Running(editor::TaskKind::kTraining);
   if (ImGui::MenuItem(Tr("Train\xe2\x80\xa6"), nullptr, false, !training)) {
     OpenTrainDialog(workspace, dialogs);
   }
@@ -97,27 +99,27 @@ void PlaceMenu(editor::Workspace& workspace,
     dialogs.Open(Dialog::kAddSession);
   }
   if (ImGui::MenuItem(Tr("The training's report\xe2\x80\xa6"), nullptr, false,
-                      workspace.loaded().report != nullptr)) {
+                      workspace.map().loaded().report != nullptr)) {
     dialogs.Open(Dialog::kTrainingReport);
   }
   if (ImGui::MenuItem(Tr("Put the former map back"), nullptr, false,
-                      workspace.loaded().has_previous && !training)) {
-    workspace.RestorePreviousMap();
+                      workspace.map().loaded().has_previous && !training)) {
+    workspace.training().RestorePreviousMap();
   }
   if (ImGui::MenuItem(Tr("Bake"))) {
-    workspace.Bake();
+    workspace.jobs().Bake();
   }
   if (MenuItem(Tr("Lay the stage on the floor"), KeyAction::kLayOnFloor, false,
-               workspace.loaded().measures.floor.has_value())) {
-    workspace.LayStageOnFloor();
+               workspace.map().loaded().measures.floor.has_value())) {
+    workspace.map().LayStageOnFloor();
   }
   ImGui::Separator();
-  const bool any = workspace.place() != nullptr;
+  const bool any = workspace.project().place() != nullptr;
   if (ImGui::MenuItem(Tr("Add an occluder\xe2\x80\xa6"), nullptr, false, any)) {
     dialogs.Open(Dialog::kOccluder);
   }
   if (ImGui::MenuItem(Tr("Draw an occluder"), nullptr, false,
-                      any && workspace.loaded().database != nullptr)) {
+                      any && workspace.map().loaded().database != nullptr)) {
     DrawNewOccluder(workspace, selection, options);
   }
   if (ImGui::MenuItem(Tr("Add a light probe\xe2\x80\xa6"), nullptr, false, any)) {
@@ -138,18 +140,18 @@ void DrawTab(Input& input, EditorActions& actions, BottomTab tab) {
 
 // The menu of the camera view's source.
 void ViewSourceMenu(editor::Workspace& workspace, Dialogs& dialogs) {
-  using Source = editor::Workspace::ViewSource;
-  const Source now = workspace.view_source();
+  using Source = editor::PreviewSession::ViewSource;
+  const Source now = workspace.preview().view_source();
   if (!ImGui::BeginMenu(Label(Tr("The camera is"), "source").c_str(),
-                        workspace.place() != nullptr)) {
+                        workspace.project().place() != nullptr)) {
     return;
   }
   if (ImGui::MenuItem(Tr("The place's recording"), nullptr, now == Source::kRecording)) {
-    workspace.SetViewSource(Source::kRecording);
+    workspace.preview().SetViewSource(Source::kRecording);
   }
   if (ImGui::MenuItem(Tr("The training's recording"), nullptr, now == Source::kTraining,
-                      workspace.has_own_recording())) {
-    workspace.SetViewSource(Source::kTraining);
+                      workspace.preview().has_own_recording())) {
+    workspace.preview().SetViewSource(Source::kTraining);
   }
   if (ImGui::MenuItem(Tr("A live camera\xe2\x80\xa6"), nullptr, now == Source::kLive)) {
     dialogs.Open(Dialog::kLiveCamera);
@@ -202,11 +204,11 @@ void ViewMenu(editor::Workspace& workspace,
     options.show_occluders = !options.show_occluders;
   }
   ImGui::Separator();
-  if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.shows_evidence())) {
-    workspace.SetEvidence(!workspace.shows_evidence());
+  if (MenuItem(Tr("Evidence"), KeyAction::kEvidence, workspace.preview().look().evidence)) {
+    workspace.preview().look().evidence = !workspace.preview().look().evidence;
   }
-  if (MenuItem(Tr("Sound"), KeyAction::kSound, workspace.sound())) {
-    workspace.SetSound(!workspace.sound());
+  if (MenuItem(Tr("Sound"), KeyAction::kSound, workspace.playback().sound())) {
+    workspace.playback().SetSound(!workspace.playback().sound());
   }
   ImGui::Separator();
   LookMenu(settings);
@@ -239,8 +241,8 @@ void ViewMenu(editor::Workspace& workspace,
   }
   ViewSourceMenu(workspace, dialogs);
   ImGui::Separator();
-  if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.descriptions())) {
-    workspace.SetDescriptions(!workspace.descriptions());
+  if (ImGui::MenuItem(Tr("Descriptions"), nullptr, workspace.preview().look().descriptions)) {
+    workspace.preview().look().descriptions = !workspace.preview().look().descriptions;
   }
 }
 
@@ -250,8 +252,8 @@ void SetGizmo(GizmoTool& gizmo, GizmoMode mode) {
 }
 
 void SelectLight(const editor::Workspace& workspace, Selection& selection, ViewOptions& options) {
-  if (workspace.place() != nullptr && !workspace.place()->probes.empty()) {
-    selection = {Selection::Kind::kProbe, workspace.place()->probes.front().name};
+  if (workspace.project().place() != nullptr && !workspace.project().place()->probes.empty()) {
+    selection = {Selection::Kind::kProbe, workspace.project().place()->probes.front().name};
     options.view = ViewKind::kCamera;
   }
 }
@@ -347,12 +349,12 @@ void Do(editor::Workspace& workspace,
       ImGui::GetIO().WantTextInput && input.focus != Focus::kScript && !TypesIntoWrappedField();
   switch (action) {
     case KeyAction::kSave:
-      workspace.Save();
+      workspace.project().Save();
       break;
     case KeyAction::kUndo:
     case KeyAction::kRedo:
       if (!own_undo) {  // The active text field may have its own undo.
-        action == KeyAction::kUndo ? workspace.Undo() : workspace.Redo();
+        action == KeyAction::kUndo ? workspace.project().Undo() : workspace.project().Redo();
       }
       break;
     case KeyAction::kLeave:
@@ -365,7 +367,7 @@ void Do(editor::Workspace& workspace,
       dialogs.Open(Dialog::kKeys);
       break;
     case KeyAction::kEvidence:
-      workspace.SetEvidence(!workspace.shows_evidence());
+      workspace.preview().look().evidence = !workspace.preview().look().evidence;
       break;
     case KeyAction::kTimelineTab:
       DrawTab(input, actions, BottomTab::kTimeline);
@@ -380,7 +382,7 @@ void Do(editor::Workspace& workspace,
       DrawTab(input, actions, BottomTab::kMessages);
       break;
     case KeyAction::kPlay:
-      workspace.SetPlaying(!workspace.playing());
+      workspace.playback().SetPlaying(!workspace.playback().playing());
       break;
     case KeyAction::kPanelAfter:
     case KeyAction::kPanelBefore:
@@ -420,7 +422,7 @@ void DoInViews(editor::Workspace& workspace,
       SetGizmo(tools.gizmo, GizmoMode::kScale);
       break;
     case KeyAction::kLayOnFloor:
-      workspace.LayStageOnFloor();
+      workspace.map().LayStageOnFloor();
       break;
     case KeyAction::kLight:
       SelectLight(workspace, selection, options);
@@ -441,7 +443,7 @@ void DoInViews(editor::Workspace& workspace,
       AskForOnionMore(options, actions);
       break;
     case KeyAction::kSound:
-      workspace.SetSound(!workspace.sound());
+      workspace.playback().SetSound(!workspace.playback().sound());
       break;
     case KeyAction::kPointColours:
       tools.place.colours = After(tools.place.colours);
@@ -454,8 +456,8 @@ void DoInViews(editor::Workspace& workspace,
       break;
     case KeyAction::kFrameBack:
     case KeyAction::kFrameOn:
-      workspace.SetPlaying(false);
-      workspace.StepFrames(action == KeyAction::kFrameOn ? 1 : -1);
+      workspace.playback().SetPlaying(false);
+      workspace.playback().StepFrames(action == KeyAction::kFrameOn ? 1 : -1);
       break;
     case KeyAction::kUnselect:
       if (tools.align.picking) {
@@ -530,7 +532,7 @@ void DrawToolbar(editor::Workspace& workspace,
   const float gap = Px(22);
   const bool words = WordsFit(gap);
   const editor::TaskList& tasks = workspace.tasks();
-  if (DrawTool(kTrain, words, !tasks.Running(editor::Workspace::kTraining))) {
+  if (DrawTool(kTrain, words, !tasks.Running(editor::TaskKind::kTraining))) {
     OpenTrainDialog(workspace, dialogs);
   }
   ImGui::SameLine();
@@ -539,10 +541,10 @@ void DrawToolbar(editor::Workspace& workspace,
   }
   ImGui::SameLine();
   if (DrawTool(kBake, words, !tasks.Running(editor::TaskKind::kBaking))) {
-    workspace.Bake();
+    workspace.jobs().Bake();
   }
   ImGui::SameLine();
-  if (DrawTool(kExport, words, !tasks.Running(editor::Workspace::kExporting))) {
+  if (DrawTool(kExport, words, !tasks.Running(editor::TaskKind::kExporting))) {
     dialogs.Open(Dialog::kExport);
   }
   ImGui::SameLine(0.0f, gap);
@@ -556,12 +558,12 @@ void DrawToolbar(editor::Workspace& workspace,
     SetGizmo(gizmo, static_cast<GizmoMode>(mode));
   }
   ImGui::SameLine(0.0f, gap);
-  if (DrawTool(kUndo, words, workspace.commands().CanUndo())) {
-    workspace.Undo();
+  if (DrawTool(kUndo, words, workspace.project().commands().CanUndo())) {
+    workspace.project().Undo();
   }
   ImGui::SameLine();
-  if (DrawTool(kRedo, words, workspace.commands().CanRedo())) {
-    workspace.Redo();
+  if (DrawTool(kRedo, words, workspace.project().commands().CanRedo())) {
+    workspace.project().Redo();
   }
 }
 
@@ -577,7 +579,7 @@ void HandleShortcuts(editor::Workspace& workspace,
   }
   if (ImGui::GetIO().WantTextInput && Pressed(input, KeyAction::kStopWalking)) {
     // Escape restores the old text as a separate command, so that undo brings the typed text back.
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
   for (const KeyPress& press : input.keys) {
     if (ImGui::GetIO().WantTextInput && !IsNoTyping(press)) {

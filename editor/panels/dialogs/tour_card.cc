@@ -36,18 +36,18 @@ TourFacts FactsOf(const editor::Workspace& workspace,
                   const Selection& selection,
                   const ViewOptions& options) {
   TourFacts facts;
-  facts.trained = workspace.loaded().database != nullptr;
-  facts.picture = workspace.picture() != nullptr;
-  facts.playing = workspace.playing();
+  facts.trained = workspace.map().loaded().database != nullptr;
+  facts.picture = workspace.preview().picture() != nullptr;
+  facts.playing = workspace.playback().playing();
   facts.around = options.view == ViewKind::kAround;
   facts.matches = options.show_matches;
   facts.person = selection.kind == Selection::Kind::kActor;
-  facts.script = workspace.script().revision();
-  facts.can_redo = workspace.commands().CanRedo();
-  facts.checked = workspace.checked();
-  facts.dirty = workspace.commands().dirty();
-  facts.exported = workspace.exported() != nullptr;
-  if (const editor::PlaceDocument* place = workspace.place()) {
+  facts.script = workspace.project().script().revision();
+  facts.can_redo = workspace.project().commands().CanRedo();
+  facts.checked = workspace.jobs().checked();
+  facts.dirty = workspace.project().commands().dirty();
+  facts.exported = workspace.jobs().exported() != nullptr;
+  if (const editor::PlaceDocument* place = workspace.project().place()) {
     const geometry::Similarity3& stage = place->picked_from_stage;
     facts.stage = Text("%g %g %g %g %g %g %g %g", stage.scale, stage.translation.x(),
                        stage.translation.y(), stage.translation.z(), stage.rotation.w(),

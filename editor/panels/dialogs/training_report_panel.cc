@@ -54,7 +54,7 @@ void DrawAdvice(const editor::TrainingReport& report) {
 
 // Returns true when the dialog is finished.
 bool DrawEnd(editor::Workspace& workspace) {
-  if (!workspace.loaded().has_previous) {
+  if (!workspace.map().loaded().has_previous) {
     ImGui::Dummy(ImVec2(0, Px(6)));
     const float width = WidestButton(std::array{Tr("Close")}, 110.0f);
     ImGui::SetCursorPosX(ImGui::GetContentRegionMax().x - width);
@@ -65,7 +65,7 @@ bool DrawEnd(editor::Workspace& workspace) {
          "back here or in the place's inspector."));
   const DialogAnswer answer = DialogButtons(Tr("Keep this map"), "", Tr("Put the former map back"));
   if (answer == DialogAnswer::kCancel) {
-    workspace.RestorePreviousMap();
+    workspace.training().RestorePreviousMap();
   }
   return answer != DialogAnswer::kNone;
 }
@@ -73,12 +73,12 @@ bool DrawEnd(editor::Workspace& workspace) {
 }  // namespace
 
 void TrainingReportDialog(editor::Workspace& workspace, Dialogs& dialogs) {
-  const std::shared_ptr<const editor::TrainingReport> report = workspace.loaded().report;
-  if (report == nullptr || workspace.place() == nullptr) {
+  const std::shared_ptr<const editor::TrainingReport> report = workspace.map().loaded().report;
+  if (report == nullptr || workspace.project().place() == nullptr) {
     dialogs.shown = Dialog::kNone;
     return;
   }
-  Heading(workspace.place()->name.c_str());
+  Heading(workspace.project().place()->name.c_str());
   DrawFigures(*report);
   ImGui::Dummy(ImVec2(0, Px(4)));
   DrawAdvice(*report);

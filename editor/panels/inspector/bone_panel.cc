@@ -25,14 +25,14 @@ void Choose(editor::Workspace& workspace,
             const editor::CastDocument& member,
             const std::string& joint,
             const std::optional<std::string>& bone) {
-  workspace.Edit(Text(Tr("bone of %s of %s"), joint.c_str(), member.name.c_str()),
-                 [&](editor::ProjectDocument& document) {
-                   for (editor::CastDocument& known : document.cast) {
-                     if (known.name == member.name) {
-                       editor::ChooseBone(joint, bone, known);
-                     }
-                   }
-                 });
+  workspace.project().Edit(Sentence("bone of %s of %s", {joint, member.name}),
+                           [&](editor::ProjectDocument& document) {
+                             for (editor::CastDocument& known : document.cast) {
+                               if (known.name == member.name) {
+                                 editor::ChooseBone(joint, bone, known);
+                               }
+                             }
+                           });
 }
 
 void JointCell(CastView& cast_view, const editor::BoneRow& row) {
@@ -170,7 +170,7 @@ void DrawBones(editor::Workspace& workspace,
   if (!Fold(Label(Tr("Bones"), "bones"), true)) {
     return;
   }
-  const editor::BoneReview* review = workspace.bone_review(member);
+  const editor::BoneReview* review = workspace.cast().bone_review(member);
   if (review == nullptr) {
     Hint(workspace.tasks().Running(editor::TaskKind::kBoneReview)
              ? Tr("Reading the figure\xe2\x80\xa6")
@@ -185,7 +185,7 @@ void DrawBones(editor::Workspace& workspace,
   }
   ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kBoneReview));
   if (ImGui::Button(Tr("Save the map"), ImVec2(-FLT_MIN, 0))) {
-    workspace.SaveBones(member);
+    workspace.cast().SaveBones(member);
   }
   ImGui::EndDisabled();
   Hint(member.bone_map.empty() ? Tr("For other figures of the same make: cast --bone-map.")

@@ -91,7 +91,7 @@ void DrawActor(editor::Workspace& workspace,
   RecipeChange change = DrawFigure(workspace, cast_view, edited);
   DrawVoice(workspace, edited, change);
   if (change.any()) {
-    workspace.Edit(
+    workspace.project().Edit(
         Sentence("%s of %s", {change.what, member.name}),
         [&edited](editor::ProjectDocument& document) {
           std::replace_if(
@@ -103,10 +103,11 @@ void DrawActor(editor::Workspace& workspace,
   DrawClips(workspace, dialogs, member);
   Hint(Tr("Where people stand and what they do is written in the drama."));
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
-    workspace.Edit(Text(Tr("remove %s"), member.name.c_str()),
-                   [name = member.name](editor::ProjectDocument& document) {
-                     std::erase_if(document.cast, [&](const auto& m) { return m.name == name; });
-                   });
+    workspace.project().Edit(Sentence("remove %s", {member.name}),
+                             [name = member.name](editor::ProjectDocument& document) {
+                               std::erase_if(document.cast,
+                                             [&](const auto& m) { return m.name == name; });
+                             });
     selection = {};
   }
   ImGui::EndChild();

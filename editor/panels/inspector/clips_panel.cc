@@ -27,7 +27,7 @@ constexpr float kAddingWidth = 460.0f;
 // "12, 40": the lines of the script that contain the word; empty: none.
 std::string LinesOf(const editor::Workspace& workspace, const std::string& word) {
   constexpr size_t kMost = 6;
-  const std::vector<size_t> lines = editor::LinesThatSay(workspace.script().text(), word);
+  const std::vector<size_t> lines = editor::LinesThatSay(workspace.project().script().text(), word);
   std::string text;
   for (size_t i = 0; i < std::min(lines.size(), kMost); ++i) {
     text += (i > 0 ? ", " : "") + std::to_string(lines[i]);
@@ -54,19 +54,19 @@ class ClipsPanel {
 
  private:
   void Edit(const Sentence& what, const std::function<Status(editor::CastDocument&)>& change) {
-    workspace_.Edit(Sentence("%s of %s", {what, member_.name}),
-                    [&](editor::ProjectDocument& document) {
-                      for (editor::CastDocument& known : document.cast) {
-                        if (known.name == member_.name) {
-                          Tell(change(known));
-                        }
-                      }
-                    });
+    workspace_.project().Edit(Sentence("%s of %s", {what, member_.name}),
+                              [&](editor::ProjectDocument& document) {
+                                for (editor::CastDocument& known : document.cast) {
+                                  if (known.name == member_.name) {
+                                    Tell(change(known));
+                                  }
+                                }
+                              });
   }
 
   void Tell(const Status& status) {
     if (!status.ok()) {
-      workspace_.Tell(editor::Message::Level::kError, status.message());
+      workspace_.messages().Tell(editor::Message::Level::kError, status.message());
     }
   }
 
@@ -74,9 +74,9 @@ class ClipsPanel {
   // belongs to the author.
   void WarnOfUses(const std::string& name) {
     if (const std::string lines = LinesOf(workspace_, name); !lines.empty()) {
-      workspace_.Tell(editor::Message::Level::kWarning,
-                      Text(Tr("The drama still says \"%s\": line %s of the script."), name.c_str(),
-                           lines.c_str()));
+      workspace_.messages().Tell(editor::Message::Level::kWarning,
+                                 Text(Tr("The drama still says \"%s\": line %s of the script."),
+                                      name.c_str(), lines.c_str()));
     }
   }
 
@@ -141,7 +141,7 @@ class ClipsPanel {
 
   // Known after the dry run of the drama.
   std::string LengthOf(const std::string& name) const {
-    const editor::DramaRun* run = workspace_.drama_run();
+    const editor::DramaRun* run = workspace_.dry_run().newest();
     const double seconds = run != nullptr ? run->words.ClipSeconds(member_.name, name) : 0.0;
     return seconds > 0.0 ? Text("%.2f s", seconds) : "\xe2\x80\x93";
   }
@@ -170,7 +170,7 @@ class ClipsPanel {
     if (file.empty()) {
       return Tr("It needs a file: BVH, FBX, glTF or VRM.");
     }
-    if (!std::filesystem::is_regular_file(workspace_.paths().Resolve(file), ignored)) {
+    if (!std::filesystem::is_regular_file(workspace_.project().paths().Resolve(file), ignored)) {
       return Tr("There is no such file.");
     }
     if (std::string problem = NameProblem(NewName()); !problem.empty()) {
@@ -196,7 +196,7 @@ class ClipsPanel {
     DialogFields& fields = fields_;
     if (BeginProperties("new clip")) {
       PropertyLabel(Tr("File"));
-      PathField("file", fields.file, workspace_.paths().folder, kMotions);
+      PathField("file", fields.file, workspace_.project().paths().folder, kMotions);
       PropertyLabel(Tr("Name"));
       const std::string as_file = fields.file.empty() ? Tr("as the file") : NewName();
       ImGui::InputTextWithHint("##name", as_file.c_str(), &fields.name);
@@ -213,8 +213,8 @@ class ClipsPanel {
   }
 
   void Add() {
-    const std::filesystem::path file = workspace_.paths().Resolve(fields_.file);
-    const editor::ClipDocument clip{NewName(), workspace_.paths().Shorten(file), false};
+    const std::filesystem::path file = workspace_.project().paths().Resolve(fields_.file);
+    const editor::ClipDocument clip{NewName(), workspace_.project().paths().Shorten(file), false};
     Edit(Sentence("add the clip %s", {clip.name}),
          [&](editor::CastDocument& known) { return editor::AddClip(clip, known); });
   }

@@ -40,26 +40,27 @@ void DrawProject(editor::Workspace& workspace, Dialogs& dialogs) {
   if (!BeginProperties("project")) {
     return;
   }
-  std::string title = workspace.document().title;
+  std::string title = workspace.project().document().title;
   PropertyLabel(Tr("Title"));
   if (ImGui::InputText("##title", &title)) {
-    workspace.Edit(
-        Tr("title"), [&](editor::ProjectDocument& document) { document.title = title; }, "title");
+    workspace.project().Edit(
+        Sentence("title"), [&](editor::ProjectDocument& document) { document.title = title; },
+        "title");
   }
   if (ImGui::IsItemDeactivated()) {
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
-  std::string credits = workspace.document().credits;
+  std::string credits = workspace.project().document().credits;
   PropertyLabel(Tr("Credits"));
   if (WrappedField("credits", credits, 4, 16)) {
-    workspace.Edit(
-        Tr("credits"), [&](editor::ProjectDocument& document) { document.credits = credits; },
+    workspace.project().Edit(
+        Sentence("credits"), [&](editor::ProjectDocument& document) { document.credits = credits; },
         "credits");
   }
   if (ImGui::IsItemDeactivated()) {
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
-  PropertyText(Tr("Drama"), workspace.paths().Drama().filename().string());
+  PropertyText(Tr("Drama"), workspace.project().paths().Drama().filename().string());
   EndProperties();
   DrawLanguages(workspace);
   DrawSounds(workspace, dialogs);
@@ -71,7 +72,7 @@ std::string SourceText(const editor::SourceDocument& source) {
 
 void DrawMap(const editor::Workspace& workspace, const vision::SceneDatabase& database) {
   const geometry::CameraModel& camera = database.camera;
-  const editor::TrainingReport* training = workspace.loaded().report.get();
+  const editor::TrainingReport* training = workspace.map().loaded().report.get();
   if (training != nullptr) {
     PropertyText(Tr("Frames"), Text(Tr("%d of %d located"), training->located, training->frames));
   }
@@ -93,7 +94,7 @@ void DrawMap(const editor::Workspace& workspace, const vision::SceneDatabase& da
   PropertyText(Tr("Distortion"), Text("%.4f, %.4f", camera.k1, camera.k2));
 }
 
-const char* ScaleSource(const editor::LoadedPlace& loaded) {
+const char* ScaleSource(const editor::LoadedMap& loaded) {
   if (!loaded.measured) {
     return Tr("being measured");
   }
@@ -106,7 +107,7 @@ const char* ScaleSource(const editor::LoadedPlace& loaded) {
 // The source of the stage's scale, and its error.
 void DrawScale(editor::Workspace& workspace, const editor::PlaceDocument& place) {
   Heading(Tr("Metres"));
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   editor::TagsDocument tags = place.tags.value_or(editor::TagsDocument());
   bool changed = false;
   if (BeginProperties("scale")) {
@@ -146,8 +147,8 @@ void DrawScale(editor::Workspace& workspace, const editor::PlaceDocument& place)
     EndProperties();
   }
   if (changed) {
-    workspace.EditPlace(
-        Tr("tags"), [&](editor::PlaceDocument& p) { p.tags = tags; }, "tags");
+    workspace.project().EditPlace(
+        Sentence("tags"), [&](editor::PlaceDocument& p) { p.tags = tags; }, "tags");
   }
   if (!loaded.measures.tag_problem.ok()) {
     Hint(loaded.measures.tag_problem.message());
@@ -156,18 +157,19 @@ void DrawScale(editor::Workspace& workspace, const editor::PlaceDocument& place)
     Hint(
         Tr("An AprilTag of known size in view of the recording gives the metres without picking."));
     if (ImGui::Button(Tr("Take the metres from tags"), ImVec2(-FLT_MIN, 0))) {
-      workspace.EditPlace(Tr("metres from tags"), [](editor::PlaceDocument& p) {
+      workspace.project().EditPlace(Sentence("metres from tags"), [](editor::PlaceDocument& p) {
         p.tags = editor::TagsDocument();
         p.tags->size_m = 0.1;
       });
     }
   } else if (ImGui::Button(Tr("Do without tags"), ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace(Tr("do without tags"), [](editor::PlaceDocument& p) { p.tags.reset(); });
+    workspace.project().EditPlace(Sentence("do without tags"),
+                                  [](editor::PlaceDocument& p) { p.tags.reset(); });
   }
 }
 
 // A description of the command, or why it is not possible.
-const char* AboutLayingOnFloor(const editor::LoadedPlace& loaded) {
+const char* AboutLayingOnFloor(const editor::LoadedMap& loaded) {
   if (loaded.database == nullptr) {
     return Tr("The place has to be trained first: its floor is looked for in the map.");
   }
@@ -181,17 +183,17 @@ const char* AboutLayingOnFloor(const editor::LoadedPlace& loaded) {
 }
 
 void LayOnFloorButton(editor::Workspace& workspace) {
-  ImGui::BeginDisabled(!workspace.loaded().measures.floor.has_value());
+  ImGui::BeginDisabled(!workspace.map().loaded().measures.floor.has_value());
   if (ImGui::Button(Tr("Lay the stage on the floor"), ImVec2(-FLT_MIN, 0))) {
-    workspace.LayStageOnFloor();
+    workspace.map().LayStageOnFloor();
   }
   ImGui::EndDisabled();
-  Tooltip(AboutLayingOnFloor(workspace.loaded()));
+  Tooltip(AboutLayingOnFloor(workspace.map().loaded()));
 }
 
 void DrawFloor(editor::Workspace& workspace, const editor::PlaceDocument& place) {
   Heading(Tr("Floor"));
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   if (!loaded.measures.floor) {
     Hint(Tr("No large level surface was found among the points."));
     return;
@@ -214,14 +216,15 @@ void DrawFloor(editor::Workspace& workspace, const editor::PlaceDocument& place)
 }
 
 void TakeOverOccluders(editor::Workspace& workspace, const editor::PlaceDocument& from) {
-  workspace.EditPlace(
-      Text(Tr("take over the occluders of %s"), from.name.c_str()),
+  workspace.project().EditPlace(
+      Sentence("take over the occluders of %s", {from.name}),
       [&](editor::PlaceDocument& place) { editor::TakeOverOccluders(from, place); });
 }
 
 // The choice of another place.
 void DrawOtherPlaces(editor::Workspace& workspace, const editor::PlaceDocument& place) {
-  const std::shared_ptr<const editor::ProjectDocument> document = workspace.commands().snapshot();
+  const std::shared_ptr<const editor::ProjectDocument> document =
+      workspace.project().commands().snapshot();
   const ImVec2 wide(-FLT_MIN, 0);
   for (const editor::PlaceDocument& other : document->places) {
     const bool has_models = std::any_of(other.occluders.begin(), other.occluders.end(),
@@ -233,9 +236,10 @@ void DrawOtherPlaces(editor::Workspace& workspace, const editor::PlaceDocument& 
   }
   const std::string remove = Text(Tr("Remove %s from the project"), place.name.c_str());
   if (ImGui::Button(remove.c_str(), wide)) {
-    workspace.Edit(Text(Tr("remove %s"), place.name.c_str()), [&](editor::ProjectDocument& edited) {
-      std::erase_if(edited.places, [&](const auto& p) { return p.name == place.name; });
-    });
+    workspace.project().Edit(
+        Sentence("remove %s", {place.name}), [&](editor::ProjectDocument& edited) {
+          std::erase_if(edited.places, [&](const auto& p) { return p.name == place.name; });
+        });
   }
   Hint(Tr("Its files stay on the disk, and undo brings it back."));
 }
@@ -264,7 +268,7 @@ void RemoveSessionButton(editor::Workspace& workspace, uint32_t session, const s
     }
     ImGui::SameLine();
     if (ImGui::Button(Tr("Remove"), ImVec2(half, 0))) {
-      workspace.RemoveSession(session);
+      workspace.training().RemoveSession(session);
       ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();
@@ -273,14 +277,14 @@ void RemoveSessionButton(editor::Workspace& workspace, uint32_t session, const s
 }
 
 void DrawTraining(editor::Workspace& workspace, Dialogs& dialogs) {
-  if (workspace.loaded().report != nullptr &&
+  if (workspace.map().loaded().report != nullptr &&
       ImGui::Button(Tr("The training's report\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
     dialogs.shown = Dialog::kTrainingReport;
   }
-  if (workspace.loaded().has_previous) {
+  if (workspace.map().loaded().has_previous) {
     ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kTraining));
     if (ImGui::Button(Tr("Put the former map back"), ImVec2(-FLT_MIN, 0))) {
-      workspace.RestorePreviousMap();
+      workspace.training().RestorePreviousMap();
     }
     ImGui::EndDisabled();
     Tooltip(
@@ -319,7 +323,7 @@ void DrawPlace(editor::Workspace& workspace,
                Dialogs& dialogs,
                const editor::PlaceDocument& place) {
   Heading(place.name.c_str());
-  const auto database = workspace.loaded().database;
+  const auto database = workspace.map().loaded().database;
   if (BeginProperties("place")) {
     PropertyText(TrIn("recording", "Training"), SourceText(place.training));
     PropertyText(Tr("Preview"), place.preview.empty() ? Tr("the training") : place.preview.path);
@@ -333,7 +337,7 @@ void DrawPlace(editor::Workspace& workspace,
   DrawRecordingToLookAt(workspace, options, dialogs, place);
   if (database != nullptr) {
     DrawTraining(workspace, dialogs);
-    DrawSessions(workspace, place, *workspace.loaded().statistics);
+    DrawSessions(workspace, place, *workspace.map().loaded().statistics);
     DrawScale(workspace, place);
     DrawFloor(workspace, place);
   }
@@ -367,7 +371,7 @@ void DrawStage(editor::Workspace& workspace,
 }
 
 const stage::AnchorReport* FindReport(const editor::Workspace& workspace, const std::string& name) {
-  const auto& solution = workspace.loaded().picks.solution;
+  const auto& solution = workspace.map().loaded().picks.solution;
   if (!solution) {
     return nullptr;
   }
@@ -415,10 +419,10 @@ void DrawAnchorTable(editor::Workspace& workspace,
 
 // Lists picks that this map does not use.
 void DrawLeftOut(const editor::Workspace& workspace) {
-  if (!workspace.loaded().picks.solution) {
+  if (!workspace.map().loaded().picks.solution) {
     return;
   }
-  for (const stage::AnchorReport& report : workspace.loaded().picks.solution->anchors) {
+  for (const stage::AnchorReport& report : workspace.map().loaded().picks.solution->anchors) {
     if (!report.left_out.empty()) {
       std::string text =
           Text(Tr("%s: left out, in frames that are no keyframes now:"), report.name.c_str());
@@ -443,15 +447,15 @@ void DrawPicks(editor::Workspace& workspace,
   if (BeginProperties("length")) {
     double length = place.picks.length_m;
     if (NumberProperty(workspace, Tr("Length"), length, 0.01, 1e-3, 1e4, "%.3f m")) {
-      workspace.EditPlace(
-          Tr("known length"), [&](editor::PlaceDocument& p) { p.picks.length_m = length; },
+      workspace.project().EditPlace(
+          Sentence("known length"), [&](editor::PlaceDocument& p) { p.picks.length_m = length; },
           "length");
     }
-    if (const auto& solution = workspace.loaded().picks.solution) {
+    if (const auto& solution = workspace.map().loaded().picks.solution) {
       PropertyText(Tr("Uncertainty"), Text(Tr("%.2f cm (%.2f %%) for each px"),
                                            100.0 * solution->length_spread * place.picks.length_m,
                                            100.0 * solution->length_spread));
-      if (workspace.loaded().measures.tags) {
+      if (workspace.map().loaded().measures.tags) {
         PropertyText(Tr("By the tags"), Text("%.3f m", solution->measured_length_m));
       }
     }
@@ -471,8 +475,9 @@ void DrawPicks(editor::Workspace& workspace,
     ImGui::BeginDisabled(!any);
     const std::string label = Text(Tr("Clear the picks of %s"), Tr(entry.label));
     if (ImGui::Button(label.c_str(), ImVec2(-FLT_MIN, 0))) {
-      workspace.EditPlace(Tr("clear picks"),
-                          [&](editor::PlaceDocument& p) { (p.picks.*entry.anchor).picks.clear(); });
+      workspace.project().EditPlace(Sentence("clear picks"), [&](editor::PlaceDocument& p) {
+        (p.picks.*entry.anchor).picks.clear();
+      });
     }
     ImGui::EndDisabled();
   }
@@ -488,13 +493,14 @@ void DrawNudge(editor::Workspace& workspace, const editor::PlaceDocument& place)
   }
   Eigen::Vector3d nudge = place.camera_nudge;
   if (VectorProperty(workspace, Tr("Metres"), nudge, 0.001, "%.3f")) {
-    workspace.EditPlace(
-        Tr("nudge the camera"), [&](editor::PlaceDocument& p) { p.camera_nudge = nudge; }, "nudge");
+    workspace.project().EditPlace(
+        Sentence("nudge the camera"), [&](editor::PlaceDocument& p) { p.camera_nudge = nudge; },
+        "nudge");
   }
   EndProperties();
   if (ImGui::Button(Tr("Back to zero"), ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace(Tr("reset the nudge"),
-                        [](editor::PlaceDocument& p) { p.camera_nudge.setZero(); });
+    workspace.project().EditPlace(Sentence("reset the nudge"),
+                                  [](editor::PlaceDocument& p) { p.camera_nudge.setZero(); });
   }
 }
 
@@ -516,8 +522,8 @@ void DrawProbe(editor::Workspace& workspace,
     EndProperties();
   }
   if (changed) {
-    workspace.EditPlace(
-        Tr("light probe"),
+    workspace.project().EditPlace(
+        Sentence("light probe"),
         [&](editor::PlaceDocument& p) {
           for (editor::ProbeDocument& other : p.probes) {
             if (other.name == probe.name) {
@@ -529,9 +535,10 @@ void DrawProbe(editor::Workspace& workspace,
   }
   DrawLightPanel(workspace, options, light, pictures, probe);
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace(Text(Tr("remove %s"), probe.name.c_str()), [&](editor::PlaceDocument& p) {
-      std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });
-    });
+    workspace.project().EditPlace(
+        Sentence("remove %s", {probe.name}), [&](editor::PlaceDocument& p) {
+          std::erase_if(p.probes, [&](const auto& other) { return other.name == probe.name; });
+        });
     selection = {};
   }
 }
@@ -555,11 +562,11 @@ void DrawInspector(editor::Workspace& workspace,
                    Dialogs& dialogs) {
   using Kind = Selection::Kind;
   // Keeps the document alive: an edit below can replace it.
-  const auto document = workspace.commands().snapshot();
-  const editor::PlaceDocument* place = workspace.place();
+  const auto document = workspace.project().commands().snapshot();
+  const editor::PlaceDocument* place = workspace.project().place();
   const std::string& name = selection.name;
   if (selection.kind != Kind::kActor) {
-    workspace.cast_pictures().Look("", {}, {});
+    workspace.cast().pictures().Look("", {}, {});
   }
   if (selection.kind == Kind::kProject) {
     DrawProject(workspace, dialogs);

@@ -31,7 +31,7 @@ void EditProbe(editor::Workspace& workspace,
                const ProbeDocument& changed,
                const Sentence& name,
                std::string_view gesture = {}) {
-  workspace.EditPlace(
+  workspace.project().EditPlace(
       name,
       [&](editor::PlaceDocument& place) {
         for (ProbeDocument& probe : place.probes) {
@@ -63,7 +63,7 @@ void DragPanorama(editor::Workspace& workspace,
   }
   if (ImGui::IsItemDeactivated()) {
     light.dragged_in_probe.reset();
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
 }
 
@@ -265,20 +265,20 @@ void DrawViews(editor::Workspace& workspace, ViewOptions& options, LightView& li
   Tip(Tr("The camera's image alone to the left of a line that you drag."));
   CheckRow(Tr("Histogram"), light.histogram);
   Tip(Tr("How bright the camera's image is, and how bright people are in it."));
-  bool look = workspace.camera_look();
+  bool look = workspace.preview().look().camera_traits;
   if (CheckRow(Tr("The camera's noise and blur"), look)) {
-    workspace.SetCameraLook(look);
+    workspace.preview().look().camera_traits = look;
   }
   Tip(Tr("People as the camera would have taken them; off: as they are drawn."));
-  const std::optional<light::CameraTraits>& camera = workspace.place()->camera;
+  const std::optional<light::CameraTraits>& camera = workspace.project().place()->camera;
   Hint(camera ? Text(Tr("Edges %.2f px soft, noise %.2f %%"), camera->blur_px,
                      100.0 * std::sqrt(camera->noise_floor * camera->noise_floor +
                                        0.5f * camera->noise_slope))
               : std::string(Tr("Not measured yet")));
   ImGui::BeginDisabled(workspace.tasks().Running(editor::TaskKind::kCamera) ||
-                       workspace.place()->training.empty());
+                       workspace.project().place()->training.empty());
   if (ImGui::Button(Tr("Measure the camera"), ImVec2(-FLT_MIN, 0))) {
-    workspace.MeasureCameraTraits();
+    workspace.jobs().MeasureCameraTraits();
   }
   ImGui::EndDisabled();
   Tip(Tr("How noisy and how soft the images of the training recording are."));
@@ -301,7 +301,7 @@ void KeepPicksOf(LightView& light, const ProbeDocument& probe) {
 }  // namespace
 
 const ProbeDocument* SelectedProbe(const editor::Workspace& workspace, const Selection& selection) {
-  const editor::PlaceDocument* place = workspace.place();
+  const editor::PlaceDocument* place = workspace.project().place();
   if (place == nullptr || selection.kind != Selection::Kind::kProbe) {
     return nullptr;
   }
@@ -325,7 +325,7 @@ void AddGreyPatch(editor::Workspace& workspace,
                   LightView& light,
                   const ProbeDocument& probe,
                   const bake::GreyPatch& patch) {
-  const editor::ProbePicture* picture = workspace.probe_picture(probe);
+  const editor::ProbePicture* picture = workspace.probe_pictures().Find(probe);
   if (picture == nullptr) {
     light.problem = Tr("The probe is still being read.");
     return;
@@ -386,13 +386,13 @@ editor::ProbeLook LookAtProbe(const editor::Workspace& workspace, const ProbeDoc
   editor::ProbeLook look;
   look.stage_from_probe = Rotation(probe);
   look.exposure = static_cast<float>(probe.scale) * geometry::ToGlm(probe.balance);
-  if (workspace.picture() != nullptr) {
-    const std::array<float, 3>& gain = workspace.picture()->gain;
+  if (workspace.preview().picture() != nullptr) {
+    const std::array<float, 3>& gain = workspace.preview().picture()->gain;
     look.exposure *= glm::vec3(gain[0], gain[1], gain[2]);
   }
-  if (workspace.place() != nullptr && workspace.place()->camera) {
-    look.knee = workspace.place()->camera->knee;
-    look.response = workspace.place()->camera->response;
+  if (workspace.project().place() != nullptr && workspace.project().place()->camera) {
+    look.knee = workspace.project().place()->camera->knee;
+    look.response = workspace.project().place()->camera->response;
   }
   return look;
 }
@@ -403,15 +403,15 @@ void DrawLightPanel(editor::Workspace& workspace,
                     PictureTextures& pictures,
                     const ProbeDocument& probe) {
   KeepPicksOf(light, probe);
-  if (const editor::ProbePicture* picture = workspace.probe_picture(probe)) {
+  if (const editor::ProbePicture* picture = workspace.probe_pictures().Find(probe)) {
     DrawPanorama(workspace, options, light, pictures, probe, *picture);
     DimText(SunText(probe, *picture));
     for (const std::string& warning : picture->warnings) {
       Hint(warning);
     }
-  } else if (!workspace.probe_problem().empty()) {
+  } else if (!workspace.probe_pictures().problem().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
-    ImGui::TextWrapped("%s", workspace.probe_problem().c_str());
+    ImGui::TextWrapped("%s", workspace.probe_pictures().problem().c_str());
     ImGui::PopStyleColor();
     Hint(Tr("People are lit evenly until then."));
   } else {
@@ -448,7 +448,7 @@ bool HandleLightKey(editor::Workspace& workspace,
     EditProbe(workspace, changed, Sentence("the light's exposure"), "probe exposure keys");
   };
   if (!press.repeats) {
-    workspace.EndGesture();  // Each press is a separate command.
+    workspace.project().EndGesture();  // Each press is a separate command.
   }
   switch (action) {
     case KeyAction::kLightLeft:

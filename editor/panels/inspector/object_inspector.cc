@@ -27,8 +27,8 @@ void DrawObject(editor::Workspace& workspace,
     EndProperties();
   }
   if (changed) {
-    workspace.Edit(
-        Text(Tr("place %s"), object.name.c_str()),
+    workspace.project().Edit(
+        Sentence("place %s", {object.name}),
         [&edited](editor::ProjectDocument& document) {
           std::replace_if(
               document.objects.begin(), document.objects.end(),
@@ -37,10 +37,11 @@ void DrawObject(editor::Workspace& workspace,
         "object");
   }
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
-    workspace.Edit(Text(Tr("remove %s"), object.name.c_str()),
-                   [name = object.name](editor::ProjectDocument& document) {
-                     std::erase_if(document.objects, [&](const auto& o) { return o.name == name; });
-                   });
+    workspace.project().Edit(Sentence("remove %s", {object.name}),
+                             [name = object.name](editor::ProjectDocument& document) {
+                               std::erase_if(document.objects,
+                                             [&](const auto& o) { return o.name == name; });
+                             });
     selection = {};
   }
 }

@@ -23,8 +23,8 @@ void DrawSizes(editor::Workspace& workspace, const editor::OccluderDocument& occ
   editor::OccluderShape shape = *occluder.shape;
   PropertyText(Tr("Shape"), Tr(editor::EntryOf(shape.kind).label));
   if (ShapeSizes(workspace, shape)) {
-    workspace.EditOccluder(
-        Text(Tr("size of %s"), occluder.name.c_str()), occluder.name,
+    workspace.project().EditOccluder(
+        Sentence("size of %s", {occluder.name}), occluder.name,
         [&](editor::OccluderDocument& edited) { edited.shape = shape; }, "occluder size");
   }
 }
@@ -45,7 +45,7 @@ void DrawPlaced(editor::Workspace& workspace,
     EndProperties();
   }
   if (changed) {
-    MoveSelected(workspace, selection, workspace.place()->picked_from_stage * transform,
+    MoveSelected(workspace, selection, workspace.project().place()->picked_from_stage * transform,
                  "inspector occluder");
   }
 }
@@ -59,7 +59,8 @@ void DrawBall(editor::Workspace& workspace,
   if (!Fold(Label(Tr("Turn by hand"), "ball"), false)) {
     return;
   }
-  Similarity3 world_from_mesh = workspace.place()->picked_from_stage * occluder.stage_from_mesh;
+  Similarity3 world_from_mesh =
+      workspace.project().place()->picked_from_stage * occluder.stage_from_mesh;
   if (DrawTrackball(workspace, options, orbit, world_from_mesh.rotation)) {
     MoveSelected(workspace, selection, world_from_mesh, "ball of an occluder");
   }
@@ -97,15 +98,16 @@ void DrawCorners(editor::Workspace& workspace,
                  const AlignView& align,
                  Input& input,
                  const editor::OccluderDocument& occluder) {
-  const double units = workspace.loaded().picks.map_from_picked.scale *
-                       workspace.place()->picked_from_stage.scale;  // Map units per metre.
-  if (workspace.loaded().database != nullptr) {
-    const auto drawn = editor::DrawOccluder(occluder, *workspace.loaded().database, units);
+  const double units =
+      workspace.map().loaded().picks.map_from_picked.scale *
+      workspace.project().place()->picked_from_stage.scale;  // Map units per metre.
+  if (workspace.map().loaded().database != nullptr) {
+    const auto drawn = editor::DrawOccluder(occluder, *workspace.map().loaded().database, units);
     if (BeginProperties("drawn")) {
       double depth = occluder.depth;
       if (NumberProperty(workspace, Tr("Depth"), depth, 0.01, 0.0, editor::kMaxDepth, "%.2f m")) {
-        workspace.EditOccluder(
-            Text(Tr("depth of %s"), occluder.name.c_str()), occluder.name,
+        workspace.project().EditOccluder(
+            Sentence("depth of %s", {occluder.name}), occluder.name,
             [&](editor::OccluderDocument& edited) { edited.depth = depth; }, "occluder depth");
       }
       Tooltip(Tr("How far it goes on behind the face that you drew; 0: the face alone."));
@@ -116,8 +118,9 @@ void DrawCorners(editor::Workspace& workspace,
       bool flat = occluder.flat;
       PropertyLabel(Tr("Flat"));
       if (ImGui::Checkbox("##flat", &flat)) {
-        workspace.EditOccluder(Text(Tr("flatten %s"), occluder.name.c_str()), occluder.name,
-                               [&](editor::OccluderDocument& edited) { edited.flat = flat; });
+        workspace.project().EditOccluder(
+            Sentence("flatten %s", {occluder.name}), occluder.name,
+            [&](editor::OccluderDocument& edited) { edited.flat = flat; });
       }
       Tooltip(Tr("Lays the corners onto the plane that fits them best"));
       EndProperties();
@@ -136,8 +139,9 @@ void DrawCorners(editor::Workspace& workspace,
   }
   ImGui::BeginDisabled(occluder.corners.empty());
   if (ImGui::Button(Tr("Remove the last corner"), ImVec2(-FLT_MIN, 0))) {
-    workspace.EditOccluder(Tr("remove a corner"), occluder.name,
-                           [](editor::OccluderDocument& edited) { edited.corners.pop_back(); });
+    workspace.project().EditOccluder(
+        Sentence("remove a corner"), occluder.name,
+        [](editor::OccluderDocument& edited) { edited.corners.pop_back(); });
   }
   ImGui::EndDisabled();
 }
@@ -160,8 +164,9 @@ void DrawEffects(editor::Workspace& workspace, const editor::OccluderDocument& o
   for (const Effect& effect : kEffects) {
     bool on = occluder.*effect.does;
     if (CheckRow(Tr(effect.label), on)) {
-      workspace.EditOccluder(Text(Tr(effect.command), occluder.name.c_str()), occluder.name,
-                             [&](editor::OccluderDocument& edited) { edited.*effect.does = on; });
+      workspace.project().EditOccluder(
+          Sentence(effect.command, {occluder.name}), occluder.name,
+          [&](editor::OccluderDocument& edited) { edited.*effect.does = on; });
     }
     Tooltip(Tr(effect.tip));
   }
@@ -202,10 +207,10 @@ void DrawOccluder(editor::Workspace& workspace,
     DrawBall(workspace, selection, options, orbit, occluder);
   }
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
-    workspace.EditPlace(Text(Tr("remove %s"), occluder.name.c_str()),
-                        [name = occluder.name](editor::PlaceDocument& p) {
-                          std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
-                        });
+    workspace.project().EditPlace(
+        Sentence("remove %s", {occluder.name}), [name = occluder.name](editor::PlaceDocument& p) {
+          std::erase_if(p.occluders, [&](const auto& o) { return o.name == name; });
+        });
     selection = {};
   }
 }

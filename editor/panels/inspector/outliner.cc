@@ -91,16 +91,16 @@ void DrawOutliner(editor::Workspace& workspace,
   using Kind = Selection::Kind;
   Row(selection, Icon::kProject, Tr("Project"), {Kind::kProject, ""});
   Section(Tr("Places"), &dialogs, Dialog::kTrain, Tr("Adds a place"));
-  for (const editor::PlaceDocument& place : workspace.document().places) {
-    const bool shown = workspace.place() == &place;
+  for (const editor::PlaceDocument& place : workspace.project().document().places) {
+    const bool shown = workspace.project().place() == &place;
     const std::string label = shown ? place.name : Text(Tr("%s (not shown)"), place.name.c_str());
     Row(selection, Icon::kPlace, label, {Kind::kPlace, place.name});
     if (!shown && selection == Selection{Kind::kPlace, place.name}) {
-      workspace.SelectPlace(place.name);
+      workspace.project().SelectPlace(place.name);
       return;  // The document has changed.
     }
   }
-  if (const editor::PlaceDocument* place = workspace.place()) {
+  if (const editor::PlaceDocument* place = workspace.project().place()) {
     Section(Tr("On the stage"));
     Row(selection, Icon::kStage, Tr("Stage"), {Kind::kStage, ""});
     Row(selection, Icon::kPicks, Tr("Picks"), {Kind::kPicks, ""});
@@ -115,16 +115,16 @@ void DrawOutliner(editor::Workspace& workspace,
     }
   }
   Section(Tr("Cast"), &dialogs, Dialog::kCast, Tr("Adds a person"));
-  for (const editor::CastDocument& member : workspace.document().cast) {
+  for (const editor::CastDocument& member : workspace.project().document().cast) {
     PicturedRow(selection, pictures, {Kind::kActor, member.name},
-                workspace.cast_pictures().Thumbnail(member.name));
+                workspace.cast().pictures().Thumbnail(member.name));
   }
   Section(Tr("Objects"), &dialogs, Dialog::kObject, Tr("Adds an object"));
-  for (const editor::ObjectDocument& object : workspace.document().objects) {
+  for (const editor::ObjectDocument& object : workspace.project().document().objects) {
     PicturedRow(selection, pictures, {Kind::kObject, object.name},
-                workspace.cast_pictures().ObjectThumbnail(object.name));
+                workspace.cast().pictures().ObjectThumbnail(object.name));
   }
-  if (workspace.place() != nullptr) {
+  if (workspace.project().place() != nullptr) {
     Section(Tr("Check points"), &dialogs, Dialog::kCheckPoint, Tr("Adds a check point"));
     for (const editor::CheckPointReport& point : CheckedPoints(workspace, check).points) {
       CheckPointRow(selection, point);

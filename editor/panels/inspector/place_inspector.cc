@@ -61,18 +61,18 @@ void LookAt(editor::Workspace& workspace,
             ViewOptions& options,
             const editor::SourceDocument& recording) {
   if (!recording.empty()) {
-    const auto source = editor::OpenSource(workspace.paths(), recording);
+    const auto source = editor::OpenSource(workspace.project().paths(), recording);
     if (!source.ok()) {
-      workspace.Tell(editor::Message::Level::kError, source.message());
+      workspace.messages().Tell(editor::Message::Level::kError, source.message());
       return;
     }
   }
-  const editor::SourceDocument& before = workspace.place()->preview;
+  const editor::SourceDocument& before = workspace.project().place()->preview;
   if (before.kind != recording.kind || before.path != recording.path) {
-    workspace.EditPlace(Tr("recording to look at"),
-                        [&](editor::PlaceDocument& place) { place.preview = recording; });
+    workspace.project().EditPlace(Sentence("recording to look at"),
+                                  [&](editor::PlaceDocument& place) { place.preview = recording; });
   }
-  workspace.SetViewSource(editor::Workspace::ViewSource::kRecording);
+  workspace.preview().SetViewSource(editor::PreviewSession::ViewSource::kRecording);
   options.view = ViewKind::kCamera;
 }
 
@@ -81,7 +81,7 @@ void EditAcoustics(editor::Workspace& workspace,
                    const Sentence& name,
                    const std::function<void(stage::Acoustics&)>& change,
                    std::string_view gesture = {}) {
-  workspace.EditPlace(
+  workspace.project().EditPlace(
       name, [&](editor::PlaceDocument& place) { change(place.acoustics); }, gesture);
 }
 
@@ -111,7 +111,7 @@ void DrawReverb(editor::Workspace& workspace, const stage::Acoustics& acoustics)
 
 // The position of a listener's ears in front of the camera.
 glm::vec3 BeforeTheCamera(const editor::Workspace& workspace) {
-  const auto& picture = workspace.picture();
+  const auto& picture = workspace.preview().picture();
   glm::vec3 at = geometry::ToGlm(
       editor::FloorBefore(picture != nullptr ? picture->camera_from_stage : std::nullopt));
   at.y += kEarsHeight;
@@ -190,7 +190,7 @@ void AddAmbienceCombo(editor::Workspace& workspace, const stage::Acoustics& acou
   ImGui::BeginDisabled(full);
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::BeginCombo("##add ambience", Tr("Add what is always heard"))) {
-    for (const editor::SoundFile& sound : editor::FindSounds(workspace.paths())) {
+    for (const editor::SoundFile& sound : editor::FindSounds(workspace.project().paths())) {
       const bool heard = std::any_of(acoustics.ambience.begin(), acoustics.ambience.end(),
                                      [&](const auto& known) { return known.sound == sound.name; });
       if (!heard && ImGui::Selectable(sound.name.c_str())) {
@@ -226,15 +226,16 @@ bool RecordingToLookAtDialog(editor::Workspace& workspace, ViewOptions& options,
   ImGui::Dummy(ImVec2(0, Px(2)));  // Such a row leaves no space below it.
   if (other && BeginProperties("looked at")) {
     PropertyLabel(fields.images ? Tr("Folder") : Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder,
+    PathField("file", fields.file, workspace.project().paths().folder,
               ExtensionsOf(fields.images ? editor::FileKind::kImages : editor::FileKind::kVideo));
     EndProperties();
   }
   const DialogAnswer answer =
-      DialogButtons(Tr("Show"), other ? LookedAtProblem(workspace.paths(), fields) : "");
+      DialogButtons(Tr("Show"), other ? LookedAtProblem(workspace.project().paths(), fields) : "");
   if (answer == DialogAnswer::kAct) {
     LookAt(workspace, options,
-           other ? editor::RecordingAt(workspace.paths(), fields.file) : editor::SourceDocument());
+           other ? editor::RecordingAt(workspace.project().paths(), fields.file)
+                 : editor::SourceDocument());
   }
   return answer != DialogAnswer::kNone;
 }
@@ -244,15 +245,15 @@ void Rename(editor::Workspace& workspace,
             Selection& selection,
             const std::string& from,
             const std::string& to) {
-  const Status status = editor::GiveFolderOtherName(workspace.paths(), from, to);
+  const Status status = editor::GiveFolderOtherName(workspace.project().paths(), from, to);
   if (!status.ok()) {
-    workspace.Tell(editor::Message::Level::kError, status.message());
+    workspace.messages().Tell(editor::Message::Level::kError, status.message());
     return;
   }
-  workspace.Edit(Text(Tr("rename %s"), from.c_str()), [&](editor::ProjectDocument& document) {
-    editor::RenamePlaceInDocument(workspace.paths(), from, to, document);
+  workspace.project().Edit(Sentence("rename %s", {from}), [&](editor::ProjectDocument& document) {
+    editor::RenamePlaceInDocument(workspace.project().paths(), from, to, document);
   });
-  workspace.SelectPlace(to);
+  workspace.project().SelectPlace(to);
   selection = {Selection::Kind::kPlace, to};
 }
 
@@ -273,7 +274,7 @@ bool RenameDialog(editor::Workspace& workspace,
   std::string problem = NameProblem(name);
   if (problem.empty() && name == place) {
     problem = Tr("It is called so already.");
-  } else if (problem.empty() && workspace.document().FindPlace(name) != nullptr) {
+  } else if (problem.empty() && workspace.project().document().FindPlace(name) != nullptr) {
     problem = Tr("That name is taken.");
   }
   const DialogAnswer answer = DialogButtons(Tr("Rename"), problem);
@@ -325,7 +326,8 @@ void DrawPlaceName(editor::Workspace& workspace,
                    Selection& selection,
                    Dialogs& dialogs,
                    const editor::PlaceDocument& place) {
-  const std::shared_ptr<const editor::ProjectDocument> document = workspace.commands().snapshot();
+  const std::shared_ptr<const editor::ProjectDocument> document =
+      workspace.project().commands().snapshot();
   const std::string name = place.name;
   const std::string title = Label(Tr("Rename a place"), "rename");
   const ImVec2 wide(-FLT_MIN, 0);
@@ -345,8 +347,9 @@ void DrawPlaceName(editor::Workspace& workspace,
     return;
   }
   if (ImGui::Button(Text(Tr("Put %s first"), name.c_str()).c_str(), wide)) {
-    workspace.Edit(Text(Tr("put %s first"), name.c_str()),
-                   [&](editor::ProjectDocument& edited) { editor::PutPlaceFirst(name, edited); });
+    workspace.project().Edit(
+        Sentence("put %s first", {name}),
+        [&](editor::ProjectDocument& edited) { editor::PutPlaceFirst(name, edited); });
   }
   Tooltip(Tr("The project opens with the place that is the first of the list"));
 }

@@ -116,7 +116,7 @@ bool SoundDialog(editor::Workspace& workspace, Dialogs& dialogs) {
   const std::string usual_name = PlainStem(fields.file);
   if (BeginProperties("sound")) {
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.paths().folder, editor::SoundExtensions());
+    PathField("file", fields.file, workspace.project().paths().folder, editor::SoundExtensions());
     PropertyLabel(Tr("Name"));
     ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
     EndProperties();
@@ -126,9 +126,9 @@ bool SoundDialog(editor::Workspace& workspace, Dialogs& dialogs) {
     Hint(Text(Tr("It takes the place of %s, which is built in."), name.c_str()));
   }
   const DialogAnswer answer =
-      DialogButtons(Tr("Bring in"), SoundProblem(workspace.paths(), name, fields.file));
+      DialogButtons(Tr("Bring in"), SoundProblem(workspace.project().paths(), name, fields.file));
   if (answer == DialogAnswer::kAct) {
-    workspace.BringInSound(name, workspace.paths().Resolve(fields.file));
+    workspace.project().BringInSound(name, workspace.project().paths().Resolve(fields.file));
   }
   return answer != DialogAnswer::kNone;
 }
@@ -137,7 +137,7 @@ bool SoundDialog(editor::Workspace& workspace, Dialogs& dialogs) {
 
 void DrawLanguages(editor::Workspace& workspace) {
   Heading(Tr("Languages"));
-  const editor::ProjectDocument& document = workspace.document();
+  const editor::ProjectDocument& document = workspace.project().document();
   const Languages of_lines = document.lines == nullptr ? Languages() : document.lines->languages;
   editor::SpeechDocument speech = document.speech;
   if (!BeginProperties("languages")) {
@@ -155,15 +155,16 @@ void DrawLanguages(editor::Workspace& workspace) {
          "in which they are ticked."));
   EndProperties();
   if (spoken || captions) {
-    workspace.Edit(spoken ? Tr("spoken languages") : Tr("languages of captions"),
-                   [&](editor::ProjectDocument& edited) { edited.speech = speech; });
+    workspace.project().Edit(
+        spoken ? Sentence("spoken languages") : Sentence("languages of captions"),
+        [&](editor::ProjectDocument& edited) { edited.speech = speech; });
   }
 }
 
 void DrawSounds(editor::Workspace& workspace, Dialogs& dialogs) {
   Heading(Tr("Sounds"));
   Languages names;
-  for (const editor::SoundFile& sound : editor::FindSounds(workspace.paths())) {
+  for (const editor::SoundFile& sound : editor::FindSounds(workspace.project().paths())) {
     if (!sound.built_in) {
       names.push_back(sound.name);
     }

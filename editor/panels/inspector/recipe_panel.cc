@@ -52,7 +52,7 @@ class RecipePanel {
       : workspace_(workspace),
         search_(search),
         recipe_(recipe),
-        catalogue_(workspace.catalogue()) {}
+        catalogue_(workspace.cast().catalogue()) {}
 
   RecipeChange Show() {
     if (Fold(Label(Tr("Body"), "body"), true)) {
@@ -315,8 +315,9 @@ class RecipePanel {
 
   bool HasCatalogue() {
     if (catalogue_ == nullptr) {
-      Hint(workspace_.catalogue_problem().empty() ? Tr("Opening the cast library\xe2\x80\xa6")
-                                                  : workspace_.catalogue_problem());
+      Hint(workspace_.cast().catalogue_problem().empty()
+               ? Tr("Opening the cast library\xe2\x80\xa6")
+               : workspace_.cast().catalogue_problem());
     }
     return catalogue_ != nullptr;
   }

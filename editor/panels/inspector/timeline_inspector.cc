@@ -51,14 +51,15 @@ struct Item {
     return value != nullptr && value->is_number() ? value->get<double>() : otherwise;
   }
   void Set(const std::string& key, const Json& value) {
-    workspace.EditTimeline(
-        Text(Tr("set %s"), key.c_str()),
+    workspace.project().EditTimeline(
+        Sentence("set %s", {key}),
         [&](drama::TimelineText& text) { return text.Set(at, key, value).status(); },
         "timeline field " + key + std::to_string(at.lane) + "." + std::to_string(at.item));
   }
   void Unset(const std::string& key) {
-    workspace.EditTimeline(Text(Tr("clear %s"), key.c_str()),
-                           [&](drama::TimelineText& text) { return text.Unset(at, key).status(); });
+    workspace.project().EditTimeline(Sentence("clear %s", {key}), [&](drama::TimelineText& text) {
+      return text.Unset(at, key).status();
+    });
   }
 };
 
@@ -67,7 +68,7 @@ void ClearButton(Item& item, const std::string& key) {
   ImGui::SameLine();
   if (ImGui::Button("\xc3\x97", ImVec2(ImGui::GetFrameHeight(), 0))) {
     item.Unset(key);
-    item.workspace.EndGesture();
+    item.workspace.project().EndGesture();
   }
   Tooltip(Tr("Without it"));
 }
@@ -129,7 +130,7 @@ void NameField(Item& item,
     } else {
       item.Set(key, chosen);
     }
-    item.workspace.EndGesture();
+    item.workspace.project().EndGesture();
   }
 }
 
@@ -144,7 +145,7 @@ void BoolField(Item& item, const char* label, const std::string& key) {
     } else {
       item.Unset(key);
     }
-    item.workspace.EndGesture();
+    item.workspace.project().EndGesture();
   }
   ImGui::PopID();
 }
@@ -157,7 +158,7 @@ void ColourField(Item& item, const drama::LaneField& field) {
   if (value == nullptr || !drama::ProblemOf(field, *value).empty()) {
     if (ImGui::Button(Tr("Set"))) {
       item.Set(field.key, Json::array({1.0, 1.0, 1.0}));
-      item.workspace.EndGesture();
+      item.workspace.project().EndGesture();
     }
     ImGui::PopID();
     return;
@@ -185,7 +186,7 @@ void PointField(Item& item, const char* label, const std::string& key) {
   if (point.empty()) {
     if (ImGui::Button(Tr("Set"))) {
       item.Set(key, {{"x", 0.0}, {"z", 0.0}});
-      item.workspace.EndGesture();
+      item.workspace.project().EndGesture();
     }
     ImGui::PopID();
     return;
@@ -212,7 +213,7 @@ void PointField(Item& item, const char* label, const std::string& key) {
 }
 
 const editor::StageWords* WordsOf(const editor::Workspace& workspace) {
-  return workspace.drama_run() != nullptr ? &workspace.drama_run()->words : nullptr;
+  return workspace.dry_run().newest() != nullptr ? &workspace.dry_run().newest()->words : nullptr;
 }
 
 template <typename List>
@@ -252,7 +253,7 @@ std::vector<std::string> ThingNames(const editor::Workspace& workspace, bool bur
 }
 
 std::vector<std::string> PeopleNames(const editor::Workspace& workspace) {
-  return Names(workspace.document().cast);
+  return Names(workspace.project().document().cast);
 }
 
 std::vector<std::string> TargetNames(const editor::Workspace& workspace) {
@@ -325,9 +326,9 @@ void LineText(Item& item, const bake::LineTable& table, const std::string& langu
   PropertyLabel(language.c_str());
   ImGui::PushID(language.c_str());
   if (WrappedField("says", text, 2, 6)) {
-    item.workspace.EditLines(Text(Tr("write %s"), id.c_str()),
-                             editor::WithText(table, id, SpeakerOf(item), language, text),
-                             "line " + id + " " + language);
+    item.workspace.project().EditLines(Sentence("write %s", {id}),
+                                       editor::WithText(table, id, SpeakerOf(item), language, text),
+                                       "line " + id + " " + language);
   }
   EndGestureWithItem(item.workspace);
   ImGui::PopID();
@@ -341,7 +342,7 @@ void NewLanguage(Item& item, const bake::LineTable& table) {
   if (ImGui::IsItemDeactivatedAfterEdit() && stage::IsLanguageTag(tag)) {
     bake::LineTable next = editor::WithLanguage(table, tag);
     if (next != table) {
-      item.workspace.EditLines(Text(Tr("add the language %s"), tag.c_str()), std::move(next));
+      item.workspace.project().EditLines(Sentence("add the language %s", {tag}), std::move(next));
     }
     tag.clear();
   }
@@ -349,7 +350,7 @@ void NewLanguage(Item& item, const bake::LineTable& table) {
 
 // The choice of the line, and its text in each language.
 void LineFields(Item& item) {
-  const auto table = item.workspace.document().lines;  // Kept alive during the edit.
+  const auto table = item.workspace.project().document().lines;  // Kept alive during the edit.
   if (table == nullptr) {
     TextField(item, Tr("Line"), "line");
     return;
@@ -375,10 +376,10 @@ void LineFields(Item& item) {
   if (ImGui::Button(Tr("Another line"))) {
     const std::string next =
         editor::FreeLineId(*table, SpeakerOf(item).empty() ? "text" : SpeakerOf(item));
-    item.workspace.EditLines(Text(Tr("add the line %s"), next.c_str()),
-                             editor::WithLine(*table, next, SpeakerOf(item)));
+    item.workspace.project().EditLines(Sentence("add the line %s", {next}),
+                                       editor::WithLine(*table, next, SpeakerOf(item)));
     item.Set("line", next);
-    item.workspace.EndGesture();
+    item.workspace.project().EndGesture();
   }
 }
 
@@ -416,7 +417,7 @@ void DrawItem(editor::Workspace& workspace,
               EditorActions& actions,
               std::string& new_language,
               const TimelineItem& at) {
-  const drama::TimelineText& text = *workspace.script().timeline();
+  const drama::TimelineText& text = *workspace.project().script().timeline();
   const drama::TimelineLane& lane = text.lanes()[at.lane];
   Item item{workspace, new_language, at, lane.kind, lane.actor, text.Fields(at)};
   Heading(ItemTitle(lane.kind));
@@ -438,8 +439,9 @@ void DrawItem(editor::Workspace& workspace,
     DrawField(item, *drama::FindItemField("id"));
     EndProperties();
   }
-  const size_t line =
-      workspace.script().timeline() != nullptr ? workspace.script().timeline()->LineOf(at) : 0;
+  const size_t line = workspace.project().script().timeline() != nullptr
+                          ? workspace.project().script().timeline()->LineOf(at)
+                          : 0;
   if (line > 0 && ImGui::Button(Text(Tr("Show line %zu of the script"), line).c_str())) {
     actions.push_back(GoToScriptLine{static_cast<int>(line)});
   }
@@ -461,7 +463,7 @@ void DrawBlock(editor::Workspace& workspace,
     ImGui::TextWrapped("%s", task.message.c_str());
     ImGui::PopStyleColor();
   }
-  const int line = LineOfPlace(task.where, workspace.paths().Drama().filename().string());
+  const int line = LineOfPlace(task.where, workspace.project().paths().Drama().filename().string());
   if (line > 0 && ImGui::Button(Text(Tr("Show line %d of the script"), line).c_str())) {
     actions.push_back(GoToScriptLine{line});
   }
@@ -477,11 +479,11 @@ void DrawTimelineInspector(editor::Workspace& workspace,
                            const editor::ItemSet& selection,
                            std::optional<uint32_t> block,
                            std::string& new_language) {
-  const drama::TimelineText* text = workspace.script().timeline();
-  const editor::DramaRun* run = workspace.drama_run();
+  const drama::TimelineText* text = workspace.project().script().timeline();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   if (text == nullptr) {
     Heading(Tr("The script cannot be read"));
-    ImGui::TextWrapped("%s", workspace.script().problem().message().c_str());
+    ImGui::TextWrapped("%s", workspace.project().script().problem().message().c_str());
     return;
   }
   if (selection.size() == 1) {

@@ -89,9 +89,9 @@ void SliderRow(editor::Workspace& workspace,
 }
 
 void Listen(editor::Workspace& workspace, const editor::CastDocument& member) {
-  const auto lines = workspace.document().lines;
-  const editor::VoiceSample sample = editor::SampleOf(lines != nullptr ? *lines : bake::LineTable(),
-                                                      workspace.document().speech, member);
+  const auto lines = workspace.project().document().lines;
+  const editor::VoiceSample sample = editor::SampleOf(
+      lines != nullptr ? *lines : bake::LineTable(), workspace.project().document().speech, member);
   workspace.tasks().Start(
       editor::TaskKind::kSpeaking,
       [sample, voice = member.voice](Progress& progress) {
@@ -99,7 +99,7 @@ void Listen(editor::Workspace& workspace, const editor::CastDocument& member) {
       },
       [&workspace](const Status& status, bool cancelled) {
         if (!status.ok() && !cancelled) {
-          workspace.Tell(editor::Message::Level::kError, status.message());
+          workspace.messages().Tell(editor::Message::Level::kError, status.message());
         }
       });
 }

@@ -86,21 +86,21 @@ size_t ScriptPanel::LineAt(size_t offset) const {
 
 void ScriptPanel::EndTyping(editor::Workspace& workspace) {
   if (std::exchange(typing_, false)) {
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
 }
 
 void ScriptPanel::CollectProblems(const editor::Workspace& workspace) {
-  const editor::ScriptDocument& script = workspace.script();
-  const int64_t of = script.revision() * 1000003 + workspace.drama_run_number();
-  const size_t found = workspace.problems().size() + workspace.warnings().size();
+  const editor::ScriptDocument& script = workspace.project().script();
+  const int64_t of = script.revision() * 1000003 + workspace.dry_run().number();
+  const size_t found = workspace.jobs().problems().size() + workspace.jobs().warnings().size();
   if (of == problems_of_ && problem_count_ == found) {
     return;
   }
   problems_of_ = of;
   problem_count_ = found;
   problems_.clear();
-  const std::string file = workspace.paths().Drama().filename().string();
+  const std::string file = workspace.project().paths().Drama().filename().string();
   const auto add = [&](const Sentence& problem) {
     const std::string message = problem.English();
     const int line = LineOfPlace(message, file);
@@ -121,12 +121,12 @@ void ScriptPanel::CollectProblems(const editor::Workspace& workspace) {
       add(problem);
     }
   }
-  if (workspace.drama_run() != nullptr) {
-    for (const std::string& problem : workspace.drama_run()->problems) {
+  if (workspace.dry_run().newest() != nullptr) {
+    for (const std::string& problem : workspace.dry_run().newest()->problems) {
       add(problem);
     }
   }
-  for (const auto* problems : {&workspace.problems(), &workspace.warnings()}) {
+  for (const auto* problems : {&workspace.jobs().problems(), &workspace.jobs().warnings()}) {
     std::for_each(problems->begin(), problems->end(), add);
   }
 }
@@ -200,10 +200,10 @@ void ScriptPanel::DrawGutter(const FieldView& view) {
 }
 
 void ScriptPanel::Refresh(editor::Workspace& workspace) {
-  if (workspace.script().revision() != revision_) {
-    outside_ = drama::Difference(buffer_, workspace.script().text());
-    revision_ = workspace.script().revision();
-    buffer_ = workspace.script().text();
+  if (workspace.project().script().revision() != revision_) {
+    outside_ = drama::Difference(buffer_, workspace.project().script().text());
+    revision_ = workspace.project().script().revision();
+    buffer_ = workspace.project().script().text();
     lines_ = LineStarts(buffer_);
     words_ = ColourLua(buffer_);
   }
@@ -251,7 +251,7 @@ void ScriptPanel::DrawField(editor::Workspace& workspace, Input& input) {
     input.focus = Focus::kScript;
     cursor_ = task.cursor;
   }
-  if (edited && buffer_ != workspace.script().text()) {
+  if (edited && buffer_ != workspace.project().script().text()) {
     const size_t line = LineAt(std::min(cursor_, buffer_.size()));
     if (line != typed_line_) {
       EndTyping(workspace);
@@ -259,8 +259,8 @@ void ScriptPanel::DrawField(editor::Workspace& workspace, Input& input) {
     typed_line_ = line;
     typing_ = true;
     since_typed_ = 0.0;
-    workspace.EditScript(Tr("typing"), buffer_, "typing");
-    revision_ = workspace.script().revision();
+    workspace.project().EditScript(Sentence("typing"), buffer_, "typing");
+    revision_ = workspace.project().script().revision();
     lines_ = LineStarts(buffer_);
     words_ = ColourLua(buffer_);
   }

@@ -45,8 +45,8 @@ void DeleteSelected(editor::Workspace& workspace,
     return;
   }
   const std::string name = NameOfSelected(workspace, selection, items);
-  const bool done = workspace.EditTimeline(
-      Text(Tr("delete %s"), name.c_str()),
+  const bool done = workspace.project().EditTimeline(
+      Sentence("delete %s", {name}),
       [&](TimelineText& text) { return editor::DeleteItems(text, selection.items(), ripple); });
   if (done) {
     selection.ClearItems();
@@ -56,7 +56,8 @@ void DeleteSelected(editor::Workspace& workspace,
 void CopySelected(const editor::Workspace& workspace, const TimelineSelection& selection) {
   if (selection.HasItems()) {
     ImGui::SetClipboardText(
-        editor::FormatCopied(editor::CopyItems(*workspace.script().timeline(), selection.items()))
+        editor::FormatCopied(
+            editor::CopyItems(*workspace.project().script().timeline(), selection.items()))
             .c_str());
   }
 }
@@ -68,8 +69,8 @@ void PasteCopied(editor::Workspace& workspace, TimelineSelection& selection) {
     return;
   }
   editor::ItemSet added;
-  const bool done = workspace.EditTimeline(Tr("paste"), [&](TimelineText& text) {
-    return editor::PasteItems(text, *copied, workspace.time(), added);
+  const bool done = workspace.project().EditTimeline(Sentence("paste"), [&](TimelineText& text) {
+    return editor::PasteItems(text, *copied, workspace.playback().time(), added);
   });
   if (done) {
     selection.SetItems(added);
@@ -82,7 +83,7 @@ void DuplicateSelected(editor::Workspace& workspace,
   if (!selection.HasItems()) {
     return;
   }
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   double end = 0.0;
   for (const TimelineItem& item : selection.items()) {
     end = std::max(end, items.SpanOf(workspace, item).end);
@@ -90,8 +91,8 @@ void DuplicateSelected(editor::Workspace& workspace,
   const std::vector<editor::CopiedItem> copied = editor::CopyItems(text, selection.items());
   const double at = std::max(end, editor::SpanOf(text, selection.items()).begin + 0.5);
   editor::ItemSet added;
-  const bool done = workspace.EditTimeline(
-      Text(Tr("duplicate %s"), NameOfSelected(workspace, selection, items).c_str()),
+  const bool done = workspace.project().EditTimeline(
+      Sentence("duplicate %s", {NameOfSelected(workspace, selection, items)}),
       [&](TimelineText& changed) { return editor::PasteItems(changed, copied, at, added); });
   if (done) {
     selection.SetItems(added);
@@ -104,10 +105,11 @@ void ShiftSelected(editor::Workspace& workspace,
                    double seconds,
                    bool ripple) {
   if (selection.HasItems()) {
-    workspace.EditTimeline(Text(Tr("move %s"), NameOfSelected(workspace, selection, items).c_str()),
-                           [&](TimelineText& text) {
-                             return editor::MoveItems(text, selection.items(), seconds, ripple);
-                           });
+    workspace.project().EditTimeline(
+        Sentence("move %s", {NameOfSelected(workspace, selection, items)}),
+        [&](TimelineText& text) {
+          return editor::MoveItems(text, selection.items(), seconds, ripple);
+        });
   }
 }
 
@@ -119,7 +121,7 @@ void TrimSelected(editor::Workspace& workspace,
                   bool ripple) {
   const std::vector<double> naturals = NaturalsOf(workspace, selection, items);
   const std::string name = Text(Tr("trim %s"), NameOfSelected(workspace, selection, items).c_str());
-  workspace.EditTimeline(name, [&](TimelineText& text) {
+  workspace.project().EditTimeline(name, [&](TimelineText& text) {
     return begins ? editor::TrimBegins(text, selection.items(), naturals, seconds)
                   : editor::TrimEnds(text, selection.items(), naturals, seconds, ripple);
   });
@@ -133,7 +135,7 @@ void TrimToPlayhead(editor::Workspace& workspace,
   if (selection.HasItems()) {
     const editor::TimeSpan span = items.SpanOf(workspace, selection.items().front());
     TrimSelected(workspace, selection, items, begins,
-                 workspace.time() - (begins ? span.begin : span.end), ripple);
+                 workspace.playback().time() - (begins ? span.begin : span.end), ripple);
   }
 }
 

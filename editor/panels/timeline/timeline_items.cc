@@ -19,7 +19,7 @@ const TimelineItems::Face& TimelineItems::FaceOf(const editor::Workspace& worksp
   if (!is_new) {
     return face;
   }
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   const TimelineLane& lane = text.lanes()[item.lane];
   Json fields = Json::object();
   for (drama::TimelineField& field : text.Fields(item)) {
@@ -27,7 +27,7 @@ const TimelineItems::Face& TimelineItems::FaceOf(const editor::Workspace& worksp
   }
   face.label = LabelOf(lane.kind, fields);
   face.line = editor::TextOf(fields, "line");
-  const editor::DramaRun* run = workspace.drama_run();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   if (run == nullptr || lane.length[item.item] > 0.0) {
     return face;
   }
@@ -38,7 +38,7 @@ const TimelineItems::Face& TimelineItems::FaceOf(const editor::Workspace& worksp
 
 editor::TimeSpan TimelineItems::SpanOf(const editor::Workspace& workspace,
                                        const TimelineItem& item) {
-  const TimelineLane& lane = workspace.script().timeline()->lanes()[item.lane];
+  const TimelineLane& lane = workspace.project().script().timeline()->lanes()[item.lane];
   editor::TimeSpan span{lane.at[item.item], lane.at[item.item] + lane.length[item.item]};
   if (lane.length[item.item] <= 0.0 &&
       drama::SpecOf(lane.kind).duration != drama::ItemDuration::kMoment) {

@@ -8,23 +8,23 @@
 namespace lararium::panels {
 
 TimelineLayout::Change TimelineLayout::Refresh(const editor::Workspace& workspace) {
-  const editor::ScriptDocument& script = workspace.script();
-  const std::vector<editor::CastDocument>& cast = workspace.document().cast;
-  const bool new_run = workspace.drama_run_number() != run_;
+  const editor::ScriptDocument& script = workspace.project().script();
+  const std::vector<editor::CastDocument>& cast = workspace.project().document().cast;
+  const bool new_run = workspace.dry_run().number() != run_;
   if (script.revision() == script_ && !new_run && cast.size() == cast_) {
     LayOut();
     return {};
   }
   script_ = script.revision();
-  run_ = workspace.drama_run_number();
+  run_ = workspace.dry_run().number();
   cast_ = cast.size();
   std::vector<std::string> people;
   for (const editor::CastDocument& member : cast) {
     people.push_back(member.name);
   }
   const std::span<const drama::TaskRecord> tasks =
-      workspace.drama_run() != nullptr
-          ? std::span<const drama::TaskRecord>(workspace.drama_run()->tasks)
+      workspace.dry_run().newest() != nullptr
+          ? std::span<const drama::TaskRecord>(workspace.dry_run().newest()->tasks)
           : std::span<const drama::TaskRecord>();
   rows_ = MakeRows(script.timeline(), people, tasks);
   if (new_run && !objects_folded_at_first_ && !tasks.empty()) {

@@ -16,10 +16,11 @@ namespace {
 // A line of the actor that the timeline does not use yet, otherwise a new one.
 std::string LineFor(const editor::Workspace& workspace, const std::string& actor) {
   const bake::LineTable none;
-  const auto& table = workspace.document().lines;
+  const auto& table = workspace.project().document().lines;
   const bake::LineTable& lines = table != nullptr ? *table : none;
   for (const bake::Line& line : lines.lines) {
-    const bool named = workspace.script().text().find('"' + line.id + '"') != std::string::npos;
+    const bool named =
+        workspace.project().script().text().find('"' + line.id + '"') != std::string::npos;
     if (line.speaker == actor && !actor.empty() && !named) {
       return line.id;
     }
@@ -44,11 +45,11 @@ bool IsPlaced(const drama::TimelineText& text, const std::string& actor, double 
 // Whether a person is not on stage by that time, as far as it is known. A walk must then say where
 // the person appears.
 bool IsYetToAppear(const editor::Workspace& workspace, const std::string& actor, double at) {
-  const drama::TimelineText* text = workspace.script().timeline();
+  const drama::TimelineText* text = workspace.project().script().timeline();
   if (text != nullptr && IsPlaced(*text, actor, at)) {
     return false;
   }
-  const editor::DramaRun* run = workspace.drama_run();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   if (run == nullptr) {
     return true;
   }
@@ -95,7 +96,7 @@ Json NewFields(const editor::Workspace& workspace,
                double at) {
   const editor::StageWords none;
   const editor::StageWords& words =
-      workspace.drama_run() != nullptr ? workspace.drama_run()->words : none;
+      workspace.dry_run().newest() != nullptr ? workspace.dry_run().newest()->words : none;
   const drama::LaneSpec& lane = drama::SpecOf(kind);
   Json fields = {{"at", at}};
   if (lane.new_length > 0.0) {

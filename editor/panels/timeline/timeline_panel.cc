@@ -54,7 +54,7 @@ void TimelinePanel::Refresh(const editor::Workspace& workspace) {
     if (change.run) {
       selection_.ClearBlock();
     }
-    selection_.KeepValid(workspace.script().timeline());
+    selection_.KeepValid(workspace.project().script().timeline());
   }
 }
 
@@ -89,7 +89,7 @@ void TimelinePanel::DrawVoiceOf(const editor::Workspace& workspace,
                                 const ImVec2& to,
                                 ImU32 colour,
                                 ImDrawList& draw) const {
-  const editor::DramaRun* run = workspace.drama_run();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   const editor::StageWords::Line* voice = run != nullptr ? run->words.FindLine(line) : nullptr;
   if (voice != nullptr && !voice->peaks.empty()) {
     DrawVoice(draw, scale_,
@@ -104,7 +104,7 @@ void TimelinePanel::DrawItems(const editor::Workspace& workspace,
                               float height,
                               const Hit& hit,
                               ImDrawList& draw) {
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   const ImVec4 colour = LaneColour(row.lane);
   const float y0 = top + Px(2);
   const float y1 = top + height - Px(2);
@@ -163,10 +163,10 @@ void TimelinePanel::DrawBlocks(const editor::Workspace& workspace,
                                float height,
                                const Hit& hit,
                                ImDrawList& draw) {
-  if (workspace.drama_run() == nullptr) {
+  if (workspace.dry_run().newest() == nullptr) {
     return;
   }
-  const std::vector<TaskRecord>& tasks = workspace.drama_run()->tasks;
+  const std::vector<TaskRecord>& tasks = workspace.dry_run().newest()->tasks;
   const ImVec4 colour = LaneColour(row.lane);
   found_.clear();
   row.index.Query(scale_.first, scale_.last(), found_);
@@ -262,13 +262,13 @@ void TimelinePanel::DrawRuler(editor::Workspace& workspace, float height) {
     }
   }
   if (ImGui::IsItemActive()) {
-    workspace.SetPlaying(false);
+    workspace.playback().SetPlaying(false);
     const RulerStep step = ChooseStep(scale_.seconds_per_px, Px(76));
     double time = std::max(scale_.TimeAt(ImGui::GetIO().MousePos.x), 0.0);
     if (ImGui::GetIO().KeyCtrl) {
       time = Snap(time, {}, step.seconds / step.parts, 1e9);
     }
-    workspace.SetTime(time);
+    workspace.playback().SetTime(time);
   }
   draw.PushClipRect(ImVec2(scale_.left, at.y), ImVec2(scale_.left + scale_.width, at.y + height),
                     true);
@@ -277,7 +277,7 @@ void TimelinePanel::DrawRuler(editor::Workspace& workspace, float height) {
     const float x = scale_.XOf(drag_.snapped_to);
     draw.AddLine(ImVec2(x, at.y), ImVec2(x, at.y + height), Packed(Colours().text, 0.8f), Px(1));
   }
-  DrawPlayheadHandle(draw, scale_.XOf(workspace.time()), at.y, height);
+  DrawPlayheadHandle(draw, scale_.XOf(workspace.playback().time()), at.y, height);
   draw.PopClipRect();
 }
 
@@ -319,7 +319,7 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, Input& input, EditorA
   draw.PushClipRect(ImVec2(scale_.left, view.y),
                     ImVec2(scale_.left + scale_.width, view.y + view_size.y), true);
   DrawGrid(draw, scale_, view.y, view.y + view_size.y);
-  const float end = scale_.XOf(workspace.duration());
+  const float end = scale_.XOf(workspace.playback().duration());
   draw.AddRectFilled(ImVec2(std::max(end, scale_.left), view.y),
                      ImVec2(scale_.left + scale_.width, view.y + view_size.y),
                      Packed(Colours().window, 0.45f));
@@ -348,10 +348,10 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, Input& input, EditorA
     draw.AddRectFilled(from, to, Packed(Colours().accent, 0.15f));
     draw.AddRect(from, to, Packed(Colours().accent, 0.8f));
   }
-  DrawPlayhead(draw, scale_.XOf(workspace.time()), view.y, view.y + view_size.y);
+  DrawPlayhead(draw, scale_.XOf(workspace.playback().time()), view.y, view.y + view_size.y);
   draw.PopClipRect();
   if (layout_.shown().empty() ||
-      (layout_.rows().size() <= 1 && workspace.document().cast.empty())) {
+      (layout_.rows().size() <= 1 && workspace.project().document().cast.empty())) {
     const char* text = Tr("Nobody is on the stage yet. Add a person in the list at the left.");
     draw.AddText(ImVec2(scale_.left + Px(24), view.y + Px(34)), Packed(Colours().dim), text);
   }
@@ -381,8 +381,8 @@ void TimelinePanel::DrawKindMenu(editor::Workspace& workspace, const std::string
 }
 
 void TimelinePanel::DrawAddMenu(editor::Workspace& workspace) {
-  DimText(Text(Tr("At %s"), FormatTime(workspace.time(), 0.01).c_str()));
-  for (const editor::CastDocument& member : workspace.document().cast) {
+  DimText(Text(Tr("At %s"), FormatTime(workspace.playback().time(), 0.01).c_str()));
+  for (const editor::CastDocument& member : workspace.project().document().cast) {
     if (ImGui::BeginMenu(WithIcon(Icon::kPerson, member.name).c_str())) {
       DrawKindMenu(workspace, member.name);
       ImGui::EndMenu();
@@ -452,11 +452,11 @@ void TimelinePanel::DrawTools(editor::Workspace& workspace, Input& input) {
   PlayButton(workspace);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(FormatTime(workspace.time(), 0.01).c_str());
+  ImGui::TextUnformatted(FormatTime(workspace.playback().time(), 0.01).c_str());
   ImGui::SameLine(0.0f, Px(4));
-  DimText("/ " + FormatTime(workspace.duration(), 1.0));
+  DimText("/ " + FormatTime(workspace.playback().duration(), 1.0));
   ImGui::SameLine(0.0f, Px(16));
-  ImGui::BeginDisabled(workspace.script().timeline() == nullptr);
+  ImGui::BeginDisabled(workspace.project().script().timeline() == nullptr);
   if (ImGui::Button(WithIcon(Icon::kAdd, Tr("Add")).c_str())) {
     open_add_ = true;
     input.focus = Focus::kTimeline;
@@ -484,7 +484,7 @@ void TimelinePanel::DrawSwitches(const editor::Workspace& workspace) {
                WithKey(Tr("What comes later moves along"), KeyAction::kRipple));
   ImGui::SameLine();
   if (ImGui::Button(WithIcon(Icon::kFit, Tr("Fit")).c_str())) {
-    ZoomToFit(scale_, workspace.duration());
+    ZoomToFit(scale_, workspace.playback().duration());
   }
   Tip(WithKey(Tr("Shows all of the drama; Ctrl and the wheel zoom"), KeyAction::kFit));
 }
@@ -499,7 +499,7 @@ void TimelinePanel::DrawSwitchMenu(const editor::Workspace& workspace) {
     ImGui::MenuItem(Tr("Snap"), KeyText(KeyAction::kSnap).c_str(), &snap_);
     ImGui::MenuItem(Tr("Ripple"), KeyText(KeyAction::kRipple).c_str(), &ripple_);
     if (ImGui::MenuItem(Tr("Fit"), KeyText(KeyAction::kFit).c_str())) {
-      ZoomToFit(scale_, workspace.duration());
+      ZoomToFit(scale_, workspace.playback().duration());
     }
     ImGui::EndPopup();
   }
@@ -508,7 +508,8 @@ void TimelinePanel::DrawSwitchMenu(const editor::Workspace& workspace) {
 void TimelinePanel::Show(editor::Workspace& workspace, Input& input, EditorActions& actions) {
   Refresh(workspace);
   const auto asked = std::exchange(asked_, std::nullopt);
-  if (const TimelineText* text = workspace.script().timeline(); asked && text != nullptr) {
+  if (const TimelineText* text = workspace.project().script().timeline();
+      asked && text != nullptr) {
     editor::ItemSet still_there = {*asked};
     editor::KeepValid(*text, still_there);
     for (const TimelineItem& item : still_there) {
@@ -521,12 +522,12 @@ void TimelinePanel::Show(editor::Workspace& workspace, Input& input, EditorActio
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
   ImGui::BeginChild("canvas", ImVec2(available.x - inspector - Px(12), available.y), false,
                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoScrollbar);
-  if (!fitted_ && workspace.duration() > 0.0 && scale_.width > 0.0f) {
+  if (!fitted_ && workspace.playback().duration() > 0.0 && scale_.width > 0.0f) {
     fitted_ = true;
-    ZoomToFit(scale_, std::min(workspace.duration(), 120.0));
+    ZoomToFit(scale_, std::min(workspace.playback().duration(), 120.0));
   }
-  if (workspace.playing() && drag_.kind == Drag::Kind::kNone) {
-    ScrollTo(scale_, workspace.time());
+  if (workspace.playback().playing() && drag_.kind == Drag::Kind::kNone) {
+    ScrollTo(scale_, workspace.playback().time());
   }
   DrawRuler(workspace, Px(kRuler));
   DrawRows(workspace, input, actions);

@@ -62,8 +62,8 @@ TimelinePanel::Hit TimelinePanel::HitAt(const editor::Workspace& workspace,
   if (row.kind == TimelineRow::Kind::kItems) {
     for (const size_t lane : row.lanes) {
       found_.clear();
-      workspace.script().timeline()->Query(lane, before - TimelineItems::kLongNatural, after,
-                                           found_);
+      workspace.project().script().timeline()->Query(lane, before - TimelineItems::kLongNatural,
+                                                     after, found_);
       for (auto item = found_.rbegin(); item != found_.rend() && !hit.item; ++item) {
         if (covers(Shown(workspace, {lane, *item}))) {
           hit.item = {lane, *item};
@@ -73,11 +73,11 @@ TimelinePanel::Hit TimelinePanel::HitAt(const editor::Workspace& workspace,
     if (hit.item && row.lane == LaneKind::kMarkers) {
       hit.part = Hit::Part::kBody;
     }
-  } else if (row.kind == TimelineRow::Kind::kBlocks && workspace.drama_run() != nullptr) {
+  } else if (row.kind == TimelineRow::Kind::kBlocks && workspace.dry_run().newest() != nullptr) {
     found_.clear();
     row.index.Query(before, after, found_);
     for (auto block = found_.rbegin(); block != found_.rend() && !hit.block; ++block) {
-      const TaskRecord& task = workspace.drama_run()->tasks[row.blocks[*block]];
+      const TaskRecord& task = workspace.dry_run().newest()->tasks[row.blocks[*block]];
       if (covers({task.began, task.ended})) {
         hit.block = row.blocks[*block];
         hit.group = KeyOfGroup(row);
@@ -112,7 +112,7 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && hit.row >= 0 &&
         layout_.Shown(hit.row).kind == TimelineRow::Kind::kItems) {
       const TimelineRow& row = layout_.Shown(hit.row);
-      workspace.SetTime(std::max(drag_.from, 0.0));
+      workspace.playback().SetTime(std::max(drag_.from, 0.0));
       Add(workspace, row.lane, row.group);
       return;
     }
@@ -134,8 +134,8 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
                : hit.part == Hit::Part::kEnd ? Drag::Kind::kTrimEnd
                                              : Drag::Kind::kMove;
   // The drag snaps to the playhead and to the ends of all other items.
-  drag_.marks = {0.0, workspace.time()};
-  const TimelineText& text = *workspace.script().timeline();
+  drag_.marks = {0.0, workspace.playback().time()};
+  const TimelineText& text = *workspace.project().script().timeline();
   for (size_t lane = 0; lane < text.lanes().size(); ++lane) {
     const TimelineLane& in = text.lanes()[lane];
     for (size_t i = 0; i < in.size(); ++i) {
@@ -145,7 +145,7 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
       }
     }
   }
-  if (const editor::DramaRun* run = workspace.drama_run()) {
+  if (const editor::DramaRun* run = workspace.dry_run().newest()) {
     for (const TaskRecord& task : run->tasks) {
       if (!task.from_timeline) {
         drag_.marks.push_back(task.began);
@@ -157,7 +157,7 @@ void TimelinePanel::BeginDrag(editor::Workspace& workspace,
 
 // Snaps a drag. by: the move of the mouse, seconds.
 void TimelinePanel::SnapDrag(const editor::Workspace& workspace, double by) {
-  const TimelineText& text = *workspace.script().timeline();
+  const TimelineText& text = *workspace.project().script().timeline();
   const double by_before = std::exchange(drag_.by, 0.0);
   const editor::TimeSpan grabbed = Shown(workspace, drag_.grabbed);
   drag_.by = by_before;
@@ -205,7 +205,8 @@ void TimelinePanel::SelectBox(const editor::Workspace& workspace, double to, flo
     }
     for (const size_t lane : row.lanes) {
       found_.clear();
-      workspace.script().timeline()->Query(lane, begin - TimelineItems::kLongNatural, end, found_);
+      workspace.project().script().timeline()->Query(lane, begin - TimelineItems::kLongNatural, end,
+                                                     found_);
       for (const uint32_t item : found_) {
         if (Shown(workspace, {lane, item}).end >= begin) {
           chosen.push_back({lane, item});
@@ -223,7 +224,7 @@ void TimelinePanel::UpdateDrag(editor::Workspace& workspace, float rows_top) {
   const double now = scale_.TimeAt(io.MousePos.x);
   const float y = io.MousePos.y - rows_top;
   drag_.moved |= ImGui::IsMouseDragging(ImGuiMouseButton_Left, Px(kClick));
-  if (!drag_.moved || workspace.script().timeline() == nullptr) {
+  if (!drag_.moved || workspace.project().script().timeline() == nullptr) {
     return;
   }
   switch (drag_.kind) {
@@ -242,7 +243,7 @@ void TimelinePanel::UpdateDrag(editor::Workspace& workspace, float rows_top) {
 
 void TimelinePanel::EndDrag(editor::Workspace& workspace) {
   const Drag drag = std::exchange(drag_, Drag());
-  if (!drag.moved || drag.by == 0.0 || workspace.script().timeline() == nullptr) {
+  if (!drag.moved || drag.by == 0.0 || workspace.project().script().timeline() == nullptr) {
     if (!drag.moved && drag.kind == Drag::Kind::kMove) {
       selection_.SetItems({drag.grabbed});  // A click on one of several selected items.
     }
@@ -338,12 +339,13 @@ void TimelinePanel::DrawTooltip(editor::Workspace& workspace, const Hit& hit) {
   std::string hint;
   if (hit.item) {
     const editor::TimeSpan span = Shown(workspace, *hit.item);
-    const TimelineLane& lane = workspace.script().timeline()->lanes()[hit.item->lane];
+    const TimelineLane& lane = workspace.project().script().timeline()->lanes()[hit.item->lane];
     title = std::string(ItemTitle(lane.kind)) + ": " + items_.FaceOf(workspace, *hit.item).label;
     times = FormatTime(span.begin, 0.01) + " \xe2\x80\x93 " + FormatTime(span.end, 0.01);
-    hint = Text(Tr("line %zu of the script"), workspace.script().timeline()->LineOf(*hit.item));
+    hint = Text(Tr("line %zu of the script"),
+                workspace.project().script().timeline()->LineOf(*hit.item));
   } else {
-    const TaskRecord& task = workspace.drama_run()->tasks[*hit.block];
+    const TaskRecord& task = workspace.dry_run().newest()->tasks[*hit.block];
     title = task.actor + ": " + BlockLabel(task, false);
     times = FormatTime(task.began, 0.01) + " \xe2\x80\x93 " + FormatTime(task.ended, 0.01);
     hint = task.failed
@@ -361,9 +363,9 @@ void TimelinePanel::DrawTooltip(editor::Workspace& workspace, const Hit& hit) {
 
 void TimelinePanel::Add(editor::Workspace& workspace, LaneKind kind, const std::string& actor) {
   editor::ItemSet added;
-  const double at = std::round(workspace.time() * 100.0) / 100.0;
-  const bool done =
-      workspace.EditTimeline(Text(Tr("add %s"), ItemTitle(kind)), [&](TimelineText& text) {
+  const double at = std::round(workspace.playback().time() * 100.0) / 100.0;
+  const bool done = workspace.project().EditTimeline(
+      Sentence("add %s", {std::string(ItemTitle(kind))}), [&](TimelineText& text) {
         return editor::AddItem(text, kind, actor, NewFields(workspace, kind, actor, at), added);
       });
   if (done) {
@@ -382,13 +384,13 @@ void TimelinePanel::Choose(const TimelineText& text, TimelineItem item) {
 }
 
 void TimelinePanel::StepSelection(const editor::Workspace& workspace, const TimelineStep& step) {
-  const TimelineText& text = *workspace.script().timeline();
-  const editor::DramaRun* run = workspace.drama_run();
+  const TimelineText& text = *workspace.project().script().timeline();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   const std::vector<TimelineLine> lines = LinesOf(
       layout_.rows(), text, run != nullptr ? std::span(run->tasks) : std::span<const TaskRecord>(),
       layout_.folded());
   const std::optional<TimelineStop> from = selection_.Last();
-  const std::optional<TimelineStop> to = StepFrom(lines, from, workspace.time(), step);
+  const std::optional<TimelineStop> to = StepFrom(lines, from, workspace.playback().time(), step);
   if (!to || (step.items && !to->item)) {
     return;
   }
@@ -420,14 +422,14 @@ void TimelinePanel::FoldChosen() {
 // Moves the playhead to the next begin or end of an item.
 void TimelinePanel::JumpToEdge(editor::Workspace& workspace, int direction) {
   constexpr double kSame = 1e-3;
-  const double now = workspace.time();
-  double best = direction > 0 ? workspace.duration() : 0.0;
+  const double now = workspace.playback().time();
+  double best = direction > 0 ? workspace.playback().duration() : 0.0;
   const auto offer = [&](double time) {
     if (direction > 0 ? time > now + kSame && time < best : time < now - kSame && time > best) {
       best = time;
     }
   };
-  if (const TimelineText* text = workspace.script().timeline()) {
+  if (const TimelineText* text = workspace.project().script().timeline()) {
     for (const TimelineLane& lane : text->lanes()) {
       for (size_t i = 0; i < lane.size(); ++i) {
         offer(lane.at[i]);
@@ -435,24 +437,25 @@ void TimelinePanel::JumpToEdge(editor::Workspace& workspace, int direction) {
       }
     }
   }
-  if (const editor::DramaRun* run = workspace.drama_run()) {
+  if (const editor::DramaRun* run = workspace.dry_run().newest()) {
     for (const TaskRecord& task : run->tasks) {
       offer(task.began);
       offer(task.ended);
     }
   }
-  workspace.SetPlaying(false);
-  workspace.SetTime(best);
+  workspace.playback().SetPlaying(false);
+  workspace.playback().SetTime(best);
   ScrollTo(scale_, best);
 }
 
 void TimelinePanel::GoToScript(const editor::Workspace& workspace, EditorActions& actions) {
   int line = 0;
-  if (selection_.HasItems() && workspace.script().timeline() != nullptr) {
-    line = static_cast<int>(workspace.script().timeline()->LineOf(selection_.items().front()));
-  } else if (selection_.block() && workspace.drama_run() != nullptr) {
-    line = LineOfPlace(workspace.drama_run()->tasks[*selection_.block()].where,
-                       workspace.paths().Drama().filename().string());
+  if (selection_.HasItems() && workspace.project().script().timeline() != nullptr) {
+    line = static_cast<int>(
+        workspace.project().script().timeline()->LineOf(selection_.items().front()));
+  } else if (selection_.block() && workspace.dry_run().newest() != nullptr) {
+    line = LineOfPlace(workspace.dry_run().newest()->tasks[*selection_.block()].where,
+                       workspace.project().paths().Drama().filename().string());
   }
   if (line > 0) {
     actions.push_back(GoToScriptLine{line});
@@ -462,7 +465,7 @@ void TimelinePanel::GoToScript(const editor::Workspace& workspace, EditorActions
 bool TimelinePanel::HandleSelectionKey(editor::Workspace& workspace, KeyAction action, bool shift) {
   switch (action) {
     case KeyAction::kSelectAll:
-      selection_.SelectAll(*workspace.script().timeline());
+      selection_.SelectAll(*workspace.project().script().timeline());
       return true;
     case KeyAction::kSelectNone:
       drag_ = {};
@@ -491,22 +494,23 @@ bool TimelinePanel::HandleSelectionKey(editor::Workspace& workspace, KeyAction a
 
 bool TimelinePanel::HandleTimeKey(editor::Workspace& workspace, KeyAction action, bool shift) {
   const auto go = [&](double time) {
-    workspace.SetPlaying(false);
-    workspace.SetTime(std::clamp(time, 0.0, std::max(workspace.duration(), workspace.time())));
-    ScrollTo(scale_, workspace.time());
+    workspace.playback().SetPlaying(false);
+    workspace.playback().SetTime(std::clamp(
+        time, 0.0, std::max(workspace.playback().duration(), workspace.playback().time())));
+    ScrollTo(scale_, workspace.playback().time());
   };
   switch (action) {
     case KeyAction::kBack:
-      go(workspace.time() - (shift ? 1.0 : kFrame));
+      go(workspace.playback().time() - (shift ? 1.0 : kFrame));
       return true;
     case KeyAction::kOn:
-      go(workspace.time() + (shift ? 1.0 : kFrame));
+      go(workspace.playback().time() + (shift ? 1.0 : kFrame));
       return true;
     case KeyAction::kBegin:
       go(0.0);
       return true;
     case KeyAction::kEnd:
-      go(workspace.duration());
+      go(workspace.playback().duration());
       return true;
     case KeyAction::kEdgeBack:
       JumpToEdge(workspace, -1);
@@ -515,13 +519,13 @@ bool TimelinePanel::HandleTimeKey(editor::Workspace& workspace, KeyAction action
       JumpToEdge(workspace, 1);
       return true;
     case KeyAction::kNearer:
-      Zoom(scale_, 0.8, scale_.XOf(workspace.time()));
+      Zoom(scale_, 0.8, scale_.XOf(workspace.playback().time()));
       return true;
     case KeyAction::kFurther:
-      Zoom(scale_, 1.25, scale_.XOf(workspace.time()));
+      Zoom(scale_, 1.25, scale_.XOf(workspace.playback().time()));
       return true;
     case KeyAction::kFit:
-      ZoomToFit(scale_, workspace.duration());
+      ZoomToFit(scale_, workspace.playback().duration());
       return true;
     default:
       return false;
@@ -583,7 +587,7 @@ bool TimelinePanel::HandleEditKey(editor::Workspace& workspace,
 
 void TimelinePanel::HandleKeys(editor::Workspace& workspace, Input& input, EditorActions& actions) {
   if (input.focus != Focus::kTimeline || ImGui::GetIO().WantTextInput ||
-      workspace.script().timeline() == nullptr) {
+      workspace.project().script().timeline() == nullptr) {
     return;
   }
   Refresh(workspace);

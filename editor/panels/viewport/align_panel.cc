@@ -94,7 +94,7 @@ void DrawPairButtons(editor::Workspace& workspace,
                      const editor::OccluderDocument& occluder) {
   const ImVec2 wide(-FLT_MIN, 0);
   const std::string name = occluder.name;
-  ImGui::BeginDisabled(workspace.loaded().staged == nullptr ||
+  ImGui::BeginDisabled(workspace.preview().staged() == nullptr ||
                        occluder.model_pairs.size() >= editor::kMaxModelPairs);
   if (ImGui::Button(align.picking ? Tr("Stop adding") : Tr("Add a point"), wide)) {
     align.picking = !align.picking;
@@ -110,8 +110,8 @@ void DrawPairButtons(editor::Workspace& workspace,
   }
   ImGui::BeginDisabled(!align.pair);
   if (ImGui::Button(Tr("Remove the point"), wide)) {
-    workspace.EditOccluder(
-        Tr("remove a point of the model"), name,
+    workspace.project().EditOccluder(
+        Sentence("remove a point of the model"), name,
         [pair = *align.pair](editor::OccluderDocument& o) { editor::RemoveModelPair(o, pair); });
     align.pair.reset();
   }
@@ -126,13 +126,13 @@ void AlignByPointsButton(editor::Workspace& workspace,
   ImGui::BeginDisabled(!enough);
   if (ImGui::Button(Tr("Align by the points"), ImVec2(-FLT_MIN, 0))) {
     const auto aligned =
-        editor::AlignByPoints(occluder, *workspace.loaded().database, map_from_stage);
+        editor::AlignByPoints(occluder, *workspace.map().loaded().database, map_from_stage);
     if (aligned.ok()) {
-      workspace.EditOccluder(
-          Text(Tr("align %s"), occluder.name.c_str()), occluder.name,
+      workspace.project().EditOccluder(
+          Sentence("align %s", {occluder.name}), occluder.name,
           [&](editor::OccluderDocument& edited) { edited.stage_from_mesh = *aligned; });
     } else {
-      workspace.Tell(editor::Message::Level::kError, aligned.message());
+      workspace.messages().Tell(editor::Message::Level::kError, aligned.message());
     }
   }
   ImGui::EndDisabled();
@@ -149,14 +149,14 @@ void DrawRefining(editor::Workspace& workspace,
                    editor::kMaxSearch, "%.3f m");
     EndProperties();
   }
-  ImGui::BeginDisabled(workspace.loaded().staged == nullptr ||
+  ImGui::BeginDisabled(workspace.preview().staged() == nullptr ||
                        workspace.tasks().Running(editor::TaskKind::kRefining));
   if (ImGui::Button(Tr("Refine on the map"), ImVec2(-FLT_MIN, 0))) {
-    workspace.RefineOccluder(occluder.name, align.search_m);
+    workspace.map().RefineOccluder(occluder.name, workspace.preview().staged(), align.search_m);
   }
   ImGui::EndDisabled();
   Tooltip(Tr("Moves the model so that its surface lies among the map's points near it"));
-  if (const auto* refined = workspace.refinement(occluder)) {
+  if (const auto* refined = workspace.map().refinement(occluder)) {
     if (refined->report.ok()) {
       Hint(editor::RefineText(*refined->report, true));
     } else {
@@ -167,7 +167,7 @@ void DrawRefining(editor::Workspace& workspace,
 
 // The staged model; nullptr: it is not staged yet.
 const stage::Occluder* Staged(const editor::Workspace& workspace, const std::string& name) {
-  const auto& staged = workspace.loaded().staged;
+  const auto& staged = workspace.preview().staged();
   if (staged == nullptr) {
     return nullptr;
   }
@@ -178,10 +178,11 @@ const stage::Occluder* Staged(const editor::Workspace& workspace, const std::str
 
 const editor::OccluderDocument* SelectedModel(const editor::Workspace& workspace,
                                               const Selection& selection) {
-  if (workspace.place() == nullptr || selection.kind != Selection::Kind::kOccluder) {
+  if (workspace.project().place() == nullptr || selection.kind != Selection::Kind::kOccluder) {
     return nullptr;
   }
-  const editor::OccluderDocument* occluder = workspace.place()->FindOccluder(selection.name);
+  const editor::OccluderDocument* occluder =
+      workspace.project().place()->FindOccluder(selection.name);
   return occluder != nullptr && occluder->kind() == editor::OccluderDocument::Kind::kModel
              ? occluder
              : nullptr;
@@ -199,8 +200,8 @@ void PickOnModel(editor::Workspace& workspace,
   if (solid == nullptr) {
     return;
   }
-  if (align.tree == nullptr || align.tree_of != workspace.loaded().staged) {
-    align.tree_of = workspace.loaded().staged;
+  if (align.tree == nullptr || align.tree_of != workspace.preview().staged()) {
+    align.tree_of = workspace.preview().staged();
     align.tree = std::make_shared<const vision::OccluderTree>(vision::Placed(solid->mesh, {}));
   }
   const Similarity3 world_from_mesh = WorldFromOccluder(workspace, occluder.name);
@@ -221,8 +222,8 @@ void PickOnModel(editor::Workspace& workspace,
   align.pair = occluder.model_pairs.size();
   align.picking = false;
   options.view = ViewKind::kPicks;
-  workspace.EditOccluder(
-      Tr("add a point of the model"), occluder.name,
+  workspace.project().EditOccluder(
+      Sentence("add a point of the model"), occluder.name,
       [&](editor::OccluderDocument& edited) { editor::AddModelPair(edited, on_mesh); });
 }
 
@@ -248,20 +249,21 @@ void DrawAlignment(editor::Workspace& workspace,
   Hint(
       Tr("By points that you find on the model and in the training images, then by the map's "
          "points on its surface."));
-  if (workspace.loaded().database == nullptr) {
+  if (workspace.map().loaded().database == nullptr) {
     Hint(Tr("Train the place first."));
     return;
   }
-  const Similarity3 map_from_stage =
-      workspace.loaded().picks.map_from_picked * workspace.place()->picked_from_stage;
+  const Similarity3 map_from_stage = workspace.map().loaded().picks.map_from_picked *
+                                     workspace.project().place()->picked_from_stage;
   const editor::AlignmentReport report = Alignment(workspace, align, model);
   DrawPairTable(options, align, model, report);
   DrawPairs(model, report);
   DrawPairButtons(workspace, options, align, model);
   bool keep = model.keep_scale;
   if (CheckRow(Tr("Its scale is right"), keep)) {
-    workspace.EditOccluder(Text(Tr("scale of %s"), model.name.c_str()), model.name,
-                           [&](editor::OccluderDocument& edited) { edited.keep_scale = keep; });
+    workspace.project().EditOccluder(
+        Sentence("scale of %s", {model.name}), model.name,
+        [&](editor::OccluderDocument& edited) { edited.keep_scale = keep; });
   }
   Tooltip(Tr("As where the model is in metres: aligning only moves and turns it"));
   AlignByPointsButton(workspace, model, report, map_from_stage);
@@ -287,20 +289,21 @@ const editor::AlignmentReport& Alignment(const editor::Workspace& workspace,
                                          AlignView& align,
                                          const editor::OccluderDocument& occluder) {
   DiscardOtherModel(align, occluder.name);
-  const auto document = workspace.commands().snapshot();
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const auto document = workspace.project().commands().snapshot();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   if (loaded.database == nullptr) {
     align.report = {};
     align.document = nullptr;
   } else if (align.document != document || align.database != loaded.database ||
-             align.place != workspace.place()->name ||
+             align.place != workspace.project().place()->name ||
              align.map_from_picked != loaded.picks.map_from_picked) {
     align.document = document;
     align.database = loaded.database;
-    align.place = workspace.place()->name;
+    align.place = workspace.project().place()->name;
     align.map_from_picked = loaded.picks.map_from_picked;
     align.report = editor::ReportAlignment(
-        occluder, *loaded.database, align.map_from_picked * workspace.place()->picked_from_stage);
+        occluder, *loaded.database,
+        align.map_from_picked * workspace.project().place()->picked_from_stage);
   }
   return align.report;
 }
@@ -316,7 +319,7 @@ bool DrawModelPoints(editor::Workspace& workspace,
   if (model == nullptr) {
     return false;
   }
-  const Similarity3& world_from_stage = workspace.place()->picked_from_stage;
+  const Similarity3& world_from_stage = workspace.project().place()->picked_from_stage;
   const Similarity3 world_from_mesh = world_from_stage * model->stage_from_mesh;
   const editor::AlignmentReport& report = Alignment(workspace, align, *model);
   for (size_t i = 0; i < model->model_pairs.size(); ++i) {

@@ -99,7 +99,7 @@ void DrawTrails(const editor::PreviewPicture& picture, const Rect& rect, ImDrawL
 std::string BadgeText(const editor::Workspace& workspace,
                       const editor::PreviewPicture& picture,
                       float width) {
-  if (!workspace.camera_is_there()) {
+  if (!workspace.preview().camera_is_there()) {
     return Tr("The camera is unplugged");
   }
   if (!picture.camera_from_stage) {
@@ -114,7 +114,7 @@ std::string BadgeText(const editor::Workspace& workspace,
 }
 
 Icon BadgeIcon(const editor::Workspace& workspace, const editor::PreviewPicture& picture) {
-  if (!workspace.camera_is_there()) {
+  if (!workspace.preview().camera_is_there()) {
     return Icon::kWarning;
   }
   if (!picture.camera_from_stage) {
@@ -171,11 +171,11 @@ void NudgeWithKeys(editor::Workspace& workspace, const Input& input) {
       continue;
     }
     if (!press.repeats) {
-      workspace.EndGesture();  // Each press is a separate command.
+      workspace.project().EndGesture();  // Each press is a separate command.
     }
     const double step = (press.modifiers & GLFW_MOD_SHIFT) != 0 ? 10.0 * kStep : kStep;
-    workspace.EditPlace(
-        Tr("nudge the camera"),
+    workspace.project().EditPlace(
+        Sentence("nudge the camera"),
         [&](editor::PlaceDocument& place) { place.camera_nudge += step * direction; },
         "nudge keys");
   }
@@ -294,7 +294,7 @@ glm::vec3 ColourOf(const ImVec4& colour) { return {colour.x, colour.y, colour.z}
 void AskForOnionSkin(editor::Workspace& workspace, bool shown, editor::OnionSkin& skin) {
   skin.colour_before = ColourOf(OverPicture().call);
   skin.colour_after = ColourOf(OverPicture().warning);
-  workspace.SetOnionSkin(shown ? std::optional(skin) : std::nullopt);
+  workspace.preview().look().onion = shown ? std::optional(skin) : std::nullopt;
 }
 
 // A slider for the frame, with its time if there is space. switches: pixels at its right for the
@@ -304,7 +304,8 @@ void DrawSlider(editor::Workspace& workspace,
                 float switches) {
   const int64_t last = recording ? std::max<int64_t>(recording->frames - 1, 0) : 0;
   const double seconds =
-      recording ? static_cast<double>(workspace.frame()) / recording->frames_per_second : 0.0;
+      recording ? static_cast<double>(workspace.playback().frame()) / recording->frames_per_second
+                : 0.0;
   const float time = Px(62) + ImGui::GetStyle().ItemSpacing.x;
   float width = ImGui::GetContentRegionAvail().x - switches;
   const bool shows_time = width - time >= Px(140);
@@ -315,13 +316,13 @@ void DrawSlider(editor::Workspace& workspace,
   // The grab is as wide as a frame, so with a single frame it would fill the slider.
   const ImVec4 grab = ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab);
   ImGui::PushStyleColor(ImGuiCol_SliderGrab, last > 0 ? grab : ImVec4());
-  int frame = static_cast<int>(workspace.frame());
+  int frame = static_cast<int>(workspace.playback().frame());
   const bool moved = ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(last),
                                       named ? Tr("frame %d") : "%d", ImGuiSliderFlags_AlwaysClamp);
   ImGui::PopStyleColor();
   if (moved) {
-    workspace.SetPlaying(false);
-    workspace.SetFrame(frame);
+    workspace.playback().SetPlaying(false);
+    workspace.playback().SetFrame(frame);
   }
   if (shows_time) {
     ImGui::SameLine();
@@ -335,23 +336,23 @@ void DrawLive(editor::Workspace& workspace, float switches) {
   const float width = ImGui::GetContentRegionAvail().x - switches;
   const float end = WidestButton(std::array{Tr("End")}, 0.0f);
   const std::string camera =
-      editor::IsCameraNumber(workspace.live_camera())
-          ? workspace.live_camera()
-          : std::filesystem::path(workspace.live_camera()).filename().string();
+      editor::IsCameraNumber(workspace.preview().live_camera())
+          ? workspace.preview().live_camera()
+          : std::filesystem::path(workspace.preview().live_camera()).filename().string();
   const std::string text =
-      Text(Tr("Live: camera %s, drama at %.1f s"), camera.c_str(), workspace.time());
+      Text(Tr("Live: camera %s, drama at %.1f s"), camera.c_str(), workspace.playback().time());
   ImGui::AlignTextToFramePadding();
   const float x = ImGui::GetCursorPosX();
   DimText(Elided(text, width - end - ImGui::GetStyle().ItemSpacing.x));
   ImGui::SameLine(x + width - end);
   if (ImGui::Button(Tr("End"))) {
-    workspace.SetViewSource(editor::Workspace::ViewSource::kRecording);
+    workspace.preview().SetViewSource(editor::PreviewSession::ViewSource::kRecording);
   }
   Tooltip(Tr("Back to the place's recording"));
 }
 
 void DrawTransport(editor::Workspace& workspace, ViewOptions& options, OnionSettings& onion) {
-  const std::optional<editor::PreviewSource> recording = workspace.recording();
+  const std::optional<editor::PreviewSource> recording = workspace.playback().recording();
   ImGui::BeginDisabled(!recording.has_value());
   PlayButton(workspace);
   ImGui::SameLine();
@@ -379,14 +380,15 @@ void DrawTransport(editor::Workspace& workspace, ViewOptions& options, OnionSett
 }
 
 void DrawEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
-  const bool live = workspace.view_source() == editor::Workspace::ViewSource::kLive;
+  const bool live = workspace.preview().view_source() == editor::PreviewSession::ViewSource::kLive;
   const char* text =
       live ? Tr("Opening the camera\xe2\x80\xa6") : Tr("Opening the recording\xe2\x80\xa6");
-  if (workspace.place() == nullptr) {
+  if (workspace.project().place() == nullptr) {
     text = Tr("This project has no place yet. Train one from a recording.");
-  } else if (workspace.loaded().database == nullptr && workspace.tasks_empty()) {
+  } else if (workspace.map().loaded().database == nullptr && workspace.tasks().entries().empty()) {
     text = Tr("This place is not trained yet. Choose Train\xe2\x80\xa6 above.");
-  } else if (workspace.tasks_empty() && !workspace.recording() && !workspace.messages().empty()) {
+  } else if (workspace.tasks().entries().empty() && !workspace.playback().recording() &&
+             !workspace.messages().entries().empty()) {
     text = Tr("No picture. The messages below say why.");
   }
   const float wrap = size.x - Px(24);
@@ -407,8 +409,8 @@ void CameraView::DrawCorners(editor::Workspace& workspace,
                              bool hovered,
                              ImDrawList& draw) {
   const editor::OccluderDocument* occluder = OccluderInWork(workspace, selection);
-  if (occluder != nullptr && !workspace.playing()) {
-    const editor::FrameToPick frame = workspace.frame_to_pick();
+  if (occluder != nullptr && !workspace.playback().playing()) {
+    const editor::FrameToPick frame = workspace.preview().frame_to_pick();
     DrawLabel(ImVec2(origin.x + Px(17), origin.y + Px(52)),
               frame.keyframe ? CornerHint(workspace, *occluder) : Tr(frame.problem),
               Packed(frame.keyframe ? OverPicture().text : OverPicture().warning), draw);
@@ -446,11 +448,11 @@ void CameraView::Show(editor::Workspace& workspace,
   ImGui::InvisibleButton("view", size);
   bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  workspace.SetCompare(options.show_compare ||
-                       LightOverlay::ComparesPictures(workspace, selection, tools.light));
+  workspace.preview().look().compare =
+      options.show_compare || LightOverlay::ComparesPictures(workspace, selection, tools.light);
   AskForOnionSkin(workspace, options.show_onion, onion_.skin);
-  const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.picture();
-  if (picture == nullptr || workspace.place() == nullptr) {
+  const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.preview().picture();
+  if (picture == nullptr || workspace.project().place() == nullptr) {
     DrawEmpty(workspace, origin, size);
   } else {
     if (picture.get() != uploaded_) {
@@ -465,11 +467,11 @@ void CameraView::Show(editor::Workspace& workspace,
                                      hovered, draw);
     const bool shows_stage = options.show_stage || tools.align.picking;
     if (picture->camera_from_stage && (shows_stage || options.show_occluders)) {
-      overlays_.Show(workspace, selection, options, PictureView(*picture, *workspace.place(), rect),
-                     draw);
+      overlays_.Show(workspace, selection, options,
+                     PictureView(*picture, *workspace.project().place(), rect), draw);
     }
     if (picture->camera_from_stage && shows_stage) {
-      const ViewCamera view = PictureView(*picture, *workspace.place(), rect);
+      const ViewCamera view = PictureView(*picture, *workspace.project().place(), rect);
       DrawStage(workspace, view, draw);
       DrawCheckPoints(workspace, selection, tools.check, view, draw);
       const bool picking =

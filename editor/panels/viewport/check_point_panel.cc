@@ -49,7 +49,7 @@ void EditPoint(editor::Workspace& workspace,
                const Sentence& command,
                const Eigen::Vector3d& position,
                std::string_view gesture) {
-  workspace.Edit(
+  workspace.project().Edit(
       command,
       [&](editor::ProjectDocument& document) {
         for (editor::CheckPointDocument& point : document.check_points) {
@@ -91,13 +91,13 @@ void DrawPointButtons(editor::Workspace& workspace,
   ImGui::EndDisabled();
   ImGui::BeginDisabled(here.verdict == Verdict::kNotPicked);
   if (ImGui::Button(Tr("Clear its picks here"), wide)) {
-    workspace.EditPlace(Tr("clear picks"), [&](editor::PlaceDocument& place) {
+    workspace.project().EditPlace(Sentence("clear picks"), [&](editor::PlaceDocument& place) {
       editor::ClearCheckPicks(place, name);
     });
   }
   ImGui::EndDisabled();
   if (ImGui::Button(Tr("Remove"), wide)) {
-    workspace.Edit(Text(Tr("remove %s"), name.c_str()), [&](editor::ProjectDocument& document) {
+    workspace.project().Edit(Sentence("remove %s", {name}), [&](editor::ProjectDocument& document) {
       editor::RemoveCheckPoint(document, name);
     });
     selection = {};
@@ -143,9 +143,10 @@ void DrawOutcome(editor::Workspace& workspace, const CheckReport& report) {
   ImGui::BeginDisabled(!can_lay);
   if (ImGui::Button(Tr("Lay the stage by the points"), ImVec2(-FLT_MIN, 0))) {
     const geometry::Similarity3 laid =
-        workspace.loaded().picks.map_from_picked.Inverse() * *report.map_from_stage;
-    workspace.EditPlace(Tr("lay the stage by the points"),
-                        [&](editor::PlaceDocument& place) { place.picked_from_stage = laid; });
+        workspace.map().loaded().picks.map_from_picked.Inverse() * *report.map_from_stage;
+    workspace.project().EditPlace(
+        Sentence("lay the stage by the points"),
+        [&](editor::PlaceDocument& place) { place.picked_from_stage = laid; });
   }
   ImGui::EndDisabled();
 }
@@ -156,13 +157,13 @@ void DrawName(editor::Workspace& workspace, Selection& selection, const std::str
   if (!ImGui::InputText("##name", &typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
     return;
   }
-  const auto& points = workspace.document().check_points;
+  const auto& points = workspace.project().document().check_points;
   const bool taken =
       std::any_of(points.begin(), points.end(), [&](const auto& p) { return p.name == typed; });
   if (typed.empty() || typed.size() > editor::kMaxCheckPointName || taken) {
     return;
   }
-  workspace.Edit(Text(Tr("name %s"), typed.c_str()), [&](editor::ProjectDocument& document) {
+  workspace.project().Edit(Sentence("name %s", {typed}), [&](editor::ProjectDocument& document) {
     editor::RenameCheckPoint(document, name, typed);
   });
   selection.name = typed;
@@ -171,9 +172,9 @@ void DrawName(editor::Workspace& workspace, Selection& selection, const std::str
 }  // namespace
 
 const CheckReport& CheckedPoints(const editor::Workspace& workspace, CheckView& check) {
-  const auto document = workspace.commands().snapshot();
-  const editor::LoadedPlace& loaded = workspace.loaded();
-  const editor::PlaceDocument* place = workspace.place();
+  const auto document = workspace.project().commands().snapshot();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
+  const editor::PlaceDocument* place = workspace.project().place();
   if (place == nullptr || loaded.database == nullptr) {
     check = {};
     for (const editor::CheckPointDocument& point : document->check_points) {
@@ -196,7 +197,7 @@ const CheckReport& CheckedPoints(const editor::Workspace& workspace, CheckView& 
 
 const editor::CheckPointDocument* SelectedCheckPoint(const editor::Workspace& workspace,
                                                      const Selection& selection) {
-  const auto& points = workspace.document().check_points;
+  const auto& points = workspace.project().document().check_points;
   const auto found = std::find_if(points.begin(), points.end(),
                                   [&](const auto& p) { return p.name == selection.name; });
   const bool selected = selection.kind == Selection::Kind::kCheckPoint;
@@ -255,7 +256,7 @@ void DrawCheckPoint(editor::Workspace& workspace,
     EndProperties();
   }
   ImGui::Dummy(ImVec2(0, Px(4)));
-  Heading(Text(Tr("All of them at %s"), workspace.place()->name.c_str()).c_str());
+  Heading(Text(Tr("All of them at %s"), workspace.project().place()->name.c_str()).c_str());
   DrawTable(selection, report);
   DrawOutcome(workspace, report);
   ImGui::Dummy(ImVec2(0, Px(4)));
@@ -268,10 +269,11 @@ void DrawCheckPoints(const editor::Workspace& workspace,
                      CheckView& check,
                      const ViewCamera& view,
                      ImDrawList& draw) {
-  if (workspace.place() == nullptr || SelectedCheckPoint(workspace, selection) == nullptr) {
+  if (workspace.project().place() == nullptr ||
+      SelectedCheckPoint(workspace, selection) == nullptr) {
     return;
   }
-  const geometry::Similarity3& world_from_stage = workspace.place()->picked_from_stage;
+  const geometry::Similarity3& world_from_stage = workspace.project().place()->picked_from_stage;
   for (const CheckPointReport& point : CheckedPoints(workspace, check).points) {
     const bool selected = point.name == selection.name;
     const ImU32 packed = Packed(selected ? OverPicture().accent : OverPicture().warning);
@@ -307,7 +309,7 @@ void CheckPointDialog(editor::Workspace& workspace,
     ImGui::InputText("##name", &name);
     EndProperties();
   }
-  const auto& points = workspace.document().check_points;
+  const auto& points = workspace.project().document().check_points;
   std::string problem;
   if (name.empty()) {
     problem = Tr("It needs a name.");
@@ -324,7 +326,7 @@ void CheckPointDialog(editor::Workspace& workspace,
     dialogs.shown = Dialog::kNone;
   }
   if (answer == DialogAnswer::kAct) {
-    workspace.Edit(Text(Tr("add %s"), name.c_str()), [&](editor::ProjectDocument& document) {
+    workspace.project().Edit(Sentence("add %s", {name}), [&](editor::ProjectDocument& document) {
       document.check_points.push_back({name, {}});
     });
     selection = {Selection::Kind::kCheckPoint, name};

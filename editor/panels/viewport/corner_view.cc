@@ -29,7 +29,7 @@ void DrawOccluderCorners(const editor::Workspace& workspace,
   draw.AddPolyline(outline.data(), static_cast<int>(outline.size()),
                    Packed(OverPicture().accent, 0.8f),
                    all && outline.size() > 2 ? ImDrawFlags_Closed : 0, Px(1.5f));
-  const vision::SceneDatabase& database = *workspace.loaded().database;
+  const vision::SceneDatabase& database = *workspace.map().loaded().database;
   for (const stage::Anchor& corner : occluder.corners) {
     if (corner.picks.size() < 2) {
       continue;
@@ -67,7 +67,7 @@ void DrawLoupe(const ImVec2& pointer,
 
 std::string CornerHint(const editor::Workspace& workspace,
                        const editor::OccluderDocument& occluder) {
-  const auto drawn = editor::DrawOccluder(occluder, *workspace.loaded().database, 1.0);
+  const auto drawn = editor::DrawOccluder(occluder, *workspace.map().loaded().database, 1.0);
   return drawn.ok() ? Text(Tr("%d corners, %.2f px off on average; drag one to move it"),
                            static_cast<int>(occluder.corners.size()), drawn->error_px)
                     : Tr("Click the corners of a face in turn, then the same ones in another "
@@ -97,11 +97,11 @@ void CornerDrag::Update(editor::Workspace& workspace,
   } else if (!dragged_corner_ || !ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
     return;
   }
-  workspace.KeepFrame(keyframe);
+  workspace.map().KeepFrame(keyframe);
   const std::string name = occluder.name;
   const size_t corner = *dragged_corner_;
-  workspace.EditOccluder(
-      Text(Tr("draw %s"), name.c_str()), name,
+  workspace.project().EditOccluder(
+      Sentence("draw %s", {name}), name,
       [&](editor::OccluderDocument& edited) { editor::SetCorner(edited, corner, keyframe, pixel); },
       "corner");
 }
@@ -109,7 +109,7 @@ void CornerDrag::Update(editor::Workspace& workspace,
 void CornerDrag::EndDrag(editor::Workspace& workspace) {
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_corner_) {
     dragged_corner_.reset();
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
 }
 

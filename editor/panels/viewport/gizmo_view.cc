@@ -90,7 +90,7 @@ const editor::ObjectDocument* FindObject(const editor::ProjectDocument& document
 
 std::optional<Similarity3> SelectedTransform(const editor::Workspace& workspace,
                                              const Selection& selection) {
-  const editor::PlaceDocument* place = workspace.place();
+  const editor::PlaceDocument* place = workspace.project().place();
   if (place == nullptr) {
     return std::nullopt;
   }
@@ -104,7 +104,8 @@ std::optional<Similarity3> SelectedTransform(const editor::Workspace& workspace,
     }
   }
   if (selection.kind == Selection::Kind::kObject) {
-    if (const editor::ObjectDocument* object = FindObject(workspace.document(), selection.name)) {
+    if (const editor::ObjectDocument* object =
+            FindObject(workspace.project().document(), selection.name)) {
       const geometry::Rigid3 pose = editor::StageFromObject(*object);
       return place->picked_from_stage * Similarity3{1.0, pose.rotation, pose.translation};
     }
@@ -114,7 +115,7 @@ std::optional<Similarity3> SelectedTransform(const editor::Workspace& workspace,
 
 Similarity3 WorldFromOccluder(const editor::Workspace& workspace, const std::string& name) {
   return SelectedTransform(workspace, {Selection::Kind::kOccluder, name})
-      .value_or(workspace.loaded().picks.map_from_picked.Inverse());
+      .value_or(workspace.map().loaded().picks.map_from_picked.Inverse());
 }
 
 void MoveSelected(editor::Workspace& workspace,
@@ -122,12 +123,12 @@ void MoveSelected(editor::Workspace& workspace,
                   const Similarity3& world_from_thing,
                   std::string_view gesture) {
   if (selection.kind == Selection::Kind::kStage) {
-    workspace.EditPlace(
-        Tr("move the stage"),
+    workspace.project().EditPlace(
+        Sentence("move the stage"),
         [&](editor::PlaceDocument& place) { place.picked_from_stage = world_from_thing; }, gesture);
   } else if (selection.kind == Selection::Kind::kOccluder) {
-    workspace.EditPlace(
-        Text(Tr("move %s"), selection.name.c_str()),
+    workspace.project().EditPlace(
+        Sentence("move %s", {selection.name}),
         [&](editor::PlaceDocument& place) {
           if (editor::OccluderDocument* occluder = place.FindOccluder(selection.name)) {
             occluder->stage_from_mesh = place.picked_from_stage.Inverse() * world_from_thing;
@@ -136,9 +137,9 @@ void MoveSelected(editor::Workspace& workspace,
         gesture);
   } else if (selection.kind == Selection::Kind::kObject) {
     const Similarity3 stage_from_thing =
-        workspace.place()->picked_from_stage.Inverse() * world_from_thing;
-    workspace.Edit(
-        Text(Tr("move %s"), selection.name.c_str()),
+        workspace.project().place()->picked_from_stage.Inverse() * world_from_thing;
+    workspace.project().Edit(
+        Sentence("move %s", {selection.name}),
         [&](editor::ProjectDocument& document) {
           for (editor::ObjectDocument& object : document.objects) {
             if (object.name == selection.name) {
@@ -173,11 +174,11 @@ GizmoSnap SnapOf(const editor::Workspace& workspace,
   constexpr double kStep = 0.05;      // Metres of the stage.
   constexpr double kFineStep = 0.01;  // Used with Shift.
   GizmoSnap snap;
-  snap.move =
-      (ImGui::GetIO().KeyShift ? kFineStep : kStep) * workspace.place()->picked_from_stage.scale;
+  snap.move = (ImGui::GetIO().KeyShift ? kFineStep : kStep) *
+              workspace.project().place()->picked_from_stage.scale;
   snap.turn = 5.0 / 180.0 * std::numbers::pi;
   snap.scale = 0.05;
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   if (loaded.measures.floor) {
     constexpr double kReachPx = 8.0;
     const Similarity3 world_from_map = loaded.picks.map_from_picked.Inverse();
@@ -199,12 +200,12 @@ void Drag(editor::Workspace& workspace,
           const Vector3d& origin) {
   if (!gizmo.given_up && GivesUp(input)) {
     gizmo.given_up = true;
-    workspace.CancelGesture();
+    workspace.project().CancelGesture();
   }
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     gizmo.drag.reset();
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   } else if (!gizmo.given_up && (moved.x != 0.0f || moved.y != 0.0f)) {
     const GizmoSnap snap = SnapOf(workspace, options, view, origin);
     const Vector2d pointer = ToEigen(ImGui::GetMousePos());
@@ -237,7 +238,7 @@ bool DrawGizmo(editor::Workspace& workspace,
     hot = PickHandle(layout, gizmo.mode, view, pointer, freedom);
   }
   if (hot && !gizmo.drag && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    workspace.EndGesture();
+    workspace.project().EndGesture();
     gizmo.drag = GizmoDrag::Begin(*hot, *transform, view, pointer);
     gizmo.given_up = false;
   }
@@ -272,7 +273,7 @@ void DrawWorldLine(const ViewCamera& view,
 }
 
 void DrawStage(const editor::Workspace& workspace, const ViewCamera& view, ImDrawList& draw) {
-  const editor::PlaceDocument* place = workspace.place();
+  const editor::PlaceDocument* place = workspace.project().place();
   if (place == nullptr) {
     return;
   }

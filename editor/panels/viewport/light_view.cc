@@ -118,7 +118,7 @@ void PickOnStage(editor::Workspace& workspace,
                  const Vector2d& screen,
                  const Vector2d& pixel) {
   const Ray ray = view.RayThrough(screen);
-  const auto surface = FindSurface(ray, workspace.loaded().staged->occluders);
+  const auto surface = FindSurface(ray, workspace.preview().staged()->occluders);
   if (light.picking == Picking::kOnStage) {
     const glm::vec3 from = geometry::ToGlm(probe.position);
     const glm::vec3 to = surface ? surface->point - from : geometry::ToGlm(ray.direction);
@@ -208,9 +208,9 @@ void LightOverlay::Show(editor::Workspace& workspace,
   if (drags_ball_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     drags_ball_ = false;
     light.dragged_in_probe.reset();
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
-  if (probe == nullptr || workspace.loaded().staged == nullptr) {
+  if (probe == nullptr || workspace.preview().staged() == nullptr) {
     return;
   }
   if (light.histogram && !picture.plain.empty()) {
@@ -232,7 +232,7 @@ void LightOverlay::Show(editor::Workspace& workspace,
     }
     return;
   }
-  const editor::ProbePicture* image = workspace.probe_picture(*probe);
+  const editor::ProbePicture* image = workspace.probe_pictures().Find(*probe);
   if (!light.balls || image == nullptr) {
     return;
   }

@@ -12,7 +12,7 @@ namespace lararium::panels {
 
 class LightOverlay {
  public:
-  // Whether it needs the camera's image alone in addition to the picture (Workspace::SetCompare).
+  // Whether it needs the camera's image alone in addition to the picture (PreviewLook::compare).
   static bool ComparesPictures(const editor::Workspace& workspace,
                                const Selection& selection,
                                const LightView& light);

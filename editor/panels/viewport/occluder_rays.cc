@@ -9,7 +9,7 @@
 namespace lararium::panels {
 
 void OccluderRays::Update(const editor::Workspace& workspace) {
-  const std::shared_ptr<const stage::Place>& staged = workspace.loaded().staged;
+  const std::shared_ptr<const stage::Place>& staged = workspace.preview().staged();
   if (staged != staged_) {
     std::vector<Occluder> occluders(staged != nullptr ? staged->occluders.size() : 0);
     for (size_t i = 0; i < occluders.size(); ++i) {

@@ -45,7 +45,7 @@ void DrawFace(const OverlayFace& face, const ImVec4& colour, ImDrawList& draw) {
 }  // namespace
 
 void OverlayMeshView::Update(const editor::Workspace& workspace) {
-  const std::shared_ptr<const stage::Place>& staged = workspace.loaded().staged;
+  const std::shared_ptr<const stage::Place>& staged = workspace.preview().staged();
   if (staged == staged_) {
     return;
   }

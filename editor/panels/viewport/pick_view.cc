@@ -42,10 +42,11 @@ void SetPick(editor::Workspace& workspace,
              const vision::Keyframe& keyframe,
              const Vector2d& pixel) {
   const AnchorEntry& entry = kAnchors[static_cast<size_t>(anchor_index)];
-  workspace.EditPlace(Text(Tr("pick %s"), Tr(entry.label)), [&](editor::PlaceDocument& place) {
-    editor::SetPick(place.picks.*entry.anchor,
-                    {keyframe.frame_index, keyframe.name, pixel, keyframe.session});
-  });
+  workspace.project().EditPlace(
+      Sentence("pick %s", {Sentence(entry.label)}), [&](editor::PlaceDocument& place) {
+        editor::SetPick(place.picks.*entry.anchor,
+                        {keyframe.frame_index, keyframe.name, pixel, keyframe.session});
+      });
 }
 
 void PickCheckPoint(editor::Workspace& workspace,
@@ -53,9 +54,9 @@ void PickCheckPoint(editor::Workspace& workspace,
                     const vision::Keyframe& keyframe,
                     const Vector2d& pixel) {
   const stage::Pick pick{keyframe.frame_index, keyframe.name, pixel, keyframe.session};
-  workspace.EditPlace(Text(Tr("pick %s"), name.c_str()), [&, name](editor::PlaceDocument& place) {
-    editor::SetCheckPick(place, name, pick);
-  });
+  workspace.project().EditPlace(
+      Sentence("pick %s", {name}),
+      [&, name](editor::PlaceDocument& place) { editor::SetCheckPick(place, name, pick); });
 }
 
 // Draws crosses at the picks of anchors in this image, and rings at the projections of their
@@ -65,8 +66,8 @@ void DrawAnchors(const editor::Workspace& workspace,
                  const vision::Keyframe& keyframe,
                  const ImageView& map,
                  ImDrawList& draw) {
-  const stage::StagePicks& picks = workspace.place()->picks;
-  const std::optional<stage::StageSolution>& solution = workspace.loaded().picks.solution;
+  const stage::StagePicks& picks = workspace.project().place()->picks;
+  const std::optional<stage::StageSolution>& solution = workspace.map().loaded().picks.solution;
   for (size_t i = 0; i < kAnchors.size(); ++i) {
     const bool active = static_cast<int>(i) == target.anchor;
     const ImU32 packed = active ? Packed(OverPicture().accent) : Packed(OverPicture().warning);
@@ -82,8 +83,8 @@ void DrawAnchors(const editor::Workspace& workspace,
       continue;
     }
     for (const stage::AnchorReport& report : solution->anchors) {
-      const auto pixel = workspace.loaded().database->camera.Project(keyframe.camera_from_map *
-                                                                     report.point_in_map);
+      const auto pixel = workspace.map().loaded().database->camera.Project(
+          keyframe.camera_from_map * report.point_in_map);
       if (report.name == anchor.name && pixel) {
         draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), packed, 0, Px(1.5f));
       }
@@ -98,10 +99,10 @@ void DrawCheckPicks(const editor::Workspace& workspace,
                     const vision::Keyframe& keyframe,
                     const ImageView& map,
                     ImDrawList& draw) {
-  const editor::PlaceDocument& place = *workspace.place();
+  const editor::PlaceDocument& place = *workspace.project().place();
   const geometry::Similarity3 map_from_stage =
-      workspace.loaded().picks.map_from_picked * place.picked_from_stage;
-  for (const editor::CheckPointDocument& point : workspace.document().check_points) {
+      workspace.map().loaded().picks.map_from_picked * place.picked_from_stage;
+  for (const editor::CheckPointDocument& point : workspace.project().document().check_points) {
     const bool active = point.name == selection.name;
     const ImU32 packed = Packed(active ? OverPicture().accent : OverPicture().warning);
     const stage::Anchor* anchor = editor::FindCheckPicks(place, point.name);
@@ -111,7 +112,7 @@ void DrawCheckPicks(const editor::Workspace& workspace,
       DrawCross(at, packed, draw);
       LabelMark(at, point.name, packed, draw);
     }
-    const auto pixel = workspace.loaded().database->camera.Project(
+    const auto pixel = workspace.map().loaded().database->camera.Project(
         keyframe.camera_from_map * (map_from_stage * point.position));
     if (pixel && (active || pick != nullptr)) {
       draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), packed, 0, Px(1.5f));
@@ -125,10 +126,10 @@ void PickModelPoint(editor::Workspace& workspace,
                     const Vector2d& pixel) {
   const stage::Pick pick{keyframe.frame_index, keyframe.name, pixel, keyframe.session};
   const std::string name = work.occluder->name;
-  workspace.EditOccluder(Text(Tr("pick %s"), name.c_str()), name,
-                         [&, pair = work.pair](editor::OccluderDocument& occluder) {
-                           editor::SetModelPick(occluder, pair, pick);
-                         });
+  workspace.project().EditOccluder(Sentence("pick %s", {name}), name,
+                                   [&, pair = work.pair](editor::OccluderDocument& occluder) {
+                                     editor::SetModelPick(occluder, pair, pick);
+                                   });
 }
 
 // Draws crosses at the picks of a model's points in this image, and rings at their present
@@ -138,8 +139,8 @@ void DrawModelPicks(const editor::Workspace& workspace,
                     const vision::Keyframe& keyframe,
                     const ImageView& map,
                     ImDrawList& draw) {
-  const geometry::Similarity3 map_from_mesh = workspace.loaded().picks.map_from_picked *
-                                              workspace.place()->picked_from_stage *
+  const geometry::Similarity3 map_from_mesh = workspace.map().loaded().picks.map_from_picked *
+                                              workspace.project().place()->picked_from_stage *
                                               work.occluder->stage_from_mesh;
   const std::vector<editor::ModelPairDocument>& pairs = work.occluder->model_pairs;
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -149,7 +150,7 @@ void DrawModelPicks(const editor::Workspace& workspace,
       DrawCross(at, packed, draw);
       LabelMark(at, std::to_string(i + 1), packed, draw);
     }
-    const auto pixel = workspace.loaded().database->camera.Project(
+    const auto pixel = workspace.map().loaded().database->camera.Project(
         keyframe.camera_from_map * (map_from_mesh * pairs[i].on_mesh));
     if (pixel) {
       draw.AddCircle(ToImGui(map.ToScreen(*pixel)), Px(6), packed, 0, Px(1.5f));
@@ -177,7 +178,7 @@ void DrawAnchorButtons(const editor::Workspace& workspace, PickTarget& picks) {
   std::array<std::string, kAnchors.size()> labels;
   std::array<const char*, kAnchors.size()> texts = {};
   for (size_t i = 0; i < kAnchors.size(); ++i) {
-    const size_t count = (workspace.place()->picks.*kAnchors[i].anchor).picks.size();
+    const size_t count = (workspace.project().place()->picks.*kAnchors[i].anchor).picks.size();
     labels[i] = Tr(kAnchors[i].label) + std::string("  ") + std::to_string(count);
     texts[i] = labels[i].c_str();
   }
@@ -226,10 +227,11 @@ std::span<const AnchorEntry> AnchorEntries() { return kAnchors; }
 
 const editor::OccluderDocument* OccluderInWork(const editor::Workspace& workspace,
                                                const Selection& selection) {
-  if (workspace.place() == nullptr || selection.kind != Selection::Kind::kOccluder) {
+  if (workspace.project().place() == nullptr || selection.kind != Selection::Kind::kOccluder) {
     return nullptr;
   }
-  const editor::OccluderDocument* occluder = workspace.place()->FindOccluder(selection.name);
+  const editor::OccluderDocument* occluder =
+      workspace.project().place()->FindOccluder(selection.name);
   return occluder != nullptr && occluder->drawn() ? occluder : nullptr;
 }
 
@@ -237,12 +239,13 @@ void DrawNewOccluder(editor::Workspace& workspace, Selection& selection, ViewOpt
   editor::OccluderDocument occluder;
   for (int number = 1; occluder.name.empty(); ++number) {
     const std::string name = "face" + std::to_string(number);
-    if (workspace.place()->FindOccluder(name) == nullptr) {
+    if (workspace.project().place()->FindOccluder(name) == nullptr) {
       occluder.name = name;
     }
   }
-  workspace.EditPlace(Text(Tr("add %s"), occluder.name.c_str()),
-                      [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
+  workspace.project().EditPlace(
+      Sentence("add %s", {occluder.name}),
+      [&](editor::PlaceDocument& place) { place.occluders.push_back(occluder); });
   selection = {Selection::Kind::kOccluder, occluder.name};
   options.view = ViewKind::kPicks;
 }
@@ -252,7 +255,7 @@ void PickView::DrawImage(editor::Workspace& workspace,
                          PickTarget& picks,
                          const AlignView& align,
                          const vision::Keyframe& keyframe) {
-  const geometry::CameraModel& camera = workspace.loaded().database->camera;
+  const geometry::CameraModel& camera = workspace.map().loaded().database->camera;
   if (&keyframe != uploaded_) {
     cv::Mat bgr(camera.height, camera.width, CV_8UC3, cv::Scalar::all(36));
     if (!keyframe.grey.empty()) {
@@ -319,8 +322,9 @@ void PickView::Show(editor::Workspace& workspace,
                     CheckView& check,
                     AlignView& align,
                     Input& input) {
-  const auto& database = workspace.loaded().database;
-  if (workspace.place() == nullptr || database == nullptr || database->keyframes.empty()) {
+  const auto& database = workspace.map().loaded().database;
+  if (workspace.project().place() == nullptr || database == nullptr ||
+      database->keyframes.empty()) {
     uploaded_ = nullptr;
     Hint(Tr("Picks are made in the training images. Train the place first."));
     return;
@@ -342,7 +346,7 @@ void PickView::Show(editor::Workspace& workspace,
   DrawImage(workspace, selection, picks, align, keyframe);
   std::string name = keyframe.name;
   if (keyframe.session != 0) {
-    name += ", " + SessionName(*workspace.place(), keyframe.session);
+    name += ", " + SessionName(*workspace.project().place(), keyframe.session);
   }
   const float name_width = ImGui::CalcTextSize(name.c_str()).x + Px(12);
   const float steps = 2 * ImGui::GetFrameHeight() + Px(4) + ImGui::GetStyle().ItemSpacing.x;

@@ -39,7 +39,7 @@ std::vector<const stage::Anchor*> AnchorsInWork(const editor::Workspace& workspa
       anchors.push_back(&corner);
     }
   } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, selection)) {
-    if (const auto* picks = editor::FindCheckPicks(*workspace.place(), checked->name)) {
+    if (const auto* picks = editor::FindCheckPicks(*workspace.project().place(), checked->name)) {
       anchors.push_back(picks);
     }
   } else if (const ModelPairInWork work = PairInWork(workspace, selection, align);
@@ -47,7 +47,7 @@ std::vector<const stage::Anchor*> AnchorsInWork(const editor::Workspace& workspa
     anchors.push_back(&work.occluder->model_pairs[work.pair].anchor);
   } else {
     const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(picks.anchor)];
-    anchors.push_back(&(workspace.place()->picks.*entry.anchor));
+    anchors.push_back(&(workspace.project().place()->picks.*entry.anchor));
   }
   return anchors;
 }
@@ -57,8 +57,8 @@ std::vector<Line> LinesInWork(const editor::Workspace& workspace,
                               const PickTarget& picks,
                               const AlignView& align) {
   std::vector<Line> lines;
-  const auto& database = workspace.loaded().database;
-  if (workspace.place() == nullptr || database == nullptr) {
+  const auto& database = workspace.map().loaded().database;
+  if (workspace.project().place() == nullptr || database == nullptr) {
     return lines;
   }
   const std::vector<const stage::Anchor*> anchors =
@@ -91,25 +91,25 @@ void Remove(editor::Workspace& workspace,
   const stage::Pick pick = line.image.pick;
   if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, selection)) {
     const std::string name = drawn->name;
-    workspace.EditOccluder(command(name), name, [&](editor::OccluderDocument& occluder) {
+    workspace.project().EditOccluder(command(name), name, [&](editor::OccluderDocument& occluder) {
       editor::RemoveCornerPick(occluder, line.corner, pick);
     });
   } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, selection)) {
     const std::string name = checked->name;
-    workspace.EditPlace(command(name), [&](editor::PlaceDocument& place) {
+    workspace.project().EditPlace(command(name), [&](editor::PlaceDocument& place) {
       editor::RemoveCheckPick(place, name, pick);
     });
   } else if (const ModelPairInWork work = PairInWork(workspace, selection, align);
              work.occluder != nullptr) {
     const std::string name = work.occluder->name;
-    workspace.EditOccluder(command(name), name, [&, pair = work.pair](auto& occluder) {
+    workspace.project().EditOccluder(command(name), name, [&, pair = work.pair](auto& occluder) {
       editor::RemovePick(occluder.model_pairs[pair].anchor, pick);
     });
   } else {
     const AnchorEntry& entry = AnchorEntries()[static_cast<size_t>(picks.anchor)];
-    workspace.EditPlace(command(Sentence(entry.label)), [&](editor::PlaceDocument& place) {
-      editor::RemovePick(place.picks.*entry.anchor, pick);
-    });
+    workspace.project().EditPlace(
+        command(Sentence(entry.label)),
+        [&](editor::PlaceDocument& place) { editor::RemovePick(place.picks.*entry.anchor, pick); });
   }
 }
 
@@ -122,7 +122,7 @@ void JumpTo(uint32_t keyframe, ViewOptions& options, PickTarget& picks, Input& i
 std::string NameOf(const editor::Workspace& workspace, const Line& line, bool corners) {
   std::string name = editor::NameOfImage(line.image.pick);
   if (line.image.pick.session != 0) {
-    name += ", " + SessionName(*workspace.place(), line.image.pick.session);
+    name += ", " + SessionName(*workspace.project().place(), line.image.pick.session);
   }
   return corners ? Text(Tr("Corner %zu: %s"), line.corner + 1, name.c_str()) : name;
 }
@@ -215,7 +215,7 @@ void HandlePickKeys(editor::Workspace& workspace,
     return;
   }
   constexpr int kFar = 10;  // Images; the step with Shift.
-  const int last = static_cast<int>(workspace.loaded().database->keyframes.size()) - 1;
+  const int last = static_cast<int>(workspace.map().loaded().database->keyframes.size()) - 1;
   const auto jump = [&](int direction) {
     const auto next = editor::NextPicked(ImagesInWork(workspace, selection, picks, align),
                                          static_cast<uint32_t>(picks.keyframe), direction);

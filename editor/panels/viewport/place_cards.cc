@@ -123,7 +123,7 @@ void DrawLegend(const editor::Workspace& workspace, const PlaceView& place) {
     case PointColour::kPicture:
       break;
     case PointColour::kSessions:
-      DrawSessionLegend(*workspace.place(), *workspace.loaded().database);
+      DrawSessionLegend(*workspace.project().place(), *workspace.map().loaded().database);
       break;
     case PointColour::kError:
       DrawRamp({"0", Text("%.3g", 0.5 * range.high), Text(Tr("%.3g px or more"), range.high)});
@@ -148,15 +148,16 @@ std::string SessionsText(const editor::PlaceDocument& place, uint32_t mask) {
 }
 
 Similarity3 MapFromStage(const editor::Workspace& workspace) {
-  return workspace.loaded().picks.map_from_picked * workspace.place()->picked_from_stage;
+  return workspace.map().loaded().picks.map_from_picked *
+         workspace.project().place()->picked_from_stage;
 }
 
 Vector3d PointInMap(const editor::Workspace& workspace, uint32_t point) {
-  return workspace.loaded().database->points[point].cast<double>();
+  return workspace.map().loaded().database->points[point].cast<double>();
 }
 
 void DrawPoint(const editor::Workspace& workspace, uint32_t point) {
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   Heading(Text(Tr("Point %d"), static_cast<int>(point)).c_str());
   if (!BeginProperties("point", 76.0f)) {
     return;
@@ -167,7 +168,7 @@ void DrawPoint(const editor::Workspace& workspace, uint32_t point) {
   PropertyText(Tr("Error"), error < 0.0f ? std::string("-") : Text("%.2f px", error));
   PropertyText(Tr("Views"), std::to_string(loaded.statistics->ViewsOf(point)));
   PropertyText(Tr("Sessions"),
-               SessionsText(*workspace.place(), loaded.database->session_masks[point]));
+               SessionsText(*workspace.project().place(), loaded.database->session_masks[point]));
   EndProperties();
 }
 
@@ -177,7 +178,7 @@ double ChosenDistance(const editor::Workspace& workspace, const PlaceView& place
 }
 
 std::string DistanceText(const editor::Workspace& workspace, const PlaceView& place) {
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   std::string text = Text("%.3f m", ChosenDistance(workspace, place));
   if (const auto deviation = train::DistanceDeviation(*loaded.database, *loaded.statistics,
                                                       place.points[0], place.points[1])) {
@@ -186,7 +187,7 @@ std::string DistanceText(const editor::Workspace& workspace, const PlaceView& pl
   return text;
 }
 
-const char* WhatSetsMetres(const editor::LoadedPlace& loaded) {
+const char* WhatSetsMetres(const editor::LoadedMap& loaded) {
   if (loaded.measures.tags) {
     return Tr(
         "Metres come from the tags. The scale is a correction of them that stays when the place is "
@@ -224,19 +225,20 @@ void DrawDistance(editor::Workspace& workspace, PlaceView& place) {
   const bool same = std::abs(said - place.metres) < 0.0005;
   ImGui::BeginDisabled(same || !(said > 0.0));
   if (ImGui::Button(Tr("Set the scale"), ImVec2(-FLT_MIN, 0))) {
-    workspace.SetDistance(place.points[0], place.points[1], place.metres);
+    workspace.map().SetDistance(place.points[0], place.points[1], place.metres);
   }
   ImGui::EndDisabled();
   Tooltip(!(said > 0.0) ? Tr("The two points lie in one place. Choose others.")
           : same        ? Tr("They are so far apart already. Type what it is in truth.")
                         : Tr("Scales the stage about its origin until they are so far apart"));
-  Hint(WhatSetsMetres(workspace.loaded()));
+  Hint(WhatSetsMetres(workspace.map().loaded()));
 }
 
 // Whether there are selected points that still exist.
 bool AnyChosen(const editor::Workspace& workspace, const PlaceView& place) {
-  const editor::LoadedPlace& loaded = workspace.loaded();
-  return !place.points.empty() && workspace.place() != nullptr && loaded.statistics != nullptr &&
+  const editor::LoadedMap& loaded = workspace.map().loaded();
+  return !place.points.empty() && workspace.project().place() != nullptr &&
+         loaded.statistics != nullptr &&
          std::all_of(place.points.begin(), place.points.end(),
                      [&](uint32_t point) { return point < loaded.database->points.size(); });
 }
@@ -306,7 +308,7 @@ void DrawPlaceTools(editor::Workspace& workspace,
                     Input& input,
                     const ImVec2& origin,
                     const ImVec2& size) {
-  if (workspace.place() == nullptr || workspace.loaded().statistics == nullptr) {
+  if (workspace.project().place() == nullptr || workspace.map().loaded().statistics == nullptr) {
     return;
   }
   const bool fits = CardHeight(kTools) + CardHeight(kPointCard) + 3 * Px(kMargin) <= size.y;
@@ -366,7 +368,7 @@ void DrawChosenPoints(const editor::Workspace& workspace,
   if (!AnyChosen(workspace, place_view)) {
     return;
   }
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   const Similarity3 world_from_map = loaded.picks.map_from_picked.Inverse();
   std::vector<Vector3d> ends;
   for (const uint32_t point : place_view.points) {
@@ -401,7 +403,7 @@ void DrawChosenPoints(const editor::Workspace& workspace,
 void KeyframeCard::Show(const editor::Workspace& workspace,
                         PictureTextures& pictures,
                         uint32_t keyframe) {
-  const editor::LoadedPlace& loaded = workspace.loaded();
+  const editor::LoadedMap& loaded = workspace.map().loaded();
   const vision::Keyframe& shown = loaded.database->keyframes[keyframe];
   if (database_ != loaded.database || keyframe_ != keyframe) {
     database_ = loaded.database;
@@ -426,7 +428,7 @@ void KeyframeCard::Show(const editor::Workspace& workspace,
     DimText(Tr("The map was made small and holds no image here."));
   }
   ImGui::TextUnformatted(shown.name.c_str());
-  DimText(SessionName(*workspace.place(), shown.session));
+  DimText(SessionName(*workspace.project().place(), shown.session));
   const float error = loaded.statistics->keyframe_error_px[keyframe];
   const int points = static_cast<int>(loaded.statistics->keyframe_points[keyframe]);
   DimText(TrCount("%d point", "%d points", points) +

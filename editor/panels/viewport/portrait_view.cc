@@ -177,9 +177,9 @@ void DrawPortrait(editor::Workspace& workspace,
                   const editor::CastDocument& member,
                   bool bones) {
   const cv::Size size = PictureSize(cast_view.frame);
-  workspace.cast_pictures().Look(
+  workspace.cast().pictures().Look(
       member.name, {.azimuth = cast_view.azimuth, .frame = kFrames[cast_view.frame]}, size);
-  cast_view.portrait = workspace.cast_pictures().portrait();
+  cast_view.portrait = workspace.cast().pictures().portrait();
   const bool known = cast_view.portrait != nullptr && cast_view.portrait->name == member.name;
   const editor::CastPortrait* portrait = known ? cast_view.portrait.get() : nullptr;
   const ImVec2 begin = ImGui::GetCursorScreenPos();
@@ -198,7 +198,7 @@ void DrawPortrait(editor::Workspace& workspace,
   }
   Interact(cast_view, input, portrait, picture, bones);
   ImGui::SetCursorScreenPos(ImVec2(begin.x, frame.to.y + ImGui::GetStyle().ItemSpacing.y));
-  if (workspace.cast_pictures().Working(member.name)) {
+  if (workspace.cast().pictures().Working(member.name)) {
     Caption(frame, Tr("Building\xe2\x80\xa6"));
   }
   const char* const labels[] = {Tr("Bust"), Tr("Face"), Tr("Figure")};

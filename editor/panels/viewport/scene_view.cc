@@ -84,7 +84,7 @@ SceneView::SceneView(std::unique_ptr<render::Overlay> overlay) : overlay_(std::m
 
 SceneView::~SceneView() = default;
 
-void SceneView::UpdateMap(const editor::LoadedPlace& loaded, PlaceView& place_view) {
+void SceneView::UpdateMap(const editor::LoadedMap& loaded, PlaceView& place_view) {
   if (loaded.database == database_ && loaded.picks.map_from_picked == map_from_picked_) {
     return;
   }
@@ -123,7 +123,7 @@ void SceneView::UpdateMap(const editor::LoadedPlace& loaded, PlaceView& place_vi
   }
 }
 
-void SceneView::UpdateColours(const editor::LoadedPlace& loaded, PlaceView& place) {
+void SceneView::UpdateColours(const editor::LoadedMap& loaded, PlaceView& place) {
   if (colours_ == place.colours) {
     return;
   }
@@ -150,7 +150,7 @@ void SceneView::UpdateColours(const editor::LoadedPlace& loaded, PlaceView& plac
 }
 
 // Adds the path of each session and its frusta.
-void SceneView::AddCameras(const editor::LoadedPlace& loaded, PointColour colours) {
+void SceneView::AddCameras(const editor::LoadedMap& loaded, PointColour colours) {
   const auto session = [&](size_t k) { return loaded.database->keyframes[k].session; };
   for (size_t k = 0; k < keyframes_.size(); ++k) {
     const bool by_session = colours == PointColour::kSessions;
@@ -166,7 +166,7 @@ void SceneView::AddCameras(const editor::LoadedPlace& loaded, PointColour colour
 }
 
 void SceneView::UpdateOccluders(const editor::Workspace& workspace) {
-  const std::shared_ptr<const stage::Place>& staged = workspace.loaded().staged;
+  const std::shared_ptr<const stage::Place>& staged = workspace.preview().staged();
   static const std::vector<stage::Occluder> kNone;
   const std::vector<stage::Occluder>& wanted = staged != nullptr ? staged->occluders : kNone;
   const std::vector<stage::Occluder>& known = staged_ != nullptr ? staged_->occluders : kNone;
@@ -189,10 +189,10 @@ void SceneView::UpdateOccluders(const editor::Workspace& workspace) {
 }
 
 void SceneView::UpdateActors(const editor::Workspace& workspace) {
-  if (workspace.picture() == actors_of_) {
+  if (workspace.preview().picture() == actors_of_) {
     return;
   }
-  actors_of_ = workspace.picture();
+  actors_of_ = workspace.preview().picture();
   for (const auto& [mesh, transform] : actors_) {
     overlay_->RemoveMesh(mesh);
   }
@@ -213,7 +213,7 @@ void SceneView::UpdateActors(const editor::Workspace& workspace) {
 }
 
 // Adds a faint square on the floor that was found in the map, below its points.
-void SceneView::AddFloor(const editor::LoadedPlace& loaded) {
+void SceneView::AddFloor(const editor::LoadedMap& loaded) {
   if (!loaded.measures.floor) {
     return;
   }
@@ -233,7 +233,7 @@ void SceneView::AddFloor(const editor::LoadedPlace& loaded) {
 }
 
 void SceneView::AddMeshes(const editor::Workspace& workspace, const Selection& selection) {
-  const editor::PlaceDocument& place = *workspace.place();
+  const editor::PlaceDocument& place = *workspace.project().place();
   const glm::mat4 world_from_stage = geometry::ToGlm(place.picked_from_stage);
   for (const auto& [mesh, stage_from_actor] : actors_) {
     scene_.meshes.push_back(
@@ -276,18 +276,18 @@ Status SceneView::Draw(const editor::Workspace& workspace,
   scene_.pixel = Px(1.0f);
   scene_.lines.clear();
   scene_.meshes.clear();
-  const editor::PlaceDocument* place = workspace.place();
+  const editor::PlaceDocument* place = workspace.project().place();
   scene_.has_place = place != nullptr;
   scene_.points = options.show_points;
   if (place != nullptr) {
     AddStage(scene_.lines, place->picked_from_stage);
-    const auto& picture = workspace.picture();
+    const auto& picture = workspace.preview().picture();
     if (picture != nullptr && picture->camera_from_stage) {
       const Rigid3 camera_from_world =
           geometry::CameraFromB(*picture->camera_from_stage, place->picked_from_stage.Inverse());
       AddFrustum(scene_.lines, Frustum(picture->display, camera_from_world, 0.35), kLiveColour);
     }
-    AddFloor(workspace.loaded());
+    AddFloor(workspace.map().loaded());
     AddMeshes(workspace, selection);
   }
   if (scene_.points && !points_.empty() && !moving_points_) {
@@ -433,13 +433,13 @@ void SceneView::Show(editor::Workspace& workspace,
                      PictureTextures& pictures,
                      Input& input,
                      EditorActions& actions) {
-  UpdateMap(workspace.loaded(), tools.place);
-  UpdateColours(workspace.loaded(), tools.place);
+  UpdateMap(workspace.map().loaded(), tools.place);
+  UpdateColours(workspace.map().loaded(), tools.place);
   UpdateOccluders(workspace);
   UpdateActors(workspace);
   if (!framed_ && database_ != nullptr) {
     framed_ = true;
-    tools.place.orbit = LookAtStage(workspace.place());
+    tools.place.orbit = LookAtStage(workspace.project().place());
   }
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();

@@ -38,9 +38,9 @@ class SceneView {
   explicit SceneView(std::unique_ptr<render::Overlay> overlay);
 
   // Uploads what has changed in the loaded place.
-  void UpdateMap(const editor::LoadedPlace& loaded, PlaceView& place_view);
-  void UpdateColours(const editor::LoadedPlace& loaded, PlaceView& place);
-  void AddCameras(const editor::LoadedPlace& loaded, PointColour colours);
+  void UpdateMap(const editor::LoadedMap& loaded, PlaceView& place_view);
+  void UpdateColours(const editor::LoadedMap& loaded, PlaceView& place);
+  void AddCameras(const editor::LoadedMap& loaded, PointColour colours);
   void UpdateOccluders(const editor::Workspace& workspace);
   void UpdateActors(const editor::Workspace& workspace);
 
@@ -53,7 +53,7 @@ class SceneView {
               int width,
               int height);
   void AddMeshes(const editor::Workspace& workspace, const Selection& selection);
-  void AddFloor(const editor::LoadedPlace& loaded);
+  void AddFloor(const editor::LoadedMap& loaded);
   // points: the number of points to draw.
   void DrawScene(size_t points);
   // Measures drawing to determine how many points can be drawn while the view moves.

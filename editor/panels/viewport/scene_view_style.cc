@@ -33,7 +33,7 @@ const Entry* Named(const std::vector<Entry>& entries, const std::string& name) {
 }
 
 std::optional<Ball> BallOfOccluder(const editor::Workspace& workspace, const std::string& name) {
-  const auto& staged = workspace.loaded().staged;
+  const auto& staged = workspace.preview().staged();
   const stage::Occluder* occluder = staged == nullptr ? nullptr : Named(staged->occluders, name);
   if (occluder == nullptr || occluder->mesh.positions.empty()) {
     return std::nullopt;
@@ -51,11 +51,11 @@ std::optional<Ball> BallOfActor(const editor::Workspace& workspace,
                                 const std::string& name,
                                 const Similarity3& world_from_stage) {
   constexpr double kMiddle = 0.85;  // Metres above the floor.
-  if (workspace.drama_run() == nullptr) {
+  if (workspace.dry_run().newest() == nullptr) {
     return std::nullopt;
   }
-  for (const editor::Trail& trail : workspace.drama_run()->trails) {
-    const std::optional<editor::TrailPoint> point = trail.At(workspace.time());
+  for (const editor::Trail& trail : workspace.dry_run().newest()->trails) {
+    const std::optional<editor::TrailPoint> point = trail.At(workspace.playback().time());
     if (trail.actor == name && point) {
       return Ball{world_from_stage * Vector3d(point->place.x, kMiddle, point->place.y),
                   kAboutPerson * world_from_stage.scale};
@@ -66,13 +66,13 @@ std::optional<Ball> BallOfActor(const editor::Workspace& workspace,
 
 // The point that is being picked, if the map locates it.
 std::optional<Vector3d> PickedPoint(const editor::Workspace& workspace, const PickTarget& target) {
-  const editor::ResolvedPicks& picks = workspace.loaded().picks;
+  const editor::ResolvedPicks& picks = workspace.map().loaded().picks;
   if (!picks.solution) {
     return std::nullopt;
   }
   const auto anchor = AnchorEntries()[static_cast<size_t>(target.anchor)].anchor;
   const stage::AnchorReport* report =
-      Named(picks.solution->anchors, (workspace.place()->picks.*anchor).name);
+      Named(picks.solution->anchors, (workspace.project().place()->picks.*anchor).name);
   return report == nullptr
              ? std::nullopt
              : std::optional<Vector3d>(picks.map_from_picked.Inverse() * report->point_in_map);
@@ -95,7 +95,7 @@ std::optional<Ball> BallOfChosenPoints(const PlaceView& place,
 std::optional<Ball> BallOfSelected(const editor::Workspace& workspace,
                                    const Selection& selection,
                                    const PickTarget& picks) {
-  const Similarity3& world_from_stage = workspace.place()->picked_from_stage;
+  const Similarity3& world_from_stage = workspace.project().place()->picked_from_stage;
   const double about_point = kAboutPoint * world_from_stage.scale;
   const std::string& name = selection.name;
   const auto on_stage = [&](const Vector3d& position) {
@@ -107,12 +107,12 @@ std::optional<Ball> BallOfSelected(const editor::Workspace& workspace,
     case Kind::kActor:
       return BallOfActor(workspace, name, world_from_stage);
     case Kind::kProbe:
-      if (const auto* probe = Named(workspace.place()->probes, name)) {
+      if (const auto* probe = Named(workspace.project().place()->probes, name)) {
         return on_stage(probe->position);
       }
       return std::nullopt;
     case Kind::kCheckPoint:
-      if (const auto* point = Named(workspace.document().check_points, name)) {
+      if (const auto* point = Named(workspace.project().document().check_points, name)) {
         return on_stage(point->position);
       }
       return std::nullopt;
@@ -127,7 +127,7 @@ std::optional<Ball> BallOfSelected(const editor::Workspace& workspace,
       }
       return std::nullopt;
     case Kind::kNudge:
-      if (const auto& picture = workspace.picture();
+      if (const auto& picture = workspace.preview().picture();
           picture != nullptr && picture->camera_from_stage) {
         return on_stage(picture->camera_from_stage->Center());
       }
@@ -174,7 +174,7 @@ void LookWhereAsked(const editor::Workspace& workspace,
                     const PickTarget& picks,
                     PlaceView& place_view) {
   const LookDirection asked = std::exchange(place_view.look_at, LookDirection::kWhereItDoes);
-  if (asked == LookDirection::kWhereItDoes || workspace.place() == nullptr) {
+  if (asked == LookDirection::kWhereItDoes || workspace.project().place() == nullptr) {
     return;
   }
   std::optional<Ball> ball;
@@ -191,10 +191,11 @@ void LookWhereAsked(const editor::Workspace& workspace,
   }
   if (ball) {
     constexpr double kLeast = 0.05;  // Metres; the view stays outside a single point.
-    ball->radius = std::max(ball->radius, kLeast * workspace.place()->picked_from_stage.scale);
+    ball->radius =
+        std::max(ball->radius, kLeast * workspace.project().place()->picked_from_stage.scale);
     place_view.orbit.LookAt(*ball, view_size_px);
   } else {
-    place_view.orbit = LookAtStage(workspace.place());
+    place_view.orbit = LookAtStage(workspace.project().place());
   }
 }
 

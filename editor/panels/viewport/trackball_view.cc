@@ -14,10 +14,10 @@ namespace {
 Eigen::Quaterniond WorldFromCamera(const editor::Workspace& workspace,
                                    const ViewOptions& options,
                                    const OrbitCamera& orbit) {
-  const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.picture();
+  const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.preview().picture();
   if (options.view == ViewKind::kCamera && picture != nullptr && picture->camera_from_map) {
     return geometry::CameraFromB(*picture->camera_from_map,
-                                 workspace.loaded().picks.map_from_picked)
+                                 workspace.map().loaded().picks.map_from_picked)
         .rotation.conjugate();
   }
   return orbit.CameraFromWorld().rotation.conjugate();
@@ -41,7 +41,7 @@ bool DrawTrackball(editor::Workspace& workspace,
   const bool active = ImGui::IsItemActive();
   const bool hovered = ImGui::IsItemHovered();
   if (ImGui::IsItemDeactivated()) {
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
   // View axes are x right, y up, z to the viewer: the camera's axes after half a turn about x.
   const Eigen::Quaterniond world_from_view =

@@ -57,13 +57,13 @@ std::vector<std::string> PeopleShown(const editor::Workspace& workspace,
       people.push_back(name);
     }
   };
-  const drama::TimelineText* text = workspace.script().timeline();
+  const drama::TimelineText* text = workspace.project().script().timeline();
   const auto& item = walks.item;
   if (item && text != nullptr && item->lane < text->lanes().size() &&
       text->lanes()[item->lane].kind == drama::LaneKind::kWalks) {
     add(text->lanes()[item->lane].actor);
   }
-  const editor::DramaRun* run = workspace.drama_run();
+  const editor::DramaRun* run = workspace.dry_run().newest();
   if (walks.task && run != nullptr && *walks.task < run->tasks.size()) {
     add(run->tasks[*walks.task].actor);
   }
@@ -74,7 +74,7 @@ std::vector<std::string> PeopleShown(const editor::Workspace& workspace,
 }
 
 ImVec4 ColourOf(const editor::Workspace& workspace, const std::string& actor) {
-  const std::vector<editor::CastDocument>& cast = workspace.document().cast;
+  const std::vector<editor::CastDocument>& cast = workspace.project().document().cast;
   const auto found = std::find_if(cast.begin(), cast.end(),
                                   [&](const auto& member) { return member.name == actor; });
   return PersonColour(static_cast<uint32_t>(found - cast.begin()));
@@ -133,13 +133,13 @@ void MoveHandle(editor::Workspace& workspace,
                 const WalkHandles::Handle& handle,
                 const std::function<glm::vec2(glm::vec2)>& moved,
                 std::string_view gesture) {
-  const drama::TimelineText* text = workspace.script().timeline();
+  const drama::TimelineText* text = workspace.project().script().timeline();
   if (text == nullptr || handle.item.lane >= text->lanes().size()) {
     return;
   }
   const std::string name = text->lanes()[handle.item.lane].actor;
-  workspace.EditTimeline(
-      Text(Tr("move a walk of %s"), name.c_str()),
+  workspace.project().EditTimeline(
+      Sentence("move a walk of %s", {name}),
       [&](drama::TimelineText& edited) {
         const auto point = editor::WalkPointOf(edited, handle.item, FieldOf(handle));
         return editor::SetWalkPlace(edited, handle.item, FieldOf(handle),
@@ -193,7 +193,7 @@ void HandleKeys(editor::Workspace& workspace,
       walks.chosen.reset();
     } else if (action != KeyAction::kNone && walks.chosen) {
       if (!press.repeats) {
-        workspace.EndGesture();  // Each press is a separate command.
+        workspace.project().EndGesture();  // Each press is a separate command.
       }
       const float step = (press.modifiers & GLFW_MOD_SHIFT) != 0 ? 10.0f * kStep : kStep;
       const glm::vec2 by = step * KeyAxis(action, world_from_stage, view);
@@ -218,8 +218,9 @@ glm::vec2 Snapped(const editor::Workspace& workspace,
   constexpr float kFineStep = 0.01f;  // Used with Shift.
   constexpr double kReachPx = 8.0;
   constexpr double kOnFloor = 0.1;  // Metres; check points up to this height are marks, too.
-  std::vector<glm::vec2> marks = editor::WalkMarks(*workspace.script().timeline(), handle.item);
-  for (const editor::CheckPointDocument& point : workspace.document().check_points) {
+  std::vector<glm::vec2> marks =
+      editor::WalkMarks(*workspace.project().script().timeline(), handle.item);
+  for (const editor::CheckPointDocument& point : workspace.project().document().check_points) {
     if (std::abs(point.position.y()) < kOnFloor) {
       marks.emplace_back(point.position.x(), point.position.z());
     }
@@ -259,9 +260,9 @@ void DrawDashes(const Vector2d& from,
 void WalkView::Update(const editor::Workspace& workspace,
                       const Selection& selection,
                       const WalkHandles& walks) {
-  Basis basis{workspace.script().revision(),
-              workspace.drama_run_number(),
-              workspace.drama_run_is_current(),
+  Basis basis{workspace.project().script().revision(),
+              workspace.dry_run().number(),
+              workspace.dry_run().is_current(),
               PeopleShown(workspace, selection, walks),
               walks.item,
               walks.task};
@@ -271,10 +272,10 @@ void WalkView::Update(const editor::Workspace& workspace,
   basis_ = std::move(basis);
   followed_ = false;
   walks_.clear();
-  const drama::TimelineText* text = workspace.script().timeline();
+  const drama::TimelineText* text = workspace.project().script().timeline();
   for (const std::string& person : basis_.people) {
     for (editor::WalkPath& path :
-         editor::FindWalkPaths(text, workspace.drama_run(), basis_.run_is_current, person)) {
+         editor::FindWalkPaths(text, workspace.dry_run().newest(), basis_.run_is_current, person)) {
       Shown& walk = walks_.emplace_back();
       walk.colour = ColourOf(workspace, person);
       walk.chosen = path.item ? path.item == basis_.item : path.task == basis_.task;
@@ -299,7 +300,7 @@ void WalkView::FollowDrag(const editor::Workspace& workspace, const WalkHandles:
     followed_ = true;
     point->place = drag.place;
     if (walk.path.to) {
-      editor::PlanWalk(workspace.drama_run(), walk.path.to->place, walk.path);
+      editor::PlanWalk(workspace.dry_run().newest(), walk.path.to->place, walk.path);
     }
     walk.way = Close(walk.path.way);
     walk.ticks.clear();
@@ -359,7 +360,7 @@ void WalkView::Drag(editor::Workspace& workspace,
   const Vector2d pointer = ToEigen(ImGui::GetMousePos());
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     if (drag.moved && !drag.given_up) {
-      workspace.EndGesture();
+      workspace.project().EndGesture();
       MoveHandle(
           workspace, drag.handle, [&](glm::vec2) { return drag.place; }, "");
     }
@@ -368,7 +369,7 @@ void WalkView::Drag(editor::Workspace& workspace,
   }
   drag.moved |= (pointer - drag.pressed).norm() >= Px(kClickPx);
   const std::optional<glm::vec2> floor = FloorBelow(world_from_stage_, view, pointer);
-  if (drag.moved && floor && workspace.script().timeline() != nullptr) {
+  if (drag.moved && floor && workspace.project().script().timeline() != nullptr) {
     drag.place =
         Snapped(workspace, options, world_from_stage_, view, drag.handle, *floor + drag.grip);
   }
@@ -510,10 +511,10 @@ bool WalkView::Show(editor::Workspace& workspace,
                     const ViewCamera& view,
                     bool hovered,
                     ImDrawList& draw) {
-  if (workspace.place() == nullptr) {
+  if (workspace.project().place() == nullptr) {
     return false;
   }
-  world_from_stage_ = workspace.place()->picked_from_stage;
+  world_from_stage_ = workspace.project().place()->picked_from_stage;
   Update(workspace, selection, walks);
   occluders_.Update(workspace);
   if (walks.chosen && !PlaceOf(*walks.chosen)) {

@@ -297,9 +297,9 @@ void PlayButton(editor::Workspace& workspace) {
   const std::string play = WithIcon(Icon::kPlay, Tr("Play"));
   const std::string pause = WithIcon(Icon::kPause, Tr("Pause"));
   const float width = WidestButton(std::array{play.c_str(), pause.c_str()}, 0.0f);
-  const std::string& shown = workspace.playing() ? pause : play;
+  const std::string& shown = workspace.playback().playing() ? pause : play;
   if (ImGui::Button(Label(shown.c_str(), "play").c_str(), ImVec2(width, 0))) {
-    workspace.SetPlaying(!workspace.playing());
+    workspace.playback().SetPlaying(!workspace.playback().playing());
   }
   Tip(WithKey(Tr("Plays the drama"), KeyAction::kPlay));
 }
@@ -503,7 +503,7 @@ bool ColourProperty(editor::Workspace& workspace, const char* label, Eigen::Vect
 
 void EndGestureWithItem(editor::Workspace& workspace) {
   if (ImGui::IsItemDeactivated()) {
-    workspace.EndGesture();
+    workspace.project().EndGesture();
   }
 }
 
