@@ -277,14 +277,18 @@ void Fields::RequireAt(const Key& key,
 void Fields::Number(const Key& key, float& value, double min, double max) {
   double wide = value;
   Number(key, wide, min, max);
-  value = static_cast<float>(wide);
+  if (reading()) {
+    value = static_cast<float>(wide);
+  }
 }
 
 void Fields::Numbers(const Key& key, std::span<float> values) {
   std::vector<double> wide(values.begin(), values.end());
   Numbers(key, std::span(wide));
-  std::transform(wide.begin(), wide.end(), values.begin(),
-                 [](double value) { return static_cast<float>(value); });
+  if (reading()) {
+    std::transform(wide.begin(), wide.end(), values.begin(),
+                   [](double value) { return static_cast<float>(value); });
+  }
 }
 
 size_t Fields::ChoiceIndex(const Key& key,

@@ -104,7 +104,9 @@ class Fields {
   void Integer(const Key& key, Int& value, int64_t min, int64_t max) {
     auto wide = static_cast<int64_t>(value);
     Integer(key, wide, min, max);
-    value = static_cast<Int>(wide);
+    if (reading()) {
+      value = static_cast<Int>(wide);
+    }
   }
   // A number that may be missing.
   template <std::floating_point Float>
@@ -122,7 +124,10 @@ class Fields {
               std::span<const std::string_view> names,
               std::string_view problem,
               std::string_view remedy = {}) {
-    value = static_cast<Enum>(ChoiceIndex(key, static_cast<size_t>(value), names, problem, remedy));
+    const size_t index = ChoiceIndex(key, static_cast<size_t>(value), names, problem, remedy);
+    if (reading()) {
+      value = static_cast<Enum>(index);
+    }
   }
   // The field "schema". While reading: if it is above `current`, `problem` (with the number for
   // "{}") is the error. Without a problem, only `current` is in its range.
@@ -156,7 +161,9 @@ class Fields {
   template <typename T, typename Describe>
   void List(const Key& key, std::vector<T>& values, size_t max_count, Describe describe) {
     if (const std::optional<size_t> count = EnterList(key, values.size(), max_count)) {
-      values.resize(*count);
+      if (reading()) {
+        values.resize(*count);
+      }
       for (size_t i = 0; i < values.size(); ++i) {
         Entry(Key(i), values[i], describe);
       }

@@ -28,7 +28,9 @@ void DescribeAmbience(Fields& fields, Ambience& ambience) {
     fields.Numbers("at", std::span(&at.x, 3));
     fields.Require(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= kMaxMetres,
                    "\"at\" lies too far away", "use coordinates of at most 10000 metres");
-    ambience.position = at;
+    if (fields.reading()) {
+      ambience.position = at;
+    }
   }
 }
 

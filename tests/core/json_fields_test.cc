@@ -100,6 +100,11 @@ TEST(JsonFields, LeavesOutWhatIsNotWritten) {
             R"({"name":"","schema":2,"seats":2,"size":[3.0,1.5],"wheels":[]})");
 }
 
+TEST(JsonFields, WritingDoesNotTouchTheValue) {
+  static constexpr Wheel kWheel{0.75f, 20.0};  // Lies in memory that cannot be written.
+  EXPECT_EQ(FormatFields(kWheel).dump(), R"({"load":20.0,"radius":0.75})");
+}
+
 TEST(JsonFields, MissingOptionalFieldsKeepTheirDefaults) {
   const Result<Cart> cart = ParseFields<Cart>(
       R"({"schema": 2, "name": "gig", "size": [1, 1], "wheels": []})", "cart.json", DescribeFields);
