@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 9> kReverbs = {"none",       "small_room"
                                                       "vault",      "courtyard",  "street"};
 
 void DescribeAmbience(Fields& fields, Ambience& ambience) {
-  fields.Text("sound", ambience.sound, kMaxMaterialName);
+  fields.Text("sound", ambience.sound, kMaxAcousticsText);
   fields.Number(Optional("gain_db"), ambience.gain_db, kMinDb, kMaxDb);
   if (fields.Has("at", ambience.position.has_value())) {
     glm::vec3 at = ambience.position.value_or(glm::vec3(0.0f));

@@ -49,9 +49,9 @@ void DescribeNamed(Fields& fields, const Key& key, Map& map, size_t max_count, D
                  "must be an object of at most " + std::to_string(max_count) + " entries",
                  [&](const Key& name, auto& value) {
                    RequirePlain(fields, name, name.name, true);
-                   fields.Require(!name.name.empty() && name.name.size() <= kMaxAuthorName,
+                   fields.Require(!name.name.empty() && name.name.size() <= kMaxParadataName,
                                   "has a name that is empty or longer than " +
-                                      std::to_string(kMaxAuthorName) + " bytes");
+                                      std::to_string(kMaxParadataName) + " bytes");
                    describe(name, value);
                  });
 }
@@ -62,7 +62,7 @@ void DescribeClaim(Fields& fields, const Paradata& paradata, Claim& claim) {
                 "choose attested, inferred or imagined, or leave it out");
   fields.List(Optional("source", !claim.sources.empty()), claim.sources, kMaxSources,
               [&](const Key& key, std::string& source) {
-                fields.Text(key, source, kMaxAuthorName);
+                fields.Text(key, source, kMaxParadataName);
                 fields.RequireAt(key, paradata.sources.contains(source),
                                  "there is no source '" + source + "'", "list it in \"sources\"");
               });
