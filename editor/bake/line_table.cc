@@ -464,7 +464,7 @@ void DescribeLine(Fields& fields, const std::vector<std::string>& languages, Lin
   fields.Text(Optional("speaker", !line.speaker.empty()), line.speaker, 64);
   fields.Text(Optional("notes", !line.notes.empty()), line.notes, kMaxCell);
   fields.Entries("text", line.text, std::numeric_limits<size_t>::max(), "must be an object",
-                 [&](const Key& language, std::string& text) {
+                 [&](const FieldKey& language, std::string& text) {
                    const std::string name(language.name);
                    fields.Require(
                        std::find(languages.begin(), languages.end(), name) != languages.end(),
@@ -476,12 +476,13 @@ void DescribeLine(Fields& fields, const std::vector<std::string>& languages, Lin
 // While reading, `builder` checks the languages and the lines, and keeps them.
 void DescribeTable(Fields& fields, LineTable& table, TableBuilder& builder) {
   fields.Schema(1);
-  fields.List("languages", table.languages, kMaxLanguages, [&](const Key& key, std::string& tag) {
-    fields.Text(key, tag, 64);
-    if (fields.reading()) {
-      fields.Check(builder.AddLanguage(tag, fields.where(key)));
-    }
-  });
+  fields.List("languages", table.languages, kMaxLanguages,
+              [&](const FieldKey& key, std::string& tag) {
+                fields.Text(key, tag, 64);
+                if (fields.reading()) {
+                  fields.Check(builder.AddLanguage(tag, fields.where(key)));
+                }
+              });
   fields.List("lines", table.lines, kMaxLines, [&](Fields& entry, Line& line) {
     DescribeLine(entry, table.languages, line);
     if (entry.reading()) {

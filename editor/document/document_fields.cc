@@ -17,7 +17,7 @@ bool IsPlainName(std::string_view name) {
          });
 }
 
-void DescribeVector(Fields& fields, const Key& key, Eigen::Vector3d& vector) {
+void DescribeVector(Fields& fields, const FieldKey& key, Eigen::Vector3d& vector) {
   fields.Numbers(key, std::span(vector.data(), 3));
   fields.Require(vector.cwiseAbs().maxCoeff() <= kMaxLength,
                  "\"" + std::string(key.name) + "\" lies beyond a million metres");
@@ -41,7 +41,7 @@ void DescribeSimilarity(Fields& fields, Similarity3& similarity) {
   fields.Number("scale", similarity.scale, 1e-6, 1e6);
 }
 
-void DescribePlainName(Fields& fields, const Key& key, std::string& name) {
+void DescribePlainName(Fields& fields, const FieldKey& key, std::string& name) {
   fields.Text(key, name);
   fields.Require(IsPlainName(name), "\"" + std::string(key.name) + "\" is also a file name",
                  "use 1 to 64 letters, digits, '_' and '-'");

@@ -23,16 +23,16 @@ bool IsPlainName(std::string_view name);
 inline constexpr double kMaxLength = 1e6;  // metres
 
 // Each component must be within kMaxLength.
-void DescribeVector(Fields& fields, const Key& key, Eigen::Vector3d& vector);
+void DescribeVector(Fields& fields, const FieldKey& key, Eigen::Vector3d& vector);
 // The field "rotation": a unit quaternion (w, x, y, z).
 void DescribeRotation(Fields& fields, Eigen::Quaterniond& rotation);
 // The fields "translation", "rotation" and "scale".
 void DescribeSimilarity(Fields& fields, geometry::Similarity3& similarity);
-void DescribePlainName(Fields& fields, const Key& key, std::string& name);
+void DescribePlainName(Fields& fields, const FieldKey& key, std::string& name);
 
 // While reading, two entries of the list with the same name are an error.
 template <typename Entry>
-void RequireUniqueNames(Fields& fields, const Key& list, const std::vector<Entry>& entries) {
+void RequireUniqueNames(Fields& fields, const FieldKey& list, const std::vector<Entry>& entries) {
   std::set<std::string_view> names;
   for (const Entry& entry : entries) {
     fields.RequireAt(list, names.insert(entry.name).second,

@@ -34,7 +34,7 @@ void DescribePick(Fields& fields, stage::Pick& pick) {
   fields.Integer(Optional("session", pick.session != 0), pick.session, 0, kMaxAddedSessions);
 }
 
-void DescribePickList(Fields& fields, const Key& key, stage::Anchor& anchor) {
+void DescribePickList(Fields& fields, const FieldKey& key, stage::Anchor& anchor) {
   fields.List(key, anchor.picks, kMaxEntries, DescribePick);
 }
 
@@ -101,7 +101,7 @@ void DescribeGeometry(Fields& fields, OccluderDocument& occluder) {
   if (drawn) {
     fields.List(
         "corners", occluder.corners, kMaxCorners,
-        [&](const Key& key, stage::Anchor& corner) { DescribePickList(fields, key, corner); });
+        [&](const FieldKey& key, stage::Anchor& corner) { DescribePickList(fields, key, corner); });
     fields.Number("depth", occluder.depth, 0.0, kMaxDepth);
     fields.Flag(Optional("flat", occluder.flat), occluder.flat);
     return;
@@ -246,7 +246,7 @@ namespace {
 
 void DescribeLanguages(Fields& fields, std::string_view name, std::vector<std::string>& list) {
   std::set<std::string> seen;
-  fields.List(Optional(name), list, 64, [&](const Key& key, std::string& language) {
+  fields.List(Optional(name), list, 64, [&](const FieldKey& key, std::string& language) {
     fields.Text(key, language, 64);
     fields.RequireAt(key, stage::IsLanguageTag(language) && seen.insert(language).second,
                      "'" + language + "' is not a valid language tag, or is used twice",

@@ -129,9 +129,10 @@ std::vector<std::byte> BytesOf(std::string_view text) {
 
 void DescribeBakedLight(Fields& fields, light::ProbeLight& light) {
   std::vector<glm::vec3> radiance(light.sky.begin(), light.sky.end());
-  fields.List("radiance", radiance, light::kShCount, [&](const Key& key, glm::vec3& coefficient) {
-    fields.Numbers(key, std::span(&coefficient.x, 3));
-  });
+  fields.List("radiance", radiance, light::kShCount,
+              [&](const FieldKey& key, glm::vec3& coefficient) {
+                fields.Numbers(key, std::span(&coefficient.x, 3));
+              });
   fields.RequireAt("radiance", radiance.size() == light.sky.size(), "must have 36 coefficients",
                    "bake the project again");
   if (fields.reading() && radiance.size() == light.sky.size()) {

@@ -63,7 +63,7 @@ void DescribeAdvice(Fields& fields, CaptureAdvice& advice) {
                 kReasons, "reason has no \"{}\"");
   std::vector<std::string> frames = {advice.first, advice.last};
   fields.List(Optional("frames", !advice.first.empty()), frames, 2,
-              [&](const Key& key, std::string& frame) { fields.Text(key, frame); });
+              [&](const FieldKey& key, std::string& frame) { fields.Text(key, frame); });
   fields.RequireAt("frames", frames.size() == 2, "must be a first and a last frame");
   if (fields.reading() && frames.size() == 2) {
     advice.first = frames[0];

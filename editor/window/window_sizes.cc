@@ -29,8 +29,9 @@ void DescribeSizes(Fields& fields, WindowSizes& sizes) {
   fields.Number("inspector", sizes.panels.inspector, 1.0, kLargest);
   auto& bottom = sizes.panels.bottom;
   std::vector heights(bottom.begin(), bottom.end());
-  fields.List("bottom", heights, bottom.size(),
-              [&](const Key& key, auto& height) { fields.Number(key, height, 1.0, kLargest); });
+  fields.List("bottom", heights, bottom.size(), [&](const FieldKey& key, auto& height) {
+    fields.Number(key, height, 1.0, kLargest);
+  });
   fields.RequireAt("bottom", heights.size() == bottom.size(), "must have a height for each tab");
   if (fields.reading() && heights.size() == bottom.size()) {
     std::copy(heights.begin(), heights.end(), bottom.begin());

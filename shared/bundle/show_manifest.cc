@@ -87,7 +87,7 @@ class ManifestDescription {
 
   // Describes a list of entries that have different names.
   template <typename T, typename Describe>
-  void NamedList(const Key& key, std::vector<T>& list, size_t max_count, Describe describe) {
+  void NamedList(const FieldKey& key, std::vector<T>& list, size_t max_count, Describe describe) {
     std::set<std::string_view> names;
     fields_.List(key, list, max_count, [&](Fields& fields, T& entry) {
       describe(entry);
@@ -97,11 +97,11 @@ class ManifestDescription {
   }
 
   void Occluder(OccluderEntry& occluder);
-  void Probe(const Key& key, light::PlacedProbe& probe, PlaceEntry& place);
+  void Probe(const FieldKey& key, light::PlacedProbe& probe, PlaceEntry& place);
   void Place(PlaceEntry& place);
   void Object(ObjectEntry& object);
   void Line(LineEntry& line);
-  void Languages(const Key& key, std::vector<SpokenLanguage>& languages);
+  void Languages(const FieldKey& key, std::vector<SpokenLanguage>& languages);
   void ListedMember(bundle::Member& member);
 
   Fields& fields_;
@@ -117,7 +117,7 @@ void ManifestDescription::Occluder(OccluderEntry& occluder) {
   fields_.Flag("receives_shadow", occluder.receives_shadow);
 }
 
-void ManifestDescription::Probe(const Key& key, light::PlacedProbe& probe, PlaceEntry& place) {
+void ManifestDescription::Probe(const FieldKey& key, light::PlacedProbe& probe, PlaceEntry& place) {
   fields_.Object(key, probe, [&](Fields& fields, light::PlacedProbe& /*probe*/) {
     fields.Numbers("position", std::span(&probe.position.x, 3));
     const glm::vec3 distance = glm::abs(probe.position);
@@ -142,7 +142,7 @@ void ManifestDescription::Place(PlaceEntry& place) {
   NamedList("occluders", place.occluders, kMaxOccluders,
             [this](OccluderEntry& occluder) { Occluder(occluder); });
   fields_.List("probes", place.probes, light::kMaxPlacedProbes,
-               [&](const Key& key, light::PlacedProbe& probe) { Probe(key, probe, place); });
+               [&](const FieldKey& key, light::PlacedProbe& probe) { Probe(key, probe, place); });
   fields_.Object(Optional("acoustics", place.acoustics != stage::Acoustics()), place.acoustics);
 }
 
@@ -168,7 +168,7 @@ void ManifestDescription::Line(LineEntry& line) {
                   });
 }
 
-void ManifestDescription::Languages(const Key& key, std::vector<SpokenLanguage>& languages) {
+void ManifestDescription::Languages(const FieldKey& key, std::vector<SpokenLanguage>& languages) {
   NamedList(key, languages, kMaxLanguages, [this](SpokenLanguage& language) {
     fields_.Text("name", language.name, kMaxLanguageTag);
     OptionalMember("captions", language.captions);
@@ -206,7 +206,7 @@ void ManifestDescription::Describe(ShowManifest& manifest) {
   Languages("spoken", manifest.spoken);
   Languages(Optional("descriptions", !manifest.descriptions.empty()), manifest.descriptions);
   fields_.List("captions", manifest.captions, kMaxLanguages,
-               [this](const Key& key, std::string& language) {
+               [this](const FieldKey& key, std::string& language) {
                  fields_.Text(key, language, kMaxLanguageTag);
                });
   fields_.Object("caption_font", manifest.caption_font,

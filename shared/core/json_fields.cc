@@ -29,7 +29,7 @@ class FieldReader final : public Fields {
 
   bool reading() const override { return true; }
   std::string where() const override { return levels_.back().view.place(); }
-  std::string where(const Key& key) override {
+  std::string where(const FieldKey& key) override {
     const std::optional<JsonView> field = Find(key);
     return field ? field->place() : where();
   }
@@ -37,8 +37,8 @@ class FieldReader final : public Fields {
     Note(name);
     return status_.ok() && levels_.back().view.Has(name);
   }
-  bool IsText(const Key& key) override {
-    Key present = key;
+  bool IsText(const FieldKey& key) override {
+    FieldKey present = key;
     present.required = false;
     const std::optional<JsonView> field = Find(present);
     return field && field->json().is_string();
@@ -50,32 +50,32 @@ class FieldReader final : public Fields {
     }
   }
 
-  void Number(const Key& key, double& value, double min, double max) override {
+  void Number(const FieldKey& key, double& value, double min, double max) override {
     if (const std::optional<JsonView> field = Find(key)) {
       Take(field->Number(min, max), value);
     }
   }
-  void Integer(const Key& key, int64_t& value, int64_t min, int64_t max) override {
+  void Integer(const FieldKey& key, int64_t& value, int64_t min, int64_t max) override {
     if (const std::optional<JsonView> field = Find(key)) {
       Take(field->Integer(min, max), value);
     }
   }
-  void Flag(const Key& key, bool& value) override {
+  void Flag(const FieldKey& key, bool& value) override {
     if (const std::optional<JsonView> field = Find(key)) {
       Take(field->Boolean(), value);
     }
   }
-  void Text(const Key& key, std::string& value, size_t max_bytes) override {
+  void Text(const FieldKey& key, std::string& value, size_t max_bytes) override {
     if (const std::optional<JsonView> field = Find(key)) {
       Take(field->Text(max_bytes), value);
     }
   }
-  void Raw(const Key& key, Json& value) override {
+  void Raw(const FieldKey& key, Json& value) override {
     if (const std::optional<JsonView> field = Find(key)) {
       value = field->json();
     }
   }
-  void Numbers(const Key& key, std::span<double> values) override {
+  void Numbers(const FieldKey& key, std::span<double> values) override {
     std::vector<double> numbers(values.begin(), values.end());
     if (const std::optional<JsonView> field = Find(key)) {
       Take(field->Numbers(values.size()), numbers);
@@ -84,7 +84,7 @@ class FieldReader final : public Fields {
   }
 
  protected:
-  bool EnterObject(const Key& key) override {
+  bool EnterObject(const FieldKey& key) override {
     const std::optional<JsonView> field = Find(key);
     if (field) {
       Push(*field, levels_.back().refuse_unknown);
@@ -92,7 +92,9 @@ class FieldReader final : public Fields {
     return field.has_value();
   }
 
-  std::optional<size_t> EnterList(const Key& key, size_t /*count*/, size_t max_count) override {
+  std::optional<size_t> EnterList(const FieldKey& key,
+                                  size_t /*count*/,
+                                  size_t max_count) override {
     const std::optional<JsonView> field = Find(key);
     std::vector<JsonView> entries;
     if (!field || !Take(field->Array(max_count), entries)) {
@@ -103,7 +105,7 @@ class FieldReader final : public Fields {
     return count;
   }
 
-  bool EnterEntries(const Key& key,
+  bool EnterEntries(const FieldKey& key,
                     std::vector<std::string>& names,
                     size_t max_count,
                     std::string_view problem) override {
@@ -158,7 +160,7 @@ class FieldReader final : public Fields {
     }
   }
 
-  std::optional<JsonView> Find(const Key& key) {
+  std::optional<JsonView> Find(const FieldKey& key) {
     const Level& level = levels_.back();
     if (key.name.empty() && key.index < level.entries.size()) {
       return status_.ok() ? std::optional(level.entries[key.index]) : std::nullopt;
@@ -197,31 +199,35 @@ class FieldWriter final : public Fields {
 
   bool reading() const override { return false; }
   std::string where() const override { return ""; }
-  std::string where(const Key& /*key*/) override { return ""; }
+  std::string where(const FieldKey& /*key*/) override { return ""; }
   bool Has(std::string_view /*name*/, bool written) override { return written; }
-  bool IsText(const Key& /*key*/) override { return false; }
+  bool IsText(const FieldKey& /*key*/) override { return false; }
   void RefuseUnknown() override {}
   void Check(const Status& /*status*/) override {}
 
-  void Number(const Key& key, double& value, double /*min*/, double /*max*/) override {
+  void Number(const FieldKey& key, double& value, double /*min*/, double /*max*/) override {
     Put(key, value);
   }
-  void Integer(const Key& key, int64_t& value, int64_t /*min*/, int64_t /*max*/) override {
+  void Integer(const FieldKey& key, int64_t& value, int64_t /*min*/, int64_t /*max*/) override {
     Put(key, value);
   }
-  void Flag(const Key& key, bool& value) override { Put(key, value); }
-  void Text(const Key& key, std::string& value, size_t /*max_bytes*/) override { Put(key, value); }
-  void Raw(const Key& key, Json& value) override { Put(key, value); }
-  void Numbers(const Key& key, std::span<double> values) override {
+  void Flag(const FieldKey& key, bool& value) override { Put(key, value); }
+  void Text(const FieldKey& key, std::string& value, size_t /*max_bytes*/) override {
+    Put(key, value);
+  }
+  void Raw(const FieldKey& key, Json& value) override { Put(key, value); }
+  void Numbers(const FieldKey& key, std::span<double> values) override {
     Put(key, std::vector<double>(values.begin(), values.end()));
   }
 
  protected:
-  bool EnterObject(const Key& key) override { return Push(key, Json::object()); }
-  std::optional<size_t> EnterList(const Key& key, size_t count, size_t /*max_count*/) override {
+  bool EnterObject(const FieldKey& key) override { return Push(key, Json::object()); }
+  std::optional<size_t> EnterList(const FieldKey& key,
+                                  size_t count,
+                                  size_t /*max_count*/) override {
     return Push(key, Json::array()) ? std::optional(count) : std::nullopt;
   }
-  bool EnterEntries(const Key& key,
+  bool EnterEntries(const FieldKey& key,
                     std::vector<std::string>& /*names*/,
                     size_t /*max_count*/,
                     std::string_view /*problem*/) override {
@@ -231,7 +237,7 @@ class FieldWriter final : public Fields {
 
  private:
   // Returns the value where it was put; nullptr where the field is left out.
-  Json* Put(const Key& key, Json value) {
+  Json* Put(const FieldKey& key, Json value) {
     if (!key.written) {
       return nullptr;
     }
@@ -245,7 +251,7 @@ class FieldWriter final : public Fields {
     return &field;
   }
 
-  bool Push(const Key& key, Json value) {
+  bool Push(const FieldKey& key, Json value) {
     Json* const put = Put(key, std::move(value));
     if (put != nullptr) {
       levels_.push_back(put);
@@ -265,7 +271,7 @@ void Fields::Require(bool condition, std::string_view problem, std::string_view 
   }
 }
 
-void Fields::RequireAt(const Key& key,
+void Fields::RequireAt(const FieldKey& key,
                        bool condition,
                        std::string_view problem,
                        std::string_view remedy) {
@@ -274,7 +280,7 @@ void Fields::RequireAt(const Key& key,
   }
 }
 
-void Fields::Number(const Key& key, float& value, double min, double max) {
+void Fields::Number(const FieldKey& key, float& value, double min, double max) {
   double wide = value;
   Number(key, wide, min, max);
   if (reading()) {
@@ -282,7 +288,7 @@ void Fields::Number(const Key& key, float& value, double min, double max) {
   }
 }
 
-void Fields::Numbers(const Key& key, std::span<float> values) {
+void Fields::Numbers(const FieldKey& key, std::span<float> values) {
   std::vector<double> wide(values.begin(), values.end());
   Numbers(key, std::span(wide));
   if (reading()) {
@@ -291,7 +297,7 @@ void Fields::Numbers(const Key& key, std::span<float> values) {
   }
 }
 
-size_t Fields::ChoiceIndex(const Key& key,
+size_t Fields::ChoiceIndex(const FieldKey& key,
                            size_t index,
                            std::span<const std::string_view> names,
                            std::string_view problem,

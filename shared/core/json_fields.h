@@ -32,10 +32,10 @@ class JsonView;
 
 // Addresses a field of an object by its name, or an entry of a list by its index. The name must
 // outlive the description.
-struct Key {
-  Key(const char* key) : name(key) {}       // NOLINT: converts on purpose
-  Key(std::string_view key) : name(key) {}  // NOLINT: converts on purpose
-  explicit Key(size_t entry) : index(entry) {}
+struct FieldKey {
+  FieldKey(const char* key) : name(key) {}       // NOLINT: converts on purpose
+  FieldKey(std::string_view key) : name(key) {}  // NOLINT: converts on purpose
+  explicit FieldKey(size_t entry) : index(entry) {}
 
   std::string_view name;
   size_t index = 0;      // Used if the name is empty.
@@ -45,8 +45,8 @@ struct Key {
 
 // A field that the file may lack, so that the value keeps its default. The field is written only if
 // `written` is true.
-inline Key Optional(std::string_view name, bool written = true) {
-  Key key(name);
+inline FieldKey Optional(std::string_view name, bool written = true) {
+  FieldKey key(name);
   key.required = false;
   key.written = written;
   return key;
@@ -65,12 +65,12 @@ class Fields {
   // While reading: the file and the path of the object within it. While writing: "".
   virtual std::string where() const = 0;
   // The same for a field of the object or an entry of the list.
-  virtual std::string where(const Key& key) = 0;
+  virtual std::string where(const FieldKey& key) = 0;
   // While reading: whether the object has the field. While writing: `written`. The field counts as
   // known even if it is not described.
   virtual bool Has(std::string_view name, bool written = true) = 0;
   // While reading: whether the value is a text. For fields that may have values of two types.
-  virtual bool IsText(const Key& key) = 0;
+  virtual bool IsText(const FieldKey& key) = 0;
   // Makes an unknown field of this object an error in documents that ignore unknown fields.
   virtual void RefuseUnknown() = 0;
 
@@ -78,30 +78,30 @@ class Fields {
   // RequireAt() where(key).
   virtual void Check(const Status& status) = 0;
   void Require(bool condition, std::string_view problem, std::string_view remedy = {});
-  void RequireAt(const Key& key,
+  void RequireAt(const FieldKey& key,
                  bool condition,
                  std::string_view problem,
                  std::string_view remedy = {});
 
-  virtual void Number(const Key& key,
+  virtual void Number(const FieldKey& key,
                       double& value,
                       double min = std::numeric_limits<double>::lowest(),
                       double max = std::numeric_limits<double>::max()) = 0;
-  void Number(const Key& key,
+  void Number(const FieldKey& key,
               float& value,
               double min = std::numeric_limits<double>::lowest(),
               double max = std::numeric_limits<double>::max());
-  virtual void Integer(const Key& key, int64_t& value, int64_t min, int64_t max) = 0;
-  virtual void Flag(const Key& key, bool& value) = 0;
-  virtual void Text(const Key& key, std::string& value, size_t max_bytes = 1 << 20) = 0;
+  virtual void Integer(const FieldKey& key, int64_t& value, int64_t min, int64_t max) = 0;
+  virtual void Flag(const FieldKey& key, bool& value) = 0;
+  virtual void Text(const FieldKey& key, std::string& value, size_t max_bytes = 1 << 20) = 0;
   // A value that is kept as it is.
-  virtual void Raw(const Key& key, nlohmann::json& value) = 0;
+  virtual void Raw(const FieldKey& key, nlohmann::json& value) = 0;
   // A list of exactly as many numbers as there are values.
-  virtual void Numbers(const Key& key, std::span<double> values) = 0;
-  void Numbers(const Key& key, std::span<float> values);
+  virtual void Numbers(const FieldKey& key, std::span<double> values) = 0;
+  void Numbers(const FieldKey& key, std::span<float> values);
 
   template <std::integral Int>
-  void Integer(const Key& key, Int& value, int64_t min, int64_t max) {
+  void Integer(const FieldKey& key, Int& value, int64_t min, int64_t max) {
     auto wide = static_cast<int64_t>(value);
     Integer(key, wide, min, max);
     if (reading()) {
@@ -110,16 +110,16 @@ class Fields {
   }
   // A number that may be missing.
   template <std::floating_point Float>
-  void Number(const Key& key,
+  void Number(const FieldKey& key,
               std::optional<Float>& value,
               double min = std::numeric_limits<double>::lowest(),
               double max = std::numeric_limits<double>::max()) {
-    Present(key, value, [&](const Key& present) { Number(present, *value, min, max); });
+    Present(key, value, [&](const FieldKey& present) { Number(present, *value, min, max); });
   }
   // A text that is one of the names; the value is its index. In the problem, "{}" stands for a text
   // that is no name; in the remedy, for the names from the first to the last.
   template <typename Enum>
-  void Choice(const Key& key,
+  void Choice(const FieldKey& key,
               Enum& value,
               std::span<const std::string_view> names,
               std::string_view problem,
@@ -136,56 +136,59 @@ class Fields {
   // An object of its own. describe(fields, value) describes it; without `describe`,
   // DescribeFields() does.
   template <typename T, typename Describe>
-  void Object(const Key& key, T& value, Describe describe) {
+  void Object(const FieldKey& key, T& value, Describe describe) {
     if (EnterObject(key)) {
       describe(*this, value);
       Leave();
     }
   }
   template <typename T>
-  void Object(const Key& key, T& value) {
+  void Object(const FieldKey& key, T& value) {
     Object(key, value, [](Fields& fields, T& object) { DescribeFields(fields, object); });
   }
   // An object that may be missing.
   template <typename T, typename Describe>
-  void Object(const Key& key, std::optional<T>& value, Describe describe) {
-    Present(key, value, [&](const Key& present) { Object(present, *value, describe); });
+  void Object(const FieldKey& key, std::optional<T>& value, Describe describe) {
+    Present(key, value, [&](const FieldKey& present) { Object(present, *value, describe); });
   }
   template <typename T>
-  void Object(const Key& key, std::optional<T>& value) {
-    Present(key, value, [&](const Key& present) { Object(present, *value); });
+  void Object(const FieldKey& key, std::optional<T>& value) {
+    Present(key, value, [&](const FieldKey& present) { Object(present, *value); });
   }
 
   // A list of at most max_count entries. Entries are objects that describe(fields, entry) or
   // DescribeFields() describes, unless `describe` takes (key, entry) and adds the entry itself.
   template <typename T, typename Describe>
-  void List(const Key& key, std::vector<T>& values, size_t max_count, Describe describe) {
+  void List(const FieldKey& key, std::vector<T>& values, size_t max_count, Describe describe) {
     if (const std::optional<size_t> count = EnterList(key, values.size(), max_count)) {
       if (reading()) {
         values.resize(*count);
       }
       for (size_t i = 0; i < values.size(); ++i) {
-        Entry(Key(i), values[i], describe);
+        Entry(FieldKey(i), values[i], describe);
       }
       Leave();
     }
   }
   template <typename T>
-  void List(const Key& key, std::vector<T>& values, size_t max_count) {
+  void List(const FieldKey& key, std::vector<T>& values, size_t max_count) {
     List(key, values, max_count, [](Fields& fields, T& entry) { DescribeFields(fields, entry); });
   }
   // An object whose fields have names of the author's choice. `problem` is the error if it is no
   // object or has more than max_count fields. `describe` is as for List().
   template <typename Map, typename Describe>
-  void Entries(
-      const Key& key, Map& values, size_t max_count, std::string_view problem, Describe describe) {
+  void Entries(const FieldKey& key,
+               Map& values,
+               size_t max_count,
+               std::string_view problem,
+               Describe describe) {
     std::vector<std::string> names;
     for (const auto& [name, value] : values) {
       names.push_back(name);
     }
     if (EnterEntries(key, names, max_count, problem)) {
       for (const std::string& name : names) {
-        Entry(Key(std::string_view(name)), values[name], describe);
+        Entry(FieldKey(std::string_view(name)), values[name], describe);
       }
       Leave();
     }
@@ -193,25 +196,25 @@ class Fields {
 
  protected:
   // Each returns whether there is something to describe, which ends with Leave().
-  virtual bool EnterObject(const Key& key) = 0;
+  virtual bool EnterObject(const FieldKey& key) = 0;
   // count: the number of entries to write. Returns the number of entries that are described.
-  virtual std::optional<size_t> EnterList(const Key& key, size_t count, size_t max_count) = 0;
+  virtual std::optional<size_t> EnterList(const FieldKey& key, size_t count, size_t max_count) = 0;
   // names: while writing, the fields of the object; while reading, they are set.
-  virtual bool EnterEntries(const Key& key,
+  virtual bool EnterEntries(const FieldKey& key,
                             std::vector<std::string>& names,
                             size_t max_count,
                             std::string_view problem) = 0;
   virtual void Leave() = 0;
 
  private:
-  size_t ChoiceIndex(const Key& key,
+  size_t ChoiceIndex(const FieldKey& key,
                      size_t index,
                      std::span<const std::string_view> names,
                      std::string_view problem,
                      std::string_view remedy);
 
   template <typename T, typename Describe>
-  void Entry(const Key& key, T& value, Describe& describe) {
+  void Entry(const FieldKey& key, T& value, Describe& describe) {
     if constexpr (std::invocable<Describe&, Fields&, T&>) {
       Object(key, value, std::ref(describe));
     } else {
@@ -220,12 +223,12 @@ class Fields {
   }
 
   template <typename T, typename Describe>
-  void Present(const Key& key, std::optional<T>& value, Describe describe) {
+  void Present(const FieldKey& key, std::optional<T>& value, Describe describe) {
     if (Has(key.name, value.has_value())) {
       if (!value) {
         value.emplace();
       }
-      describe(Key(key.name));
+      describe(FieldKey(key.name));
     }
   }
 };

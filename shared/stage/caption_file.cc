@@ -30,8 +30,9 @@ void DescribeByLanguage(Fields& fields,
                         Describe describe) {
   constexpr std::string_view kNoObject = "must be an object";
   fields.Entries(
-      name, ids, kMaxIds, kNoObject, [&](const Key& id, CaptionBook::ByLanguage<T>& languages) {
-        fields.Entries(id, languages, kMaxIds, kNoObject, [&](const Key& language, T& value) {
+      name, ids, kMaxIds, kNoObject,
+      [&](const FieldKey& id, CaptionBook::ByLanguage<T>& languages) {
+        fields.Entries(id, languages, kMaxIds, kNoObject, [&](const FieldKey& language, T& value) {
           fields.Require(IsLanguageTag(language.name),
                          "\"" + std::string(language.name) + "\" is not a valid language tag",
                          "use one such as \"it\" or \"en-GB\"");
@@ -42,10 +43,11 @@ void DescribeByLanguage(Fields& fields,
 
 void DescribeBook(Fields& fields, CaptionBook& book) {
   fields.Schema(1);
-  DescribeByLanguage(fields, "names", book.names,
-                     [&](const Key& key, std::string& name) { fields.Text(key, name, kMaxName); });
+  DescribeByLanguage(fields, "names", book.names, [&](const FieldKey& key, std::string& name) {
+    fields.Text(key, name, kMaxName);
+  });
   DescribeByLanguage(fields, "lines", book.lines,
-                     [&](const Key& key, std::vector<CaptionCue>& cues) {
+                     [&](const FieldKey& key, std::vector<CaptionCue>& cues) {
                        fields.List(key, cues, kMaxCues, DescribeCue);
                        fields.Check(CheckCues(cues, fields.where(key)));
                      });

@@ -26,14 +26,17 @@ constexpr std::array<std::string_view, kSubjectCount> kSubjects = {
 
 // A text without control characters. Names and references have one line; texts for visitors may
 // have several.
-void RequirePlain(Fields& fields, const Key& key, std::string_view text, bool one_line) {
+void RequirePlain(Fields& fields, const FieldKey& key, std::string_view text, bool one_line) {
   const bool plain = std::all_of(text.begin(), text.end(), [one_line](char c) {
     return (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || (c == '\n' && !one_line);
   });
   fields.RequireAt(key, plain, "holds control characters", "remove them");
 }
 
-void DescribePlainText(Fields& fields, const Key& key, std::string& text, bool one_line = true) {
+void DescribePlainText(Fields& fields,
+                       const FieldKey& key,
+                       std::string& text,
+                       bool one_line = true) {
   fields.Text(key, text, kMaxClaimText);
   RequirePlain(fields, key, text, one_line);
 }
@@ -44,10 +47,11 @@ void DescribeOptionalText(Fields& fields, std::string_view name, std::string& te
 
 // Describes an object whose members have names of the author's choice.
 template <typename Map, typename Describe>
-void DescribeNamed(Fields& fields, const Key& key, Map& map, size_t max_count, Describe describe) {
+void DescribeNamed(
+    Fields& fields, const FieldKey& key, Map& map, size_t max_count, Describe describe) {
   fields.Entries(key, map, max_count,
                  "must be an object of at most " + std::to_string(max_count) + " entries",
-                 [&](const Key& name, auto& value) {
+                 [&](const FieldKey& name, auto& value) {
                    RequirePlain(fields, name, name.name, true);
                    fields.Require(!name.name.empty() && name.name.size() <= kMaxParadataName,
                                   "has a name that is empty or longer than " +
@@ -61,7 +65,7 @@ void DescribeClaim(Fields& fields, const Paradata& paradata, Claim& claim) {
                 kCertainties, "\"certainty\" is '{}'",
                 "choose attested, inferred or imagined, or leave it out");
   fields.List(Optional("source", !claim.sources.empty()), claim.sources, kMaxSources,
-              [&](const Key& key, std::string& source) {
+              [&](const FieldKey& key, std::string& source) {
                 fields.Text(key, source, kMaxParadataName);
                 fields.RequireAt(key, paradata.sources.contains(source),
                                  "there is no source '" + source + "'", "list it in \"sources\"");
@@ -69,7 +73,7 @@ void DescribeClaim(Fields& fields, const Paradata& paradata, Claim& claim) {
   DescribeOptionalText(fields, "author", claim.author);
   DescribeOptionalText(fields, "licence", claim.licence);
   DescribeNamed(fields, Optional("text", !claim.text.empty()), claim.text, kMaxLanguages,
-                [&](const Key& language, std::string& text) {
+                [&](const FieldKey& language, std::string& text) {
                   fields.RequireAt(
                       language, IsLanguageTag(language.name),
                       "'" + std::string(language.name) + "' is not a valid language tag",
@@ -88,13 +92,13 @@ void DescribeClaims(Fields& fields, Paradata& paradata) {
     }
   }
   DescribeNamed(fields, Optional("claims"), by_subject, kSubjectCount,
-                [&](const Key& subject, Paradata::Claims& claims) {
+                [&](const FieldKey& subject, Paradata::Claims& claims) {
                   const auto found = std::find(kSubjects.begin(), kSubjects.end(), subject.name);
                   fields.RequireAt(subject, found != kSubjects.end(),
                                    "there are no claims about '" + std::string(subject.name) + "'",
                                    "use people, objects, lines, ... (docs/file-formats.md)");
                   DescribeNamed(fields, subject, claims, kMaxClaims,
-                                [&](const Key& name, Claim& claim) {
+                                [&](const FieldKey& name, Claim& claim) {
                                   fields.Object(name, claim, [&](Fields& object, Claim& value) {
                                     DescribeClaim(object, paradata, value);
                                   });
@@ -110,9 +114,10 @@ void DescribeParadata(Fields& fields, Paradata& paradata) {
                 "was written by a newer Lararium (schema {}, this one reads up to " +
                     std::to_string(kSchema) + ")",
                 "open it with that version");
-  DescribeNamed(
-      fields, Optional("sources"), paradata.sources, kMaxSources,
-      [&](const Key& key, std::string& reference) { DescribePlainText(fields, key, reference); });
+  DescribeNamed(fields, Optional("sources"), paradata.sources, kMaxSources,
+                [&](const FieldKey& key, std::string& reference) {
+                  DescribePlainText(fields, key, reference);
+                });
   DescribeOptionalText(fields, "author", paradata.author);
   DescribeOptionalText(fields, "licence", paradata.licence);
   DescribeClaims(fields, paradata);

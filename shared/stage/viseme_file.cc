@@ -13,7 +13,7 @@ constexpr size_t kMaxKeys = 100'000;
 constexpr size_t kMaxTextBytes = size_t{16} << 20;
 
 // Seconds and strengths are written to a tenth of a thousandth, so that the file is easy to read.
-void DescribeRounded(Fields& fields, const Key& key, float& value, double max) {
+void DescribeRounded(Fields& fields, const FieldKey& key, float& value, double max) {
   double rounded = std::round(value * 1e4) / 1e4;
   fields.Number(key, rounded, 0.0, max);
   if (fields.reading()) {
@@ -21,7 +21,7 @@ void DescribeRounded(Fields& fields, const Key& key, float& value, double max) {
   }
 }
 
-void DescribeViseme(Fields& fields, human::VisemeTrack::Key& key) {
+void DescribeViseme(Fields& fields, human::VisemeTrack::FieldKey& key) {
   DescribeRounded(fields, "t", key.time, kMaxVisemeSeconds);
   std::string name(human::NameOf(key.viseme));
   fields.Text("viseme", name, 16);
@@ -38,11 +38,12 @@ void DescribeTrack(Fields& fields, human::VisemeTrack& track) {
   fields.Schema(1);
   DescribeRounded(fields, "duration", track.duration, kMaxVisemeSeconds);
   float before = 0.0f;
-  fields.List("visemes", track.keys, kMaxKeys, [&](Fields& entry, human::VisemeTrack::Key& key) {
-    DescribeViseme(entry, key);
-    entry.Require(key.time >= before, "begins before the one before it", "sort them by \"t\"");
-    before = key.time;
-  });
+  fields.List(
+      "visemes", track.keys, kMaxKeys, [&](Fields& entry, human::VisemeTrack::FieldKey& key) {
+        DescribeViseme(entry, key);
+        entry.Require(key.time >= before, "begins before the one before it", "sort them by \"t\"");
+        before = key.time;
+      });
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ void DescribeFields(Fields& fields, Cart& cart) {
   fields.Numbers("size", cart.size);
   fields.List("wheels", cart.wheels, 4);
   fields.List(Optional("owners", !cart.owners.empty()), cart.owners, 2,
-              [&](const Key& key, std::string& owner) { fields.Text(key, owner); });
+              [&](const FieldKey& key, std::string& owner) { fields.Text(key, owner); });
   fields.Entries(Optional("tolls", !cart.tolls.empty()), cart.tolls, 2, "must be two tolls",
-                 [&](const Key& key, int& toll) { fields.Integer(key, toll, 0, 100); });
+                 [&](const FieldKey& key, int& toll) { fields.Integer(key, toll, 0, 100); });
   fields.Object("spare", cart.spare);
   fields.Require(cart.wheels.size() != 1, "falls over", "add a wheel");
 }

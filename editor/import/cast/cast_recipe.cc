@@ -53,7 +53,7 @@ void DescribeColour(Fields& fields, std::string_view name, std::optional<glm::ve
 }
 
 // "name" or {"name": ..., "colour": ...}.
-void DescribeDyed(Fields& fields, const Key& key, CastDyed& dyed) {
+void DescribeDyed(Fields& fields, const FieldKey& key, CastDyed& dyed) {
   if (fields.IsText(key)) {
     fields.Text(key, dyed.name, kMaxName);
     return;
@@ -116,9 +116,9 @@ void DescribeFields(Fields& fields, CastRecipe& recipe) {
   fields.Number(Optional("asymmetry"), recipe.asymmetry, 0.0, 1.0);
   fields.Number("height", recipe.height, 0.4, 2.5);
   fields.Object(Optional("ethnicity"), recipe.ethnicity, DescribeEthnicity);
-  fields.Entries(Optional("modifiers"), recipe.modifiers, 1000,
-                 "must be an object of at most 1000 sliders",
-                 [&](const Key& slider, float& value) { fields.Number(slider, value, -2.0, 2.0); });
+  fields.Entries(
+      Optional("modifiers"), recipe.modifiers, 1000, "must be an object of at most 1000 sliders",
+      [&](const FieldKey& slider, float& value) { fields.Number(slider, value, -2.0, 2.0); });
   fields.Object(Optional("skin"), recipe, DescribeSkin);
   fields.Text(Optional("eyelashes"), recipe.eyelashes, kMaxName);
   fields.Text(Optional("teeth"), recipe.teeth, kMaxName);
@@ -129,8 +129,8 @@ void DescribeFields(Fields& fields, CastRecipe& recipe) {
     DescribeDyed(fields, "hair", recipe.hair ? *recipe.hair : recipe.hair.emplace());
   }
   fields.List(Optional("beard"), recipe.beard, 4,
-              [&](const Key& key, CastDyed& part) { DescribeDyed(fields, key, part); });
-  fields.List(Optional("garments"), recipe.garments, 16, [&](const Key& key, Json& garment) {
+              [&](const FieldKey& key, CastDyed& part) { DescribeDyed(fields, key, part); });
+  fields.List(Optional("garments"), recipe.garments, 16, [&](const FieldKey& key, Json& garment) {
     fields.Raw(key, garment);
     fields.Check(JsonView(garment, fields.where(key)).Text("name", kMaxName).status());
   });

@@ -466,11 +466,11 @@ Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where) 
   return ParseFields<BoneNames>(json, where, DescribeMapFile, UnknownFields::kIgnore);
 }
 
-void DescribeBoneNames(Fields& fields, const Key& key, BoneNames& names) {
+void DescribeBoneNames(Fields& fields, const FieldKey& key, BoneNames& names) {
   std::set<std::string> seen;
   fields.Entries(
       key, names, std::numeric_limits<size_t>::max(), "must be an object of joints and their bones",
-      [&](const Key& joint, std::string& bone) {
+      [&](const FieldKey& joint, std::string& bone) {
         const std::string name(joint.name);
         fields.Require(KnownJoints().contains(name),
                        "'" + name.substr(0, 64) + "' is not a joint of H-Anim that people have",

@@ -89,7 +89,7 @@ std::string Preview(const Rig& rig, const BoneMap& map);
 // name the field. An unknown H-Anim joint is an error.
 Result<BoneNames> ParseBoneNames(std::string_view json, std::string_view where);
 // Describes only the object "bones".
-void DescribeBoneNames(Fields& fields, const Key& key, BoneNames& names);
+void DescribeBoneNames(Fields& fields, const FieldKey& key, BoneNames& names);
 Result<BoneNames> LoadBoneNames(const std::filesystem::path& file);
 Status SaveBoneNames(const std::filesystem::path& file, const BoneNames& names);
 BoneNames NamesOf(const Rig& rig, const BoneMap& map);
