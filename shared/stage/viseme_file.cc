@@ -21,7 +21,7 @@ void DescribeRounded(Fields& fields, const FieldKey& key, float& value, double m
   }
 }
 
-void DescribeViseme(Fields& fields, human::VisemeTrack::FieldKey& key) {
+void DescribeViseme(Fields& fields, human::VisemeTrack::Key& key) {
   DescribeRounded(fields, "t", key.time, kMaxVisemeSeconds);
   std::string name(human::NameOf(key.viseme));
   fields.Text("viseme", name, 16);
@@ -38,12 +38,11 @@ void DescribeTrack(Fields& fields, human::VisemeTrack& track) {
   fields.Schema(1);
   DescribeRounded(fields, "duration", track.duration, kMaxVisemeSeconds);
   float before = 0.0f;
-  fields.List(
-      "visemes", track.keys, kMaxKeys, [&](Fields& entry, human::VisemeTrack::FieldKey& key) {
-        DescribeViseme(entry, key);
-        entry.Require(key.time >= before, "begins before the one before it", "sort them by \"t\"");
-        before = key.time;
-      });
+  fields.List("visemes", track.keys, kMaxKeys, [&](Fields& entry, human::VisemeTrack::Key& key) {
+    DescribeViseme(entry, key);
+    entry.Require(key.time >= before, "begins before the one before it", "sort them by \"t\"");
+    before = key.time;
+  });
 }
 
 }  // namespace
