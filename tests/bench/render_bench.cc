@@ -112,9 +112,13 @@ void BenchOverlayPoints(benchmark::State& state) {
   view.camera_from_stage =
       LookAt(Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());
   view.clear = glm::vec3(0.1f);
+  const PointsHandle uploaded = overlay->AddPoints(points);
   for (auto _ : state) {
     overlay->Begin(view, target);
-    overlay->DrawPoints(points, 3.0f);
+    if (!overlay->DrawPoints(uploaded, points.size(), 3.0f).ok()) {
+      state.SkipWithError("the points cannot be drawn");
+      return;
+    }
     overlay->End();
     glFinish();
   }

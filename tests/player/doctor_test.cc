@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "shared/core/json.h"
+
 namespace lararium::player {
 namespace {
 
