@@ -52,7 +52,7 @@ std::string TrainingText(const std::string& place, const TrainingReport& report)
 // in English sentences.
 Json TrainingJson(const TrainingReport& report);
 
-// Keeps advice of an unknown kind, from a later version, as the sentence that was written.
+// Keeps advice of an unknown kind as the sentence that was written.
 Result<TrainingReport> LoadTrainingReport(const std::filesystem::path& file);
 Status SaveTrainingReport(const std::filesystem::path& file, const TrainingReport& report);
 

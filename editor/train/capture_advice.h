@@ -46,7 +46,7 @@ struct CaptureAdvice {
     kFocal,         // value: standard deviation of the focal length, percent
     kFewKeyframes,  // value: number of keyframes in the map
     kExposure,      // value: change of the exposure in stops; session
-    kWritten,       // text: a whole sentence, from the report of a later version
+    kWritten,       // text: a whole sentence, of a kind that has no name in the report
   };
   // The end of the plan at which a stretch lies.
   enum class End { kNone, kLeft, kRight, kNear, kFar };

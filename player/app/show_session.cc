@@ -336,7 +336,8 @@ Status ShowSession::DrawFrame(show::StagedFrame& staged) {
   faults_.AfterFrame(staged.tracked);
   draw_ms_ = Milliseconds(drawn - begin);
   const std::optional<double> work_ms =
-      staged.camera.camera_from_stage ? std::optional(std::max(draw_ms_, staged.times.stage_ms)) : std::nullopt;
+      staged.camera.camera_from_stage ? std::optional(std::max(draw_ms_, staged.times.stage_ms))
+                                      : std::nullopt;
   if (quality_.AfterFrame(Seconds(last_shown_), work_ms, log_)) {
     ApplyQuality();
   }

@@ -189,9 +189,9 @@ void ManifestDescription::ListedMember(bundle::Member& member) {
 
 void ManifestDescription::Describe(ShowManifest& manifest) {
   fields_.Schema(ShowManifest::kSchema,
-                 "the bundle has version {}, this program reads up to " +
+                 "the bundle has version {}, this program reads version " +
                      std::to_string(ShowManifest::kSchema),
-                 "update the player");
+                 "update the player", "export the bundle again");
   fields_.Text("title", manifest.title, kMaxTitle);
   fields_.Text("credits", manifest.credits, kMaxCredits);
   Member("drama", manifest.drama);

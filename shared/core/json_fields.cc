@@ -315,11 +315,16 @@ size_t Fields::ChoiceIndex(const FieldKey& key,
   return found != names.end() ? static_cast<size_t>(found - names.begin()) : index;
 }
 
-void Fields::Schema(int64_t current, std::string_view problem, std::string_view remedy) {
+void Fields::Schema(int64_t current,
+                    std::string_view problem,
+                    std::string_view remedy,
+                    std::string_view earlier_remedy) {
   constexpr int64_t kHighest = 1'000'000;
   int64_t schema = current;
-  Integer("schema", schema, current, problem.empty() ? current : kHighest);
-  Require(schema <= current, Filled(problem, std::to_string(schema)), remedy);
+  Integer("schema", schema, earlier_remedy.empty() ? current : 1,
+          problem.empty() ? current : kHighest);
+  Require(schema == current, Filled(problem, std::to_string(schema)),
+          schema < current ? earlier_remedy : remedy);
 }
 
 Status ReadFields(const JsonView& view,

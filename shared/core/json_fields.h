@@ -129,9 +129,13 @@ class Fields {
       value = static_cast<Enum>(index);
     }
   }
-  // The field "schema". While reading: if it is above `current`, `problem` (with the number for
-  // "{}") is the error. Without a problem, only `current` is in its range.
-  void Schema(int64_t current, std::string_view problem = {}, std::string_view remedy = {});
+  // The field "schema". While reading: if it is not `current`, `problem` (with the number for "{}")
+  // is the error. Without a problem, or without the remedy for an earlier schema, the numbers
+  // above or below `current` are out of its range.
+  void Schema(int64_t current,
+              std::string_view problem = {},
+              std::string_view remedy = {},
+              std::string_view earlier_remedy = {});
 
   // An object of its own. describe(fields, value) describes it; without `describe`,
   // DescribeFields() does.

@@ -1,7 +1,7 @@
 #pragma once
 
-// The names of the JSON types, for headers that only mention them. A source that uses the types includes
-// shared/core/json.h, which is far heavier.
+// The names of the JSON types, for headers that only mention them. A source that uses the types
+// includes shared/core/json.h, which is far heavier.
 
 #include <nlohmann/json_fwd.hpp>
 

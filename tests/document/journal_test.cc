@@ -142,7 +142,10 @@ TEST_F(JournalTest, KnowsWhetherSomebodyElseWroteTheLines) {
 }
 
 TEST_F(JournalTest, RefusesOtherVersions) {
-  { Journal journal(file_, Titled("saved"), Script("abc")); }
+  {
+    Journal journal(file_, Titled("saved"), Script("abc"));
+    ASSERT_TRUE(journal.NoteProject(Titled("edited")).ok());
+  }
   std::string text = *ReadText(file_);
   ASSERT_TRUE(text.starts_with("lararium journal 2\n"));
   for (const char* other : {"lararium journal 1\n", "lararium journal 3\n"}) {

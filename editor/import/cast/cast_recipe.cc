@@ -89,7 +89,6 @@ void DescribeEthnicity(Fields& fields, glm::vec3& shares) {
   for (int i = 0; i < 3; ++i) {
     fields.Number(Optional(kEthnicities[i]), shares[i], 0.0, 1.0);
   }
-  fields.Require(shares.x + shares.y + shares.z > 0.0f, "one share must be above 0");
 }
 
 void DescribeSkin(Fields& fields, CastRecipe& recipe) {
@@ -116,6 +115,8 @@ void DescribeFields(Fields& fields, CastRecipe& recipe) {
   fields.Number(Optional("asymmetry"), recipe.asymmetry, 0.0, 1.0);
   fields.Number("height", recipe.height, 0.4, 2.5);
   fields.Object(Optional("ethnicity"), recipe.ethnicity, DescribeEthnicity);
+  const glm::vec3& shares = recipe.ethnicity;
+  fields.RequireAt("ethnicity", shares.x + shares.y + shares.z > 0.0f, "one share must be above 0");
   fields.Entries(
       Optional("modifiers"), recipe.modifiers, 1000, "must be an object of at most 1000 sliders",
       [&](const FieldKey& slider, float& value) { fields.Number(slider, value, -2.0, 2.0); });
