@@ -3,9 +3,10 @@
 // Which waiting task may start, and where actors stand meanwhile. Internal to shared/stage.
 
 #include "shared/stage/task_queue.h"
-#include "shared/stage/world.h"
 
 namespace lararium::stage {
+
+struct World;
 
 // Whether no running task and no earlier waiting task needs what the waiting task needs.
 bool MayStart(World& world, const TaskQueue& queue, const Task& task);

@@ -3,9 +3,11 @@
 // Execution of a running task, phase by phase. Internal to shared/stage.
 
 #include "shared/stage/task_queue.h"
-#include "shared/stage/world.h"
 
 namespace lararium::stage {
+
+struct Actor;
+struct World;
 
 class TaskSteps {
  public:
