@@ -1,5 +1,4 @@
-// Reservation of what a task needs to start: hands, a place, a spot and a path; the actor may have
-// to get up first.
+#include "shared/stage/task_reservations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +7,6 @@
 #include <numbers>
 
 #include "shared/stage/hands.h"
-#include "shared/stage/tasks.h"
 #include "shared/stage/walking.h"
 #include "shared/stage/world.h"
 
@@ -39,16 +37,7 @@ float ComfortableSpeed(const Actor& actor) {
 
 // ---- sitting ----
 
-Tasks::Task* Tasks::SeatOf(ActorId actor) {
-  const auto found = std::find_if(tasks_.begin(), tasks_.end(), [actor](const Task& task) {
-    return task.actor == actor && task.stage == Stage::kLingering;
-  });
-  return found == tasks_.end() ? nullptr : &*found;
-}
-
-bool Tasks::Sits(ActorId actor) const { return const_cast<Tasks*>(this)->SeatOf(actor) != nullptr; }
-
-bool Tasks::CanReachSitting(ActorId id, const glm::vec3& point) const {
+bool TaskReservations::CanReachSitting(ActorId id, const glm::vec3& point) const {
   // Metres in the frame of StageFromUpperBody, for a person 1.7 m tall.
   constexpr float kFurthest = 0.78f;
   constexpr float kLowest = 0.70f, kHighest = 1.7f;
@@ -61,17 +50,17 @@ bool Tasks::CanReachSitting(ActorId id, const glm::vec3& point) const {
          at.position.y > kLowest && at.position.y < kHighest;
 }
 
-bool Tasks::IsDoneSitting(const Task& task) const {
+bool TaskReservations::IsDoneSitting(const TaskRequest& task) const {
   const Object* object = world_.objects.Find(task.object);
   switch (task.kind) {
-    case Kind::kWalk:
+    case TaskKind::kWalk:
       return false;
-    case Kind::kUse:
+    case TaskKind::kUse:
       return object->use().actions[static_cast<size_t>(task.action)].held;
-    case Kind::kTake:
+    case TaskKind::kTake:
       return object->state.holder == task.actor ||
              CanReachSitting(task.actor, object->state.stage_from_object.position);
-    case Kind::kPut: {
+    case TaskKind::kPut: {
       const Object* on = world_.objects.Find(task.target.object);
       if (on == nullptr) {
         return false;
@@ -86,7 +75,7 @@ bool Tasks::IsDoneSitting(const Task& task) const {
       }
       return false;
     }
-    case Kind::kGive:
+    case TaskKind::kGive:
       return glm::distance(world_.actor(task.actor).place(), world_.actor(task.partner).place()) <
              kGiveFurthest;
   }
@@ -94,70 +83,71 @@ bool Tasks::IsDoneSitting(const Task& task) const {
 }
 
 // Whether the spot is on the requested surface and, if the actor sits, in its reach.
-bool Tasks::IsSpotFor(const Task& task, int surface, int spot) const {
+bool TaskReservations::IsSpotFor(const TaskRequest& task, int surface, int spot) const {
   if (task.target.surface >= 0 && task.target.surface != surface) {
     return false;
   }
   const Object& on = world_.object(task.target.object);
-  return !Sits(task.actor) ||
+  return !queue_.Sits(task.actor) ||
          CanReachSitting(task.actor, (on.state.stage_from_object *
                                       ObjectFromSpot(*on.model, on.state.joints, surface, spot))
                                          .position);
 }
 
-bool Tasks::GetsUpFor(const Task& task) {
-  Task* seat = SeatOf(task.actor);
+bool TaskReservations::GetsUpFor(const TaskRequest& task) {
+  Task* seat = queue_.SeatOf(task.actor);
   if (seat == nullptr || IsDoneSitting(task)) {
     return false;
   }
-  seat->stage = Stage::kRunning;
-  Enter(*seat, Phase::kRise);
+  seat->stage = TaskStage::kRunning;
+  steps_.Enter(*seat, TaskPhase::kRise);
   return true;
 }
 
 // ---- reservations ----
 
-bool Tasks::Reserve(Task& task) {
+bool TaskReservations::Reserve(Task& task) {
   const Actor& actor = world_.actor(task.actor);
   if (!actor.state.visible) {
-    Fail(task, Quoted(actor.name) + " is not on the stage; place it first");
+    task.Fail(Quoted(actor.name) + " is not on the stage; place it first");
     return true;
   }
-  const bool gets_up = actor.state.animation_state.sitting.amount > 0.0f && !Sits(task.actor);
+  const bool gets_up =
+      actor.state.animation_state.sitting.amount > 0.0f && !queue_.Sits(task.actor);
   if (gets_up || GetsUpFor(task)) {
     return false;
   }
   switch (task.kind) {
-    case Kind::kWalk:
+    case TaskKind::kWalk:
       if (task.only_turns) {
-        stage::Walk& walk = world_.actor(task.actor).walk;
+        Walk& walk = world_.actor(task.actor).walk;
         EndWalk(world_, world_.actor(task.actor));
         walk = {};
         walk.phase = Walk::Phase::kFace;
         walk.heading = task.heading;
         walk.turn_speed = task.speed;
-        Enter(task, Phase::kApproach);
+        steps_.Enter(task, TaskPhase::kApproach);
         return true;
       }
       return Approach(task, task.goal, task.heading);
-    case Kind::kUse:
+    case TaskKind::kUse:
       return ReserveUse(task);
-    case Kind::kTake:
+    case TaskKind::kTake:
       return ReserveTake(task);
-    case Kind::kPut:
+    case TaskKind::kPut:
       return ReservePut(task);
-    case Kind::kGive:
+    case TaskKind::kGive:
       return ReserveGive(task);
   }
   return true;
 }
 
-bool Tasks::Approach(Task& task, glm::vec2 goal, std::optional<float> heading) {
+bool TaskReservations::Approach(Task& task, glm::vec2 goal, std::optional<float> heading) {
   Actor& actor = world_.actor(task.actor);
   const float speed = task.speed > 0.0f ? task.speed : ComfortableSpeed(actor);
   const Status status = BeginWalk(world_, actor, goal, heading, speed);
   if (!status.ok()) {
-    Fail(task, status.message());
+    task.Fail(status.message());
     return true;
   }
   if (!actor.walk.complete) {
@@ -167,19 +157,21 @@ bool Tasks::Approach(Task& task, glm::vec2 goal, std::optional<float> heading) {
     task.message = Quoted(actor.name) +
                    " cannot get there; the nearest place is x = " + centimetres(actor.walk.goal.x) +
                    ", z = " + centimetres(actor.walk.goal.y);
-    if (task.kind != Kind::kWalk) {
+    if (task.kind != TaskKind::kWalk) {
       EndWalk(world_, actor);
-      Fail(task, task.message);
+      task.Fail(task.message);
       return true;
     }
   }
-  Enter(task, Phase::kApproach);
+  steps_.Enter(task, TaskPhase::kApproach);
   return true;
 }
 
-bool Tasks::ApproachNear(Task& task, const glm::vec3& point, std::optional<float> facing) {
-  if (Sits(task.actor)) {
-    Arrive(task);
+bool TaskReservations::ApproachNear(Task& task,
+                                    const glm::vec3& point,
+                                    std::optional<float> facing) {
+  if (queue_.Sits(task.actor)) {
+    steps_.Arrive(task);
     return true;
   }
   const Actor& actor = world_.actor(task.actor);
@@ -201,19 +193,19 @@ bool Tasks::ApproachNear(Task& task, const glm::vec3& point, std::optional<float
     stand = FindStand(world_, task.actor, wish);
   }
   if (!stand) {
-    Fail(task, Quoted(actor.name) + " cannot get near enough to " +
-                   Quoted(world_.object(task.object).name));
+    task.Fail(Quoted(actor.name) + " cannot get near enough to " +
+              Quoted(world_.object(task.object).name));
     return true;
   }
   return Approach(task, *stand, HeadingOf(on_floor - *stand));
 }
 
-bool Tasks::ApproachPlaceOf(Task& task, ObjectId id, int place) {
-  if (Sits(task.actor)) {
-    Arrive(task);
+bool TaskReservations::ApproachPlaceOf(Task& task, ObjectId id, int place) {
+  if (queue_.Sits(task.actor)) {
+    steps_.Arrive(task);
     return true;
   }
-  if (IsPlaceTaken(id, place, task)) {
+  if (queue_.IsPlaceTaken(id, place, task)) {
     return false;
   }
   task.place_of = id;
@@ -226,52 +218,37 @@ bool Tasks::ApproachPlaceOf(Task& task, ObjectId id, int place) {
   return Approach(task, InStage(object, at.position + nearer), HeadingInStage(object, at.heading));
 }
 
-int Tasks::UsersOf(ObjectId object, const Task& except) const {
-  return static_cast<int>(std::count_if(tasks_.begin(), tasks_.end(), [&](const Task& task) {
-    return task.id != except.id && task.kind == Kind::kUse && task.object == object &&
-           (task.stage == Stage::kRunning || task.stage == Stage::kLingering);
-  }));
-}
-
-bool Tasks::IsPlaceTaken(ObjectId object, int place, const Task& except) const {
-  return std::any_of(tasks_.begin(), tasks_.end(), [&](const Task& task) {
-    return task.id != except.id && task.place_of == object && task.place == place &&
-           (task.stage == Stage::kRunning || task.stage == Stage::kLingering);
-  });
-}
-
-bool Tasks::ReserveUse(Task& task) {
+bool TaskReservations::ReserveUse(Task& task) {
   const Object& object = world_.object(task.object);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   const Actor& actor = world_.actor(task.actor);
   const auto what = [&] {
     return Quoted(actor.name) + " cannot '" + action.name + "' " + Quoted(object.name);
   };
-  if (!action.held && UsersOf(task.object, task) >= object.use().capacity) {
+  if (!action.held && queue_.UsersOf(task.object, task) >= object.use().capacity) {
     return false;
   }
   if ((action.from >> object.state.state & 1u) == 0) {
-    Fail(task, what() + ": it is " +
-                   Quoted(object.use().states[static_cast<size_t>(object.state.state)]));
+    task.Fail(what() + ": it is " +
+              Quoted(object.use().states[static_cast<size_t>(object.state.state)]));
     return true;
   }
   if (action.held != (object.state.holder == task.actor)) {
-    Fail(task, what() + (action.held ? ": it does not hold it" : ": it holds it in its hands"));
+    task.Fail(what() + (action.held ? ": it does not hold it" : ": it holds it in its hands"));
     return true;
   }
   if (!action.held && object.state.holder) {
-    Fail(task,
-         what() + ": it is in the hands of " + Quoted(world_.actor(object.state.holder).name));
+    task.Fail(what() + ": it is in the hands of " + Quoted(world_.actor(object.state.holder).name));
     return true;
   }
   const auto hands = ChooseHands(world_, task.actor, task.object, action.hands);
   if (!hands) {
-    Fail(task, what() + ": its hands are full");
+    task.Fail(what() + ": its hands are full");
     return true;
   }
   task.hands = *hands;
   if (action.held) {
-    Enter(task, Phase::kReach);
+    steps_.Enter(task, TaskPhase::kReach);
     return true;
   }
   float nearest = 1e9f;
@@ -282,7 +259,7 @@ bool Tasks::ReserveUse(Task& task) {
       continue;
     }
     any = true;
-    if (IsPlaceTaken(task.object, static_cast<int>(i), task)) {
+    if (queue_.IsPlaceTaken(task.object, static_cast<int>(i), task)) {
       continue;
     }
     const glm::vec2 place = InStage(object, object.use().places[i].position);
@@ -299,23 +276,22 @@ bool Tasks::ReserveUse(Task& task) {
   return ApproachPlaceOf(task, task.object, chosen);
 }
 
-bool Tasks::ReserveTake(Task& task) {
+bool TaskReservations::ReserveTake(Task& task) {
   const Object& object = world_.object(task.object);
   const Actor& actor = world_.actor(task.actor);
   if (object.state.holder == task.actor) {
-    Finish(task);
+    task.Finish();
     return true;
   }
   const auto what = [&] { return Quoted(actor.name) + " cannot take " + Quoted(object.name); };
   if (object.state.holder) {
-    Fail(task, what() + ": it is in the hands of " +
-                   Quoted(world_.actor(object.state.holder).name) +
-                   "; let them give it or put it down");
+    task.Fail(what() + ": it is in the hands of " + Quoted(world_.actor(object.state.holder).name) +
+              "; let them give it or put it down");
     return true;
   }
   const auto hands = ChooseHands(world_, task.actor, task.object, object.use().carry->hands);
   if (!hands) {
-    Fail(task, what() + ": its hands are full");
+    task.Fail(what() + ": its hands are full");
     return true;
   }
   task.hands = *hands;
@@ -335,14 +311,14 @@ bool Tasks::ReserveTake(Task& task) {
       HeadingOf(object.state.stage_from_object.rotation) - CarriedTurn(object.use()));
 }
 
-bool Tasks::ReservePut(Task& task) {
+bool TaskReservations::ReservePut(Task& task) {
   const Object& object = world_.object(task.object);
   const Actor& actor = world_.actor(task.actor);
   const auto what = [&] {
     return Quoted(actor.name) + " cannot put " + Quoted(object.name) + " there";
   };
   if (object.state.holder != task.actor) {
-    Fail(task, what() + ": it does not hold it");
+    task.Fail(what() + ": it does not hold it");
     return true;
   }
   task.hands = object.state.hands;
@@ -354,7 +330,7 @@ bool Tasks::ReservePut(Task& task) {
     return ApproachNear(task, {task.target.place.x, 0.0f, task.target.place.y}, facing);
   }
   if (RestsOn(world_, task.target.object, task.object)) {
-    Fail(task, what() + ": that stands on what it holds");
+    task.Fail(what() + ": that stands on what it holds");
     return true;
   }
   const Object& on = world_.object(task.target.object);
@@ -369,16 +345,16 @@ bool Tasks::ReservePut(Task& task) {
       if (!IsSpotFor(task, at_s, at_i)) {
         continue;
       }
-      const bool is_wanted = std::any_of(tasks_.begin(), tasks_.end(), [&](const Task& other) {
-        return other.id != task.id && other.kind == Kind::kPut && other.stage == Stage::kRunning &&
-               other.target.object == task.target.object && other.target.surface == at_s &&
-               other.spot == at_i;
+      const bool is_wanted = std::ranges::any_of(queue_.tasks(), [&](const Task& other) {
+        return other.id != task.id && other.kind == TaskKind::kPut &&
+               other.stage == TaskStage::kRunning && other.target.object == task.target.object &&
+               other.target.surface == at_s && other.spot == at_i;
       });
       if (is_wanted || IsOccupied(world_, task.target.object, at_s, at_i)) {
         continue;
       }
       const int place = on.use().surfaces[s].spots[i].place;
-      if (place >= 0 && IsPlaceTaken(task.target.object, place, task)) {
+      if (place >= 0 && queue_.IsPlaceTaken(task.target.object, place, task)) {
         may_become_free = true;
         continue;
       }
@@ -393,8 +369,9 @@ bool Tasks::ReservePut(Task& task) {
     }
   }
   // A spot that another task is clearing will be free.
-  for (const Task& other : tasks_) {
-    if (other.id != task.id && other.kind == Kind::kTake && other.stage == Stage::kRunning &&
+  for (const Task& other : queue_.tasks()) {
+    if (other.id != task.id && other.kind == TaskKind::kTake &&
+        other.stage == TaskStage::kRunning &&
         world_.object(other.object).state.support.object == task.target.object) {
       may_become_free = true;
     }
@@ -403,7 +380,7 @@ bool Tasks::ReservePut(Task& task) {
     if (may_become_free) {
       return false;
     }
-    Fail(task, what() + ": there is no free spot on " + Quoted(on.name));
+    task.Fail(what() + ": there is no free spot on " + Quoted(on.name));
     return true;
   }
   task.target.surface = surface;
@@ -419,7 +396,7 @@ bool Tasks::ReservePut(Task& task) {
                       std::nullopt);
 }
 
-bool Tasks::ReserveGive(Task& task) {
+bool TaskReservations::ReserveGive(Task& task) {
   const Object& object = world_.object(task.object);
   const Actor& actor = world_.actor(task.actor);
   const Actor& partner = world_.actor(task.partner);
@@ -428,23 +405,23 @@ bool Tasks::ReserveGive(Task& task) {
            Quoted(partner.name);
   };
   if (object.state.holder != task.actor) {
-    Fail(task, what() + ": it does not hold it");
+    task.Fail(what() + ": it does not hold it");
     return true;
   }
   if (!partner.state.visible) {
-    Fail(task, what() + ", who is not on the stage");
+    task.Fail(what() + ", who is not on the stage");
     return true;
   }
   task.hands = object.state.hands;
-  if (Sits(task.actor)) {
-    Arrive(task);
+  if (queue_.Sits(task.actor)) {
+    steps_.Arrive(task);
     return true;
   }
   // A seated receiver takes the object from the front.
   const glm::vec2 to = OnFloor(StageFromUpperBody(partner).position);
   const float distance = glm::distance(actor.place(), to);
   std::optional<float> facing;
-  if (Sits(task.partner)) {
+  if (queue_.Sits(task.partner)) {
     facing = partner.state.heading + std::numbers::pi_v<float>;
   }
   const bool is_before =
@@ -456,7 +433,7 @@ bool Tasks::ReserveGive(Task& task) {
     stand = FindStand(world_, task.actor, {to, kGiveNearest, kGiveFurthest, facing});
   }
   if (!stand) {
-    Fail(task, what() + ", who is out of reach");
+    task.Fail(what() + ", who is out of reach");
     return true;
   }
   EndWalk(world_, world_.actor(task.partner));

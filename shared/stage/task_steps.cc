@@ -1,4 +1,4 @@
-// Execution of tasks, phase by phase.
+#include "shared/stage/task_steps.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -8,7 +8,6 @@
 
 #include "shared/human/animation.h"
 #include "shared/stage/hands.h"
-#include "shared/stage/tasks.h"
 #include "shared/stage/walking.h"
 #include "shared/stage/world.h"
 
@@ -111,52 +110,50 @@ Pose SamplePath(const std::vector<ObjectAction::Key>& path,
   return Mix(before.pose, rest, MinimumJerk((time - before.time) / (duration - before.time)));
 }
 
+void MoveJoints(const Task& task, Object& object) {
+  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
+  for (const ObjectAction::Move& move : action.moves) {
+    const auto joint = static_cast<size_t>(move.joint);
+    const float span = move.end - move.begin;
+    const float done =
+        span > 0.0f ? (task.time - move.begin) / span : (task.time >= move.begin ? 1.0f : 0.0f);
+    if (task.time >= move.begin) {
+      object.state.joints[joint] = glm::mix(task.joints[joint], move.to, MinimumJerk(done));
+    }
+  }
+}
+
 }  // namespace
 
-void Tasks::Enter(Task& task, Phase phase) {
+void TaskSteps::Enter(Task& task, TaskPhase phase) {
   task.phase = phase;
   task.time = 0.0f;
   Actor& actor = world_.actor(task.actor);
   human::AnimationState& animation_state = actor.state.animation_state;
   const float seconds =
       human::SittingSeconds(actor.model->locomotion.body, animation_state.locomotion.style.cadence);
-  if (phase == Phase::kBackUp) {
+  if (phase == TaskPhase::kBackUp) {
     task.begin = StageFromActorPose(actor.state);
-  } else if (phase == Phase::kSit) {
+  } else if (phase == TaskPhase::kSit) {
     const Pose actor_from_seat = StageFromActorPose(actor.state).Inverse() * task.seat;
     human::SitDown(animation_state.sitting, actor_from_seat.position, seconds);
-  } else if (phase == Phase::kRise) {
+  } else if (phase == TaskPhase::kRise) {
     human::StandUp(animation_state.sitting, seconds);
     EndAction(task);  // Resumes the clip from before the action.
   }
 }
 
-void Tasks::Finish(Task& task, std::string message) {
-  task.stage = Stage::kDone;
-  task.is_over = true;
-  if (!message.empty()) {
-    task.message = std::move(message);
-  }
-}
-
-void Tasks::Fail(Task& task, std::string message) {
-  task.stage = Stage::kFailed;
-  task.is_over = true;
-  task.message = std::move(message);
-}
-
-// Stops a running task and leaves actors and objects in a plausible state.
-void Tasks::Abandon(Task& task) {
+void TaskSteps::Abandon(Task& task) {
   Actor& actor = world_.actor(task.actor);
   EndWalk(world_, actor);
-  if (task.kind == Kind::kWalk || task.phase == Phase::kApproach) {
+  if (task.kind == TaskKind::kWalk || task.phase == TaskPhase::kApproach) {
     return;
   }
   Object* object = world_.objects.Find(task.object);
   if (object == nullptr) {
     return;
   }
-  if (task.kind == Kind::kUse) {
+  if (task.kind == TaskKind::kUse) {
     EndAction(task);
     if (object->use().actions[static_cast<size_t>(task.action)].seat) {
       human::Sitting& sitting = actor.state.animation_state.sitting;
@@ -175,7 +172,7 @@ void Tasks::Abandon(Task& task) {
   }
 }
 
-void Tasks::EndAction(Task& task) {
+void TaskSteps::EndAction(const Task& task) {
   Object& object = world_.object(task.object);
   object.state.action = -1;
   object.state.action_time = 0.0f;
@@ -186,87 +183,74 @@ void Tasks::EndAction(Task& task) {
   }
 }
 
-void Tasks::Step(Task& task, float seconds) {
-  if (task.phase == Phase::kApproach) {
+void TaskSteps::Step(Task& task, float seconds) {
+  if (task.phase == TaskPhase::kApproach) {
     Actor& actor = world_.actor(task.actor);
     const WalkResult result = AdvanceWalk(world_, actor, seconds);
     if (result == WalkResult::kBlocked) {
       EndWalk(world_, actor);
-      Fail(task, "'" + actor.name + "' cannot get there: an actor or an object is in the way");
+      task.Fail("'" + actor.name + "' cannot get there: an actor or an object is in the way");
     } else if (result == WalkResult::kArrived) {
       Arrive(task);
     }
-    if (task.kind == Kind::kGive && task.phase == Phase::kApproach) {
+    if (task.kind == TaskKind::kGive && task.phase == TaskPhase::kApproach) {
       Actor& partner = world_.actor(task.partner);
-      if (glm::distance(actor.place(), partner.place()) < kGreet && !Sits(task.partner)) {
+      if (glm::distance(actor.place(), partner.place()) < kGreet && !queue_.Sits(task.partner)) {
         TurnTowards(partner, HeadingOf(actor.place() - partner.place()), seconds);
       }
     }
     return;
   }
   switch (task.kind) {
-    case Kind::kWalk:
+    case TaskKind::kWalk:
       return;
-    case Kind::kUse:
+    case TaskKind::kUse:
       return StepAct(task, seconds);
-    case Kind::kTake:
+    case TaskKind::kTake:
       return StepReach(task);
-    case Kind::kPut:
+    case TaskKind::kPut:
       return StepPut(task);
-    case Kind::kGive:
+    case TaskKind::kGive:
       return StepGive(task, seconds);
   }
 }
 
-// The actor has reached the place where the task is done.
-void Tasks::Arrive(Task& task) {
+void TaskSteps::Arrive(Task& task) {
   Actor& actor = world_.actor(task.actor);
-  if (task.kind == Kind::kWalk) {
-    Finish(task);
+  if (task.kind == TaskKind::kWalk) {
+    task.Finish();
     return;
   }
   Object& object = world_.object(task.object);
-  if (task.kind == Kind::kUse || task.kind == Kind::kTake) {
-    if (task.kind == Kind::kUse && object.use().actions[static_cast<size_t>(task.action)].seat) {
+  if (task.kind == TaskKind::kUse || task.kind == TaskKind::kTake) {
+    if (task.kind == TaskKind::kUse &&
+        object.use().actions[static_cast<size_t>(task.action)].seat) {
       task.clip_before = actor.state.animation_state.animation.clip;
       BeginSeat(task);
       return;
     }
     task.reach_seconds = ReachFor(actor, object, task.hands);
-    Enter(task, Phase::kReach);
+    Enter(task, TaskPhase::kReach);
     return;
   }
   if (!object.use().carry->holder_from_object) {
     ReachFor(actor, object, task.hands);  // The object hung; now the arm moves it.
   }
   object.held.rests = false;
-  if (task.kind == Kind::kPut) {
-    Enter(task, Phase::kOver);
+  if (task.kind == TaskKind::kPut) {
+    Enter(task, TaskPhase::kOver);
     Pose above = PutGoal(task);
     above.position.y += kAbove;
     MoveHeld(object, InHolderFrame(actor, above), kOverSeconds);
     return;
   }
-  Enter(task, Phase::kOffer);
+  Enter(task, TaskPhase::kOffer);
   MoveHeld(object, InHolderFrame(actor, Between(actor, world_.actor(task.partner))), kOfferSeconds);
 }
 
 // ---- use ----
 
-void Tasks::MoveJoints(const Task& task, Object& object) const {
-  const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
-  for (const ObjectAction::Move& move : action.moves) {
-    const auto joint = static_cast<size_t>(move.joint);
-    const float span = move.end - move.begin;
-    const float done =
-        span > 0.0f ? (task.time - move.begin) / span : (task.time >= move.begin ? 1.0f : 0.0f);
-    if (task.time >= move.begin) {
-      object.state.joints[joint] = glm::mix(task.joints[joint], move.to, MinimumJerk(done));
-    }
-  }
-}
-
-void Tasks::FollowPath(const Task& task, Object& object) {
+void TaskSteps::FollowPath(const Task& task, Object& object) {
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   Actor& actor = world_.actor(task.actor);
   if (!action.held) {
@@ -287,7 +271,7 @@ void Tasks::FollowPath(const Task& task, Object& object) {
 }
 
 // Computes where the actor will sit and where it stands to sit down.
-void Tasks::BeginSeat(Task& task) {
+void TaskSteps::BeginSeat(Task& task) {
   const Object& object = world_.object(task.object);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   const human::SittingModel& model = world_.actor(task.actor).model->sitting;
@@ -301,7 +285,7 @@ void Tasks::BeginSeat(Task& task) {
   task.seat = object.state.stage_from_object *
               Pose{at, glm::angleAxis(action.seat->heading, glm::vec3(0.0f, 1.0f, 0.0f))} *
               Pose{{0.0f, 0.0f, -forward}};
-  Enter(task, Phase::kBackUp);
+  Enter(task, TaskPhase::kBackUp);
   const float height = task.seat.position.y - task.begin.position.y;
   task.stand =
       task.seat * Pose{{0.0f, 0.0f, -human::StandBeforeSeat(model, height, front - forward)}};
@@ -310,27 +294,27 @@ void Tasks::BeginSeat(Task& task) {
   task.reach_seconds = std::max(0.3f, 1.9f * way / kBackUpPace);
 }
 
-void Tasks::StepSeat(Task& task) {
+void TaskSteps::StepSeat(Task& task) {
   Object& object = world_.object(task.object);
   Actor& actor = world_.actor(task.actor);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   const human::AnimationState& animation_state = actor.state.animation_state;
-  if (task.phase == Phase::kBackUp) {
+  if (task.phase == TaskPhase::kBackUp) {
     const Pose pose = Mix(task.begin, task.stand, MinimumJerk(task.time / task.reach_seconds));
     actor.state.position = pose.position;
     actor.state.heading = HeadingOf(pose.rotation);
     const float stands = task.time - task.reach_seconds;
     if (stands > kFeetStand || (stands > 0.1f && !animation_state.locomotion.stepping)) {
-      Enter(task, Phase::kSit);
+      Enter(task, TaskPhase::kSit);
       PlayClip(actor,
                human::Animation::kNoClip);  // A clip of the whole body would hide the sitting pose.
       object.state.action = static_cast<int8_t>(task.action);
     }
     return;
   }
-  if (task.phase == Phase::kRise) {
+  if (task.phase == TaskPhase::kRise) {
     if (animation_state.sitting.amount <= 0.0f) {
-      task.stage = Stage::kDone;
+      task.stage = TaskStage::kDone;
     }
     return;
   }
@@ -341,16 +325,16 @@ void Tasks::StepSeat(Task& task) {
     object.state.state = action.to;
   }
   object.state.action = -1;
-  Finish(task);
-  task.stage = Stage::kLingering;
+  task.Finish();
+  task.stage = TaskStage::kLingering;
 }
 
 // Returns an actor who stands where a part is about to move, or nullptr. An idle one is sent aside.
-const Actor* Tasks::InTheWay(const Task& task) {
+const Actor* TaskSteps::InTheWay(const Task& task) {
   const Object& object = world_.object(task.object);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   for (const ObjectAction::Move& move : action.moves) {
-    if (task.phase == Phase::kAct && task.time >= move.end) {
+    if (task.phase == TaskPhase::kAct && task.time >= move.end) {
       continue;  // The move has finished.
     }
     for (const ActorId id : world_.actor_ids) {
@@ -358,7 +342,8 @@ const Actor* Tasks::InTheWay(const Task& task) {
       if (id == task.actor || !other.state.visible || !SweepsThrough(object, move, other)) {
         continue;
       }
-      if (!IsBusy(id) && !Sits(id) && !other.led && other.walk.phase == Walk::Phase::kNone) {
+      if (!queue_.IsBusy(id) && !queue_.Sits(id) && !other.led &&
+          other.walk.phase == Walk::Phase::kNone) {
         if (const auto aside = FindAside(world_, id, other.place())) {
           (void)BeginWalk(world_, other, *aside, std::nullopt, kWalkSpeed).ok();
         }
@@ -371,7 +356,7 @@ const Actor* Tasks::InTheWay(const Task& task) {
 
 // Whether the parts may keep moving. They stop while an actor is in their way, with the hands on
 // their grips. After kWaitForRoom the task fails.
-bool Tasks::MayMove(Task& task, float seconds) {
+bool TaskSteps::MayMove(Task& task, float seconds) {
   const Actor* other = InTheWay(task);
   if (other == nullptr) {
     return true;
@@ -381,17 +366,17 @@ bool Tasks::MayMove(Task& task, float seconds) {
     const Object& object = world_.object(task.object);
     const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
     Actor& actor = world_.actor(task.actor);
-    if (task.phase == Phase::kAct) {
+    if (task.phase == TaskPhase::kAct) {
       EndAction(task);
     }
     LetGo(actor, action.held ? kNoHands : task.hands);
-    Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name + "': '" +
-                   other->name + "' stands in its way");
+    task.Fail("'" + actor.name + "' cannot '" + action.name + "' '" + object.name + "': '" +
+              other->name + "' stands in its way");
   }
   return false;
 }
 
-void Tasks::BeginAct(Task& task) {
+void TaskSteps::BeginAct(Task& task) {
   Object& object = world_.object(task.object);
   Actor& actor = world_.actor(task.actor);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
@@ -408,11 +393,12 @@ void Tasks::BeginAct(Task& task) {
       PlayClip(actor, clip);
     }
   }
-  Enter(task, Phase::kAct);
+  Enter(task, TaskPhase::kAct);
 }
 
-void Tasks::StepAct(Task& task, float seconds) {
-  if (task.phase == Phase::kBackUp || task.phase == Phase::kSit || task.phase == Phase::kRise) {
+void TaskSteps::StepAct(Task& task, float seconds) {
+  if (task.phase == TaskPhase::kBackUp || task.phase == TaskPhase::kSit ||
+      task.phase == TaskPhase::kRise) {
     StepSeat(task);
     return;
   }
@@ -420,23 +406,23 @@ void Tasks::StepAct(Task& task, float seconds) {
   Actor& actor = world_.actor(task.actor);
   const ObjectAction& action = object.use().actions[static_cast<size_t>(task.action)];
   switch (task.phase) {
-    case Phase::kReach:
+    case TaskPhase::kReach:
       MoveHands(actor, object, task.hands);
       if (task.time < task.reach_seconds) {
         return;
       }
       if ((action.from >> object.state.state & 1u) == 0) {  // Another actor was quicker.
         LetGo(actor, action.held ? kNoHands : task.hands);
-        Fail(task, "'" + actor.name + "' cannot '" + action.name + "' '" + object.name +
-                       "' any more: it is '" +
-                       object.use().states[static_cast<size_t>(object.state.state)] + "'");
+        task.Fail("'" + actor.name + "' cannot '" + action.name + "' '" + object.name +
+                  "' any more: it is '" +
+                  object.use().states[static_cast<size_t>(object.state.state)] + "'");
         return;
       }
       if (MayMove(task, seconds)) {
         BeginAct(task);
       }
       return;
-    case Phase::kAct: {
+    case TaskPhase::kAct: {
       if (!MayMove(task, seconds)) {
         task.time -= seconds;  // Continues from here later.
         if (task.is_over) {
@@ -462,32 +448,32 @@ void Tasks::StepAct(Task& task, float seconds) {
       } else {
         LetGo(actor, task.hands);
       }
-      Enter(task, Phase::kLetGo);
+      Enter(task, TaskPhase::kLetGo);
       return;
     }
     default:
       if (task.time >= kLetGoSeconds || task.hands == kNoHands) {
-        Finish(task);
+        task.Finish();
       }
   }
 }
 
 // ---- take ----
 
-void Tasks::StepReach(Task& task) {
+void TaskSteps::StepReach(Task& task) {
   Object& object = world_.object(task.object);
   Actor& actor = world_.actor(task.actor);
-  if (task.phase == Phase::kReach) {
+  if (task.phase == TaskPhase::kReach) {
     MoveHands(actor, object, task.hands);
     if (task.time >= task.reach_seconds) {
       TakeHold(world_, task.actor, task.object, task.hands);
       CarryAlong(actor, object, kCarrySeconds);
-      Enter(task, Phase::kCarry);
+      Enter(task, TaskPhase::kCarry);
     }
     return;
   }
   if (task.time >= kCarrySeconds) {
-    Finish(task);
+    task.Finish();
   }
 }
 
@@ -495,7 +481,7 @@ void Tasks::StepReach(Task& task) {
 
 // stage_from_object of the object that is put down. On a spot it keeps the heading at which it is
 // carried.
-Pose Tasks::PutGoal(const Task& task) const {
+Pose TaskSteps::PutGoal(const Task& task) const {
   const Actor& actor = world_.actor(task.actor);
   const float carried = actor.state.heading + CarriedTurn(world_.object(task.object).use());
   if (const Object* on = world_.objects.Find(task.target.object)) {
@@ -508,18 +494,18 @@ Pose Tasks::PutGoal(const Task& task) const {
           glm::angleAxis(task.target.heading.value_or(carried), glm::vec3(0.0f, 1.0f, 0.0f))};
 }
 
-void Tasks::StepPut(Task& task) {
+void TaskSteps::StepPut(Task& task) {
   Object& object = world_.object(task.object);
   Actor& actor = world_.actor(task.actor);
   const Pose goal = PutGoal(task);
   switch (task.phase) {
-    case Phase::kOver:
+    case TaskPhase::kOver:
       if (task.time >= kOverSeconds) {
         MoveHeld(object, InHolderFrame(actor, goal), kLowerSeconds);
-        Enter(task, Phase::kLower);
+        Enter(task, TaskPhase::kLower);
       }
       return;
-    case Phase::kLower:
+    case TaskPhase::kLower:
       object.held.comes_loose = task.time > 0.5f * kLowerSeconds;
       if (task.time < kLowerSeconds) {
         return;
@@ -536,26 +522,27 @@ void Tasks::StepPut(Task& task) {
         object.state.support.turn = TurnBetween(HeadingOf(spot.rotation), HeadingOf(goal.rotation));
       }
       LetGo(actor, task.hands);
-      Enter(task, Phase::kLetGo);
+      Enter(task, TaskPhase::kLetGo);
       return;
     default:
       if (task.time >= kLetGoSeconds) {
-        Finish(task);
+        task.Finish();
       }
   }
 }
 
 // ---- give ----
 
-void Tasks::StepGive(Task& task, float seconds) {
+void TaskSteps::StepGive(Task& task, float seconds) {
   Object& object = world_.object(task.object);
   Actor& giver = world_.actor(task.actor);
   Actor& receiver = world_.actor(task.partner);
-  if ((task.phase == Phase::kOffer || task.phase == Phase::kReach) && !Sits(task.partner)) {
+  if ((task.phase == TaskPhase::kOffer || task.phase == TaskPhase::kReach) &&
+      !queue_.Sits(task.partner)) {
     TurnTowards(receiver, HeadingOf(giver.place() - receiver.place()), seconds);
   }
   switch (task.phase) {
-    case Phase::kOffer: {
+    case TaskPhase::kOffer: {
       if (task.time < 0.6f * kOfferSeconds) {
         return;
       }
@@ -564,23 +551,23 @@ void Tasks::StepGive(Task& task, float seconds) {
           ChooseReceivingHands(world_, task.partner, task.object, InHolderFrame(receiver, offered));
       if (!hands) {
         CarryAlong(giver, object, kCarrySeconds);
-        Fail(task, "'" + giver.name + "' cannot give '" + object.name + "' to '" + receiver.name +
-                       "', whose hands are full");
+        task.Fail("'" + giver.name + "' cannot give '" + object.name + "' to '" + receiver.name +
+                  "', whose hands are full");
         return;
       }
       task.partner_hands = *hands;
       task.reach_seconds = std::max(ReachFor(receiver, object, *hands), kOfferSeconds - task.time);
-      Enter(task, Phase::kReach);
+      Enter(task, TaskPhase::kReach);
       return;
     }
-    case Phase::kReach:
+    case TaskPhase::kReach:
       MoveHands(receiver, object, task.partner_hands,
                 BelowTheOther(task.hands, task.partner_hands));
       if (task.time >= task.reach_seconds) {
-        Enter(task, Phase::kBoth);
+        Enter(task, TaskPhase::kBoth);
       }
       return;
-    case Phase::kBoth:
+    case TaskPhase::kBoth:
       MoveHands(receiver, object, task.partner_hands,
                 BelowTheOther(task.hands, task.partner_hands));
       object.held.comes_loose = task.time > 0.5f * kBothSeconds;
@@ -591,12 +578,12 @@ void Tasks::StepGive(Task& task, float seconds) {
           ReachFor(receiver, object, task.partner_hands);
         }
         CarryAlong(receiver, object, kCarrySeconds);
-        Enter(task, Phase::kCarry);
+        Enter(task, TaskPhase::kCarry);
       }
       return;
     default:
       if (task.time >= kCarrySeconds) {
-        Finish(task);
+        task.Finish();
       }
   }
 }

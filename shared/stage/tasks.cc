@@ -1,19 +1,50 @@
-// Creating, reporting and stopping tasks. task_schedule.cc decides which task may start,
-// task_reservations.cc reserves what it needs, and task_steps.cc executes it.
-
 #include "shared/stage/tasks.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "shared/stage/task_schedule.h"
 #include "shared/stage/walking.h"
 #include "shared/stage/world.h"
 
 namespace lararium::stage {
 namespace {
 
-constexpr size_t kKeptReports = 1024;
 constexpr float kMaxTaskSeconds = 24.0f * 3600.0f;
+
+// The stroke of a walk is the arrival, that of take and give is the moment when the object changes
+// hands, that of put is letting go, and that of an action is its course.
+SyncPoint PointOf(World& world, const Task& task) {
+  if (task.phase == TaskPhase::kApproach) {
+    const Walk::Phase walk = world.actors.Find(task.actor)->walk.phase;
+    const bool turns = walk == Walk::Phase::kNone || walk == Walk::Phase::kTurn;
+    return task.kind == TaskKind::kWalk && walk == Walk::Phase::kFace ? SyncPoint::kRelax
+           : task.kind == TaskKind::kWalk && !turns                   ? SyncPoint::kStrokeStart
+                                                                      : SyncPoint::kStart;
+  }
+  switch (task.phase) {
+    case TaskPhase::kAct: {
+      const Object& object = world.object(task.object);
+      const float duration = object.use().actions[static_cast<size_t>(task.action)].duration;
+      return task.time < 0.5f * duration ? SyncPoint::kStrokeStart
+             : task.time < duration      ? SyncPoint::kStroke
+                                         : SyncPoint::kStrokeEnd;
+    }
+    case TaskPhase::kReach:
+      return task.kind == TaskKind::kGive ? SyncPoint::kStrokeStart : SyncPoint::kReady;
+    case TaskPhase::kLower:
+    case TaskPhase::kSit:
+      return SyncPoint::kStrokeStart;
+    case TaskPhase::kBoth:
+      return SyncPoint::kStroke;
+    case TaskPhase::kCarry:
+    case TaskPhase::kLetGo:
+    case TaskPhase::kRise:
+      return SyncPoint::kRelax;
+    default:
+      return SyncPoint::kReady;
+  }
+}
 
 }  // namespace
 
@@ -27,22 +58,17 @@ Status Tasks::CheckActor(ActorId actor) const {
   return found->led ? Status::Error(Quoted(found->name), "is led by a track") : Status();
 }
 
-Result<TaskId> Tasks::Begin(Task task) {
-  LARARIUM_RETURN_IF_ERROR(CheckActor(task.actor));
+Result<TaskId> Tasks::Begin(const TaskRequest& request) {
+  LARARIUM_RETURN_IF_ERROR(CheckActor(request.actor));
   const auto open =
-      std::count_if(tasks_.begin(), tasks_.end(), [](const Task& t) { return !t.is_over; });
+      std::ranges::count_if(queue_.tasks(), [](const Task& task) { return !task.is_over; });
   if (static_cast<size_t>(open) >= kMaxTasks) {
     return Status::Error("stage", "more than " + std::to_string(kMaxTasks) + " things to do",
                          "wait until some are done");
   }
-  if (tasks_.size() >= kKeptReports) {  // The oldest reports are no longer needed.
-    std::erase_if(
-        tasks_, [](const Task& t) { return t.stage == Stage::kDone || t.stage == Stage::kFailed; });
-  }
-  GetsUpFor(task);  // Now, so that the actor does not keep a seat while the task waits.
-  task.id = ++last_;
-  tasks_.push_back(std::move(task));
-  return last_;
+  // Now, so that the actor does not keep a seat while the task waits.
+  reservations_.GetsUpFor(request);
+  return queue_.Add(request);
 }
 
 Result<TaskId> Tasks::Walk(ActorId actor,
@@ -52,37 +78,27 @@ Result<TaskId> Tasks::Walk(ActorId actor,
   if (!(std::abs(goal.x) < 1e4f && std::abs(goal.y) < 1e4f && speed >= 0.0f && speed <= 10.0f)) {
     return Status::Error("walk", "the position or the speed is out of range");
   }
-  Task task;
-  task.kind = Kind::kWalk;
-  task.actor = actor;
-  task.goal = goal;
-  task.heading = heading;
-  task.speed = speed;
-  return Begin(std::move(task));
+  return Begin(
+      {.kind = TaskKind::kWalk, .actor = actor, .goal = goal, .heading = heading, .speed = speed});
 }
 
 Result<TaskId> Tasks::Turn(ActorId actor, float heading, float speed) {
-  Task task;
-  task.kind = Kind::kWalk;
-  task.actor = actor;
-  task.heading = heading;
-  task.speed = speed;
-  task.only_turns = true;
-  return Begin(std::move(task));
+  return Begin({.kind = TaskKind::kWalk,
+                .actor = actor,
+                .heading = heading,
+                .speed = speed,
+                .only_turns = true});
 }
 
 Result<TaskId> Tasks::Stand(ActorId actor) {
   LARARIUM_RETURN_IF_ERROR(CheckActor(actor));
-  const Actor& who = world_.actor(actor);
-  for (const Task& other : tasks_) {
-    if (other.actor == actor && other.stage == Stage::kLingering) {
-      // Walk to where it stood before it sat down.
-      const Object& seat = world_.object(other.object);
-      const ApproachPlace& place = seat.use().places[static_cast<size_t>(other.place)];
-      return Walk(actor, InStage(seat, place.position), std::nullopt, 0.0f);
-    }
+  if (const Task* sits = queue_.SeatOf(actor)) {
+    // Walk to where it stood before it sat down.
+    const Object& seat = world_.object(sits->object);
+    const ApproachPlace& place = seat.use().places[static_cast<size_t>(sits->place)];
+    return Walk(actor, InStage(seat, place.position), std::nullopt, 0.0f);
   }
-  return Walk(actor, who.place(), std::nullopt, 0.0f);
+  return Walk(actor, world_.actor(actor).place(), std::nullopt, 0.0f);
 }
 
 Result<TaskId> Tasks::Use(ActorId actor, ObjectId object, std::string_view action, float seconds) {
@@ -90,13 +106,8 @@ Result<TaskId> Tasks::Use(ActorId actor, ObjectId object, std::string_view actio
   if (of == nullptr) {
     return Status::Error("stage", "the object has left the stage");
   }
-  Task task;
-  task.kind = Kind::kUse;
-  task.actor = actor;
-  task.object = object;
-  task.action = of->use().FindAction(action);
-  task.seconds = std::clamp(seconds, 0.0f, kMaxTaskSeconds);
-  if (task.action < 0) {
+  const int found = of->use().FindAction(action);
+  if (found < 0) {
     std::string known;
     for (const ObjectAction& one : of->use().actions) {
       known += (known.empty() ? "" : ", ") + one.name;
@@ -104,7 +115,11 @@ Result<TaskId> Tasks::Use(ActorId actor, ObjectId object, std::string_view actio
     return Status::Error(Quoted(of->name), "has no action " + Quoted(std::string(action)),
                          known.empty() ? "it has none" : "it has " + known);
   }
-  return Begin(std::move(task));
+  return Begin({.kind = TaskKind::kUse,
+                .actor = actor,
+                .object = object,
+                .action = found,
+                .seconds = std::clamp(seconds, 0.0f, kMaxTaskSeconds)});
 }
 
 Result<TaskId> Tasks::Take(ActorId actor, ObjectId object) {
@@ -116,11 +131,7 @@ Result<TaskId> Tasks::Take(ActorId actor, ObjectId object) {
     return Status::Error(Quoted(of->name), "cannot be carried",
                          "give it \"carry\" in its object.json");
   }
-  Task task;
-  task.kind = Kind::kTake;
-  task.actor = actor;
-  task.object = object;
-  return Begin(std::move(task));
+  return Begin({.kind = TaskKind::kTake, .actor = actor, .object = object});
 }
 
 Result<TaskId> Tasks::Put(ActorId actor, ObjectId object, const PutTarget& target) {
@@ -137,12 +148,7 @@ Result<TaskId> Tasks::Put(ActorId actor, ObjectId object, const PutTarget& targe
     return Status::Error(Quoted(on->name), "has no such surface to put things on",
                          "give it \"surfaces\" in its object.json");
   }
-  Task task;
-  task.kind = Kind::kPut;
-  task.actor = actor;
-  task.object = object;
-  task.target = target;
-  return Begin(std::move(task));
+  return Begin({.kind = TaskKind::kPut, .actor = actor, .object = object, .target = target});
 }
 
 Result<TaskId> Tasks::Give(ActorId actor, ObjectId object, ActorId to) {
@@ -153,116 +159,59 @@ Result<TaskId> Tasks::Give(ActorId actor, ObjectId object, ActorId to) {
   if (actor == to) {
     return Status::Error(Quoted(world_.actor(to).name), "cannot give something to itself");
   }
-  Task task;
-  task.kind = Kind::kGive;
-  task.actor = actor;
-  task.partner = to;
-  task.object = object;
-  return Begin(std::move(task));
-}
-
-const Tasks::Task* Tasks::Find(TaskId id) const {
-  const auto found = std::lower_bound(tasks_.begin(), tasks_.end(), id,
-                                      [](const Task& task, TaskId t) { return task.id < t; });
-  return found == tasks_.end() || found->id != id ? nullptr : &*found;
+  return Begin({.kind = TaskKind::kGive, .actor = actor, .partner = to, .object = object});
 }
 
 TaskReport Tasks::report(TaskId id) const {
-  const Task* task = Find(id);
+  const Task* task = queue_.Find(id);
   if (task == nullptr) {
     return {};
   }
   if (task->is_over) {
-    return {task->stage == Stage::kFailed ? TaskReport::State::kFailed : TaskReport::State::kDone,
-            task->message, SyncPoint::kEnd, task->waited};
+    return {
+        task->stage == TaskStage::kFailed ? TaskReport::State::kFailed : TaskReport::State::kDone,
+        task->message, SyncPoint::kEnd, task->waited};
   }
-  if (task->stage == Stage::kWaiting) {
+  if (task->stage == TaskStage::kWaiting) {
     return {TaskReport::State::kWaiting, task->message, std::nullopt, task->waited};
   }
-  return {TaskReport::State::kRunning, task->message, PointOf(*task), task->waited};
-}
-
-// The stroke of a walk is the arrival, that of take and give is the moment when the object changes
-// hands, that of put is letting go, and that of an action is its course.
-SyncPoint Tasks::PointOf(const Task& task) const {
-  if (task.phase == Phase::kApproach) {
-    const Walk::Phase walk = world_.actors.Find(task.actor)->walk.phase;
-    const bool turns = walk == Walk::Phase::kNone || walk == Walk::Phase::kTurn;
-    return task.kind == Kind::kWalk && walk == Walk::Phase::kFace ? SyncPoint::kRelax
-           : task.kind == Kind::kWalk && !turns                   ? SyncPoint::kStrokeStart
-                                                                  : SyncPoint::kStart;
-  }
-  switch (task.phase) {
-    case Phase::kAct: {
-      const Object& object = world_.object(task.object);
-      const float duration = object.use().actions[static_cast<size_t>(task.action)].duration;
-      return task.time < 0.5f * duration ? SyncPoint::kStrokeStart
-             : task.time < duration      ? SyncPoint::kStroke
-                                         : SyncPoint::kStrokeEnd;
-    }
-    case Phase::kReach:
-      return task.kind == Kind::kGive ? SyncPoint::kStrokeStart : SyncPoint::kReady;
-    case Phase::kLower:
-    case Phase::kSit:
-      return SyncPoint::kStrokeStart;
-    case Phase::kBoth:
-      return SyncPoint::kStroke;
-    case Phase::kCarry:
-    case Phase::kLetGo:
-    case Phase::kRise:
-      return SyncPoint::kRelax;
-    default:
-      return SyncPoint::kReady;
-  }
+  return {TaskReport::State::kRunning, task->message, PointOf(world_, *task), task->waited};
 }
 
 void Tasks::Stop(TaskId id) {
-  Task* task = const_cast<Task*>(Find(id));
+  Task* task = queue_.Find(id);
   if (task == nullptr || task->is_over) {
     return;
   }
-  if (task->stage == Stage::kRunning) {
-    Abandon(*task);
+  if (task->stage == TaskStage::kRunning) {
+    steps_.Abandon(*task);
   }
-  Fail(*task, "was stopped");
+  task->Fail("was stopped");
 }
 
 void Tasks::StopAll(ActorId actor, std::string_view why) {
-  for (Task& task : tasks_) {
+  for (Task& task : queue_.tasks()) {
     if (task.actor != actor && task.partner != actor) {
       continue;
     }
-    if (task.stage == Stage::kRunning) {
-      Abandon(task);
-      Fail(task, std::string(why));
-    } else if (task.stage == Stage::kWaiting) {
-      Fail(task, std::string(why));
-    } else if (task.stage == Stage::kLingering) {
-      Abandon(task);
-      task.stage = Stage::kDone;
+    if (task.stage == TaskStage::kRunning) {
+      steps_.Abandon(task);
+      task.Fail(std::string(why));
+    } else if (task.stage == TaskStage::kWaiting) {
+      task.Fail(std::string(why));
+    } else if (task.stage == TaskStage::kLingering) {
+      steps_.Abandon(task);
+      task.stage = TaskStage::kDone;
     }
   }
 }
 
-void Tasks::Forget(TaskId id) {
-  const Task* task = Find(id);
-  if (task != nullptr && (task->stage == Stage::kDone || task->stage == Stage::kFailed)) {
-    tasks_.erase(tasks_.begin() + (task - tasks_.data()));
-  }
-}
-
-bool Tasks::IsBusy(ActorId actor) const {
-  return std::any_of(tasks_.begin(), tasks_.end(), [actor](const Task& task) {
-    return task.stage == Stage::kRunning && (task.actor == actor || task.partner == actor);
-  });
-}
-
 std::optional<ObjectId> Tasks::ObjectOf(ActorId actor) const {
-  for (const Task& task : tasks_) {
-    const bool is_at_it =
-        task.phase != Phase::kApproach || world_.actors.Find(actor)->walk.phase != Walk::Phase::kGo;
-    if (task.stage == Stage::kRunning && task.object && is_at_it &&
-        (task.actor == actor || (task.partner == actor && task.phase != Phase::kApproach))) {
+  for (const Task& task : queue_.tasks()) {
+    const bool is_at_it = task.phase != TaskPhase::kApproach ||
+                          world_.actors.Find(actor)->walk.phase != Walk::Phase::kGo;
+    if (task.stage == TaskStage::kRunning && task.object && is_at_it &&
+        (task.actor == actor || (task.partner == actor && task.phase != TaskPhase::kApproach))) {
       return task.object;
     }
   }
@@ -270,36 +219,44 @@ std::optional<ObjectId> Tasks::ObjectOf(ActorId actor) const {
 }
 
 bool Tasks::any() const {
-  return std::any_of(tasks_.begin(), tasks_.end(), [](const Task& task) {
-    return task.stage == Stage::kWaiting || task.stage == Stage::kRunning;
+  return std::ranges::any_of(queue_.tasks(), [](const Task& task) {
+    return task.stage == TaskStage::kWaiting || task.stage == TaskStage::kRunning;
   });
 }
 
 void Tasks::FailAll(std::string_view why) {
-  for (Task& task : tasks_) {
-    if (task.stage == Stage::kWaiting || task.stage == Stage::kRunning) {
-      Fail(task, std::string(why));
+  for (Task& task : queue_.tasks()) {
+    if (task.stage == TaskStage::kWaiting || task.stage == TaskStage::kRunning) {
+      task.Fail(std::string(why));
     }
   }
 }
 
-void Tasks::Reset() {
-  tasks_.clear();
-  last_ = 0;
-}
-
-struct Tasks::State {
-  std::vector<Task> tasks;
-  TaskId last = 0;
-};
-
-std::shared_ptr<const Tasks::State> Tasks::Save() const {
-  return std::make_shared<State>(State{tasks_, last_});
-}
-
-void Tasks::Restore(const State& state) {
-  tasks_.assign(state.tasks.begin(), state.tasks.end());  // Keeps the capacity.
-  last_ = state.last;
+void Tasks::Advance(float seconds) {
+  for (Task& task : queue_.tasks()) {
+    if (task.stage == TaskStage::kWaiting && MayStart(world_, queue_, task) &&
+        reservations_.Reserve(task) && task.stage == TaskStage::kWaiting) {
+      task.stage = TaskStage::kRunning;
+    }
+  }
+  for (Task& task : queue_.tasks()) {
+    if (task.stage == TaskStage::kRunning) {
+      MakeWay(world_, queue_, task);
+      task.time += seconds;
+      steps_.Step(task, seconds);
+    } else if (task.stage == TaskStage::kWaiting) {
+      task.waited += seconds;
+      WaitInLine(world_, queue_, task);
+    }
+  }
+  // An actor without a task finishes its walk to a queue or aside.
+  for (const ActorId id : world_.actor_ids) {
+    Actor& actor = world_.actor(id);
+    if (actor.walk.phase != Walk::Phase::kNone && !IsBusy(id) &&
+        AdvanceWalk(world_, actor, seconds) == WalkResult::kBlocked) {
+      EndWalk(world_, actor);
+    }
+  }
 }
 
 }  // namespace lararium::stage
