@@ -43,7 +43,7 @@ struct StagedMesh {
   uint32_t vertex_count = 0;
 };
 
-// The visible actors, and their data one after the other.
+// The visible actors and their data, concatenated.
 struct StagedPeople {
   std::vector<StagedActor> actors;
   std::vector<glm::mat4> skin;
@@ -63,7 +63,7 @@ struct StagedObject {
   uint32_t light_count = 0;  // 0: lit without shadows.
 };
 
-// The visible objects, the data of their parts one after the other, and their lamps.
+// The visible objects, the concatenated data of their parts, and their lamps.
 struct StagedThings {
   std::vector<StagedObject> objects;
   std::vector<glm::mat4> stage_from_part;
