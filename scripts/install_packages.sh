@@ -4,8 +4,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+release=$(. /etc/os-release && echo "${VERSION_ID:-}")
 mapfile -t wanted < <(sed 's/#.*//' packages.txt |
-  awk -v purposes=" $* " 'NF == 1 || (NF == 2 && index(purposes, " " $2 " ")) {print $1}')
+  awk -v purposes=" $* " -v release="$release" \
+    'NF == 1 || (NF >= 2 && index(purposes, " " $2 " ") && (NF == 2 || $3 == release)) {print $1}')
 missing=()
 for package in "${wanted[@]}"; do
   # shellcheck disable=SC2016  # the format is dpkg-query's, not the shell's

@@ -1,6 +1,10 @@
 #include "editor/bake/ray_scene.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +55,23 @@ RTCRay MakeRay(const glm::vec3& origin, const glm::vec3& direction, float near) 
   ray.mask = 0xffffffffu;
   return ray;
 }
+
+// Embree 3 takes a context for each query, Embree 4 none.
+#if RTC_VERSION_MAJOR >= 4
+void Intersect(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query); }
+void FindOcclusion(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray); }
+#else
+void Intersect(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+}
+void FindOcclusion(RTCScene scene, RTCRay& ray) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+}
+#endif
 
 }  // namespace
 
@@ -146,12 +167,10 @@ Result<RayScene> RayScene::Create(std::span<const RayMesh> meshes) {
 std::optional<RayHit> RayScene::Trace(const glm::vec3& origin,
                                       const glm::vec3& direction,
                                       float near) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRayHit query = {};
   query.ray = MakeRay(origin, direction, near);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(state_->scene, &context, &query);
+  Intersect(state_->scene, query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return std::nullopt;
   }
@@ -162,10 +181,8 @@ std::optional<RayHit> RayScene::Trace(const glm::vec3& origin,
 }
 
 bool RayScene::Blocked(const glm::vec3& origin, const glm::vec3& direction, float near) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRay ray = MakeRay(origin, direction, near);
-  rtcOccluded1(state_->scene, &context, &ray);
+  FindOcclusion(state_->scene, ray);
   return ray.tfar < 0.0f;
 }
 

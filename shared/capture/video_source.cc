@@ -286,7 +286,7 @@ class VideoSource final : public FrameSource {
     } else {
       seconds_.push_back(seconds_.empty() ? 0.0 : seconds_.back() + 1.0 / frames_per_second_);
     }
-    if (picture_->key_frame != 0) {
+    if (image::IsKeyFrame(*picture_)) {
       key_frames_.push_back(next_index_);
     }
   }

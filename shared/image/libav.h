@@ -1,6 +1,7 @@
 #pragma once
 
-// Owning pointers to libav's objects. Private to image and capture.
+// Owning pointers to libav's objects, and what differs between its versions. Private to image and
+// capture.
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -27,6 +28,14 @@ inline std::string LibavMessage(int error) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
   av_strerror(error, text.data(), text.size());
   return text.data();
+}
+
+inline bool IsKeyFrame(const AVFrame& frame) {
+#ifdef AV_FRAME_FLAG_KEY
+  return (frame.flags & AV_FRAME_FLAG_KEY) != 0;
+#else
+  return frame.key_frame != 0;
+#endif
 }
 
 }  // namespace lararium::image
