@@ -54,9 +54,9 @@ void ForEachFile(Document& document, const See& see) {
   }
   for (auto& member : document.cast) {
     see(member.model, FileKind::kModel, RoleOf(TrLater("the figure of \"%s\""), member.name),
-        "put it back, or import \"" + member.name + "\" anew");
+        "put it back, or import \"" + member.name + "\" again");
     see(member.bone_map, FileKind::kBones, RoleOf(TrLater("the bone map of \"%s\""), member.name),
-        "put it back, or name the bones anew");
+        "put it back, or name the bones again");
     for (auto& clip : member.clips) {
       see(clip.file, FileKind::kClip,
           RoleOf(TrLater("the clip \"%s\" of \"%s\""), clip.name, member.name),

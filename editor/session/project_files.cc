@@ -94,7 +94,7 @@ void ProjectFiles::ReportUnreadable(File<Content>& file, const std::string& prob
     file.damage = problem;
   } else {
     messages_.Tell(Message::Level::kWarning,
-                   Text(Tr("%s; saving writes it anew"), problem.c_str()));
+                   Text(Tr("%s; saving writes it again"), problem.c_str()));
   }
 }
 

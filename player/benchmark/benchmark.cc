@@ -269,7 +269,7 @@ Status Benchmark(const BenchmarkOptions& options, Log& log) {
   const BenchmarkRun run(options, std::move(places), log);
   BenchmarkReport report;
   report.show = options.show.filename().string();
-  report.mode = options.first_pose ? "every frame found anew" : "following";
+  report.mode = options.first_pose ? "every frame relocalised" : "following";
   report.smoothing = SmoothingName(options.smoothing);
   report.threads = options.threads;
   for (const BenchmarkSequence& sequence : sequences) {

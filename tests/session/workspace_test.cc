@@ -223,7 +223,7 @@ TEST_F(WorkspaceTest, AFileThatOthersRemovedIsSavedAnew) {
   std::filesystem::remove(paths_.Drama());
   workspace->Update(2.0);
   EXPECT_FALSE(workspace->project().files().changed_outside());
-  EXPECT_THAT(workspace->messages().entries().back().text, HasSubstr("saving writes it anew"));
+  EXPECT_THAT(workspace->messages().entries().back().text, HasSubstr("saving writes it again"));
   workspace->project().Save();
   EXPECT_TRUE(std::filesystem::exists(paths_.Drama()));
 }

@@ -110,7 +110,7 @@ bool TrainDialog(editor::Workspace& workspace, Dialogs& dialogs) {
   if (editor::IsPlainName(fields.place)) {
     const editor::ProjectDocument& document = workspace.project().document();
     Hint(Text(document.FindPlace(fields.place) != nullptr
-                  ? Tr("%s is trained anew; its picks keep the stage where it is.")
+                  ? Tr("%s is trained again; its picks keep the stage where it is.")
               : document.places.empty() ? Tr("%s will be the place of the drama.")
                                         : Tr("%s will be another place of the drama."),
               fields.place.c_str()));

@@ -513,7 +513,7 @@ void DrawProbe(editor::Workspace& workspace,
   Heading(probe.name.c_str());
   Hint(Tr(
       "The light at a point of the stage and a time of day. Between probes it is blended, by where "
-      "somebody stands and by the drama's time of day."));
+      "a person stands and by the drama's time of day."));
   bool changed = false;
   if (BeginProperties("probe")) {
     PropertyText(Tr("File"), probe.file);

@@ -254,7 +254,7 @@ void DrawBrightness(editor::Workspace& workspace,
       light.patches.clear();
       light.scale_match.reset();
     }
-    Tip(Tr("Begin anew with the next grey surface."));
+    Tip(Tr("Start again with the next grey surface."));
   }
 }
 
