@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "editor/panels/viewport/gizmo_view.h"
+#include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 

@@ -5,6 +5,7 @@
 
 #include "editor/jobs/drawn_occluder.h"
 #include "editor/panels/viewport/gizmo_view.h"
+#include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 

@@ -11,6 +11,7 @@
 
 #include "editor/check/walk_paths.h"
 #include "editor/panels/viewport/occluder_rays.h"
+#include "editor/panels/viewport/view_camera.h"
 #include "editor/panels/widgets/editor_actions.h"
 #include "editor/panels/widgets/input.h"
 #include "editor/panels/widgets/selection.h"
