@@ -13,6 +13,7 @@ using geometry::CameraModel;
 
 void DescribeIntrinsics(Fields& fields, CameraModel& camera) {
   constexpr int kMaxSize = 65536;
+  fields.RefuseUnknown();
   fields.Integer("width", camera.width, 1, kMaxSize);
   fields.Integer("height", camera.height, 1, kMaxSize);
   fields.Number("fx", camera.fx);
@@ -30,6 +31,7 @@ void DescribeIntrinsics(Fields& fields, CameraModel& camera) {
 
 void DescribeSourceObject(Fields& fields, SourceDocument& source) {
   using Kind = SourceDocument::Kind;
+  fields.RefuseUnknown();
   const bool video = fields.Has("video", source.kind == Kind::kVideo);
   const bool images = fields.Has("images", source.kind != Kind::kVideo);
   fields.Require(video != images, "must name either a video or a folder of images");
@@ -40,6 +42,7 @@ void DescribeSourceObject(Fields& fields, SourceDocument& source) {
 }
 
 void DescribeSession(Fields& fields, SessionDocument& session) {
+  fields.RefuseUnknown();
   fields.Object("source", session.source, DescribeSourceObject);
   fields.Object("intrinsics", session.intrinsics, DescribeIntrinsics);
 }

@@ -301,7 +301,7 @@ int ScriptRuntime::CallRecorded(lua_State* lua, int index, HostFunction function
 }
 
 void HostTable::Push(const char* name, lua_CFunction function) {
-  DCHECK(count_ <= 255);  // The recording stores the function in a byte.
+  CHECK(count_ <= 255);  // The recording stores the function in a byte.
   lua_pushlightuserdata(lua_, &runtime_);
   lua_pushinteger(lua_, count_++);
   lua_pushcclosure(lua_, function, 2);

@@ -61,9 +61,11 @@ void DescribeNamed(
 }
 
 void DescribeClaim(Fields& fields, const Paradata& paradata, Claim& claim) {
-  fields.Choice(Optional("certainty", claim.certainty != Certainty::kUnsaid), claim.certainty,
-                kCertainties, "\"certainty\" is '{}'",
-                "choose attested, inferred or imagined, or leave it out");
+  constexpr std::string_view kRemedy = "choose attested, inferred or imagined, or leave it out";
+  if (fields.Has("certainty", claim.certainty != Certainty::kUnsaid)) {
+    fields.Choice("certainty", claim.certainty, kCertainties, "\"certainty\" is '{}'", kRemedy);
+    fields.Require(claim.certainty != Certainty::kUnsaid, "\"certainty\" is ''", kRemedy);
+  }
   fields.List(Optional("source", !claim.sources.empty()), claim.sources, kMaxSources,
               [&](const FieldKey& key, std::string& source) {
                 fields.Text(key, source, kMaxParadataName);

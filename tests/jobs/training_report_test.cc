@@ -191,6 +191,8 @@ TEST(TrainingReport, ThatIsDamagedSaysWhere) {
   EXPECT_THAT(problem(R"({"schema": 2})"), HasSubstr("recordings"));
   EXPECT_THAT(problem(R"({"schema": 2, "recordings": {}, "training": {"recording": "a"}})"),
               HasSubstr("frames"));
+  EXPECT_THAT(problem(R"({"schema": 2, "recordings": {"training": {"video": "a", "film": 1}}})"),
+              HasSubstr("film"));
 }
 
 }  // namespace

@@ -60,6 +60,8 @@ TEST(Paradata, BadTextsAreRefusedWithTheirPlaceAndARemedy) {
   EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"": {}}}})"), HasSubstr("name"));
   EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"a": {"certainty": "sure"}}}})"),
               HasSubstr("claims.people.a: \"certainty\" is 'sure'; choose attested"));
+  EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"a": {"certainty": ""}}}})"),
+              HasSubstr("claims.people.a: \"certainty\" is ''; choose attested"));
   EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"a": {"source": ["b"]}}}})"),
               HasSubstr("there is no source 'b'"));
   EXPECT_THAT(Problem(R"({"schema": 1, "claims": {"people": {"a": {"text": {"english": "b"}}}}})"),
