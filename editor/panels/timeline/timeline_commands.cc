@@ -120,11 +120,11 @@ void TrimSelected(editor::Workspace& workspace,
                   double seconds,
                   bool ripple) {
   const std::vector<double> naturals = NaturalsOf(workspace, selection, items);
-  const std::string name = Text(Tr("trim %s"), NameOfSelected(workspace, selection, items).c_str());
-  workspace.project().EditTimeline(name, [&](TimelineText& text) {
-    return begins ? editor::TrimBegins(text, selection.items(), naturals, seconds)
-                  : editor::TrimEnds(text, selection.items(), naturals, seconds, ripple);
-  });
+  workspace.project().EditTimeline(
+      Sentence("trim %s", {NameOfSelected(workspace, selection, items)}), [&](TimelineText& text) {
+        return begins ? editor::TrimBegins(text, selection.items(), naturals, seconds)
+                      : editor::TrimEnds(text, selection.items(), naturals, seconds, ripple);
+      });
 }
 
 void TrimToPlayhead(editor::Workspace& workspace,
