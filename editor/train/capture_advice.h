@@ -46,7 +46,7 @@ struct CaptureAdvice {
     kFocal,         // value: standard deviation of the focal length, percent
     kFewKeyframes,  // value: number of keyframes in the map
     kExposure,      // value: change of the exposure in stops; session
-    kWritten,       // text: a whole sentence, of a kind that has no name in the report
+    kWritten,       // The field `text` is a whole sentence; the report has no name for the kind.
   };
   // The end of the plan at which a stretch lies.
   enum class End { kNone, kLeft, kRight, kNear, kFar };

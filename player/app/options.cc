@@ -326,7 +326,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   }
   const bool shown_on_monitor = !play.display.headless && play.display.mode != Display::kOpenXr;
   if (play.kiosk.enabled && shown_on_monitor && play.display.monitor < 0) {
-    play.display.monitor = 0;  // full screen, so that visitors do not see the desktop
+    play.display.monitor = 0;  // Full screen, so that visitors do not see the desktop.
   }
   return play;
 }

@@ -55,11 +55,11 @@ struct CameraOptions {
   std::optional<int> number;
   std::filesystem::path video;
   std::filesystem::path images;
-  bool loop = false;  // a recorded source starts again at its end
+  bool loop = false;  // A recorded source starts again at its end.
 
   std::vector<double> intrinsics;  // fx, fy, cx, cy[, k1, k2, p1, p2], or empty
-  std::filesystem::path device;    // device file
-  bool look = true;                // people get the noise, softness and blur of the camera's image
+  std::filesystem::path device;    // The device file.
+  bool look = true;                // People get the noise, softness and blur of the camera's image.
 };
 
 struct DisplayOptions {
@@ -72,26 +72,26 @@ struct DisplayOptions {
 };
 
 struct PageOptions {
-  std::string address;        // address of the staff page; empty: no page
-  std::filesystem::path pin;  // file with the PIN of the staff; empty: the page is read-only
+  std::string address;        // The address of the staff page; empty: no page.
+  std::filesystem::path pin;  // The file with the PIN of the staff; empty: the page is read-only.
 };
 
 struct KioskOptions {
-  bool enabled = false;         // supervised, full screen, for one visitor after another
-  std::filesystem::path state;  // folder for the state
-  double visit_minutes = 0.0;   // longest visit; 0: no limit
+  bool enabled = false;         // The player is supervised and serves one visitor after another.
+  std::filesystem::path state;  // The folder for the state.
+  double visit_minutes = 0.0;   // The longest visit; 0: no limit.
 };
 
 // Measures the tracker on sequences instead of playing.
 struct SequenceOptions {
-  std::filesystem::path folder;                // empty: the show is played
-  std::vector<std::filesystem::path> foreign;  // images of other places
-  bool first_pose = false;                     // relocalise in every frame
+  std::filesystem::path folder;  // The folder of sequences; empty: the show is played.
+  std::vector<std::filesystem::path> foreign;  // Images of other places.
+  bool first_pose = false;                     // Relocalises in every frame.
 };
 
 // Files that are written; those with an empty path are not.
 struct OutputOptions {
-  std::filesystem::path visitor_log;  // the visitor's actions
+  std::filesystem::path visitor_log;  // The visitor's actions are written to it.
   std::filesystem::path poses;
   std::filesystem::path stats;
   std::filesystem::path record;  // .mp4
@@ -109,10 +109,10 @@ struct PlayOptions {
   SequenceOptions benchmark;
   OutputOptions output;
 
-  std::string osc;        // address to listen on for OSC messages; empty: none
-  bool evidence = false;  // the show starts in the evidence view
-  bool staff = false;     // show the state of tracking in a corner of the picture
-  bool sandbox = true;    // give up rights that playing does not need (sandbox.h)
+  std::string osc;        // The address that receives OSC messages; empty: none.
+  bool evidence = false;  // The show starts in the evidence view.
+  bool staff = false;     // Shows the state of tracking in a corner of the picture.
+  bool sandbox = true;    // Gives up rights that playing does not need (sandbox.h).
   // Level of render::QualityLadder(), 0 is the finest. nullopt: adapted to the speed of the
   // machine, or the finest with --pace fast.
   std::optional<int> quality;
@@ -123,7 +123,7 @@ struct PlayOptions {
   int threads = 0;     // 0: one for each core
   uint64_t seed = 1;
   vision::Smoothing smoothing = vision::Smoothing::kSoft;
-  std::filesystem::path visitor;  // recorded actions that are replayed
+  std::filesystem::path visitor;  // Recorded actions that are replayed.
 };
 
 struct InfoOptions {

@@ -14,7 +14,7 @@ Result<PictureLayout> ChooseLayout(const DisplayOptions& options,
   const Display mode = options.mode.value_or(has_panel ? Display::kSideBySide : Display::kMono);
   if (mode == Display::kOpenXr) {
     layout.headset = headset.value_or(Headset());
-    layout.headset->panel.reset();  // the runtime knows the panel
+    layout.headset->panel.reset();  // The runtime knows the panel.
   } else if (mode == Display::kSideBySide) {
     if (!has_panel) {
       return Status::Error("--display side-by-side", "the headset's panel is not known",

@@ -23,9 +23,9 @@
 namespace lararium::player {
 
 struct PictureLayout {
-  geometry::CameraModel camera;    // calibration for the images of the source
+  geometry::CameraModel camera;    // Calibration for the images of the source.
   std::optional<Headset> headset;  // nullopt: the show is not shown on a headset
-  show::ViewPart part;             // the part of the camera's view that is drawn
+  show::ViewPart part;             // The part of the camera's view that is drawn.
   PictureSize size;
 };
 
@@ -72,7 +72,7 @@ class PictureOutput {
   explicit PictureOutput(const geometry::CameraModel& camera) : camera_(camera) {}
 
   geometry::CameraModel camera_;
-  std::optional<Screen> screen_;  // declared before everything that draws, so destroyed after it
+  std::optional<Screen> screen_;  // Declared before everything that draws, so destroyed after it.
   std::unique_ptr<show::ShowRenderer> renderer_;
   std::optional<render::RenderTarget> target_;
   std::optional<StereoDisplay> stereo_;

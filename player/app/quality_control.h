@@ -36,7 +36,7 @@ class QualityControl {
  private:
   size_t fixed_;
   std::optional<show::QualityController> controller_;
-  std::optional<PowerWatch> power_;  // set if the level is adapted
+  std::optional<PowerWatch> power_;  // Set if the level is adapted.
 };
 
 }  // namespace lararium::player

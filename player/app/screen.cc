@@ -12,7 +12,7 @@ Result<Screen> Screen::Open(const DisplayOptions& options, const std::string& ti
   }
   render::WindowOptions window;
   window.title = title;
-  window.vsync = options.mode != Display::kOpenXr;  // an OpenXR headset sets the pace itself
+  window.vsync = options.mode != Display::kOpenXr;  // An OpenXR headset sets the pace itself.
   if (options.mode != Display::kOpenXr) {           // OpenXR needs OpenGL 3.3
     window.graphics = options.graphics;
   }

@@ -65,8 +65,7 @@ Result<std::unique_ptr<show::Show>> ShowMaker::MakeAt(double time,
                                                       float finest) const {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Read(languages, finest));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
-  if (drama_.past ==
-      drama::Past::kForgotten) {  // a recording first needs the visitor's earlier actions
+  if (drama_.past == drama::Past::kForgotten) {  // A recording needs the earlier actions.
     LARARIUM_RETURN_IF_ERROR(show->PrepareAt(time));
   }
   return show;

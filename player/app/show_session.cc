@@ -274,7 +274,7 @@ void ShowSession::SetVolume() {
 }
 
 void ShowSession::ApplyQuality() {
-  heartbeat_.BeatBeforeLongWork();  // drivers may have to compile shaders
+  heartbeat_.BeatBeforeLongWork();  // Drivers may have to compile shaders.
   output_->renderer().SetQuality(quality_.quality());
   show_->detail().SetQuality(quality_.quality());
 }

@@ -89,24 +89,24 @@ class ShowSession {
   Log& log_;
   FaultLog faults_;
   Heartbeat heartbeat_;
-  int restarts_;  // number of restarts before this run
+  int restarts_;  // Number of restarts before this run.
   QualityControl quality_;
   Device device_;
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
   std::unique_ptr<show::Show> show_;
   std::unique_ptr<PictureOutput> output_;
-  std::optional<VisitorControls> controls_;  // always set by the constructor
-  std::optional<StaffReporter> staff_;       // nullopt: no staff page
+  std::optional<VisitorControls> controls_;  // The constructor always sets it.
+  std::optional<StaffReporter> staff_;       // nullopt: no staff page.
   int64_t told_statistics_ = -1;
   std::optional<Recorder> recorder_;
-  std::optional<HeapKeeper> heap_keeper_;      // set after the first pictures
+  std::optional<HeapKeeper> heap_keeper_;      // Set after the first pictures.
   std::unique_ptr<audio::SoundPlayer> sound_;  // nullptr: no sound
   std::unique_ptr<OscListener> osc_;           // nullptr: no OSC
   show::ShowStatistics statistics_;
   SteadyClock::time_point last_shown_;
-  double drama_time_ = 0.0;  // drama time of the last frame that was drawn, seconds
-  double draw_ms_ = 0.0;     // drawing time of the last picture
+  double drama_time_ = 0.0;  // Drama time of the last frame that was drawn, seconds.
+  double draw_ms_ = 0.0;     // Drawing time of the last picture.
   int64_t drawn_frames_ = 0;
   ShowMaker maker_;  // Declared last, because its thread writes to the log that staff_ reads.
 };

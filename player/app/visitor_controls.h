@@ -75,7 +75,7 @@ class VisitorControls {
   ChoiceOptions options_;
   std::optional<Kiosk> kiosk_;
   Choices choices_;
-  Choices house_;  // defaults set by the staff for a kiosk's next visitor
+  Choices house_;  // Defaults set by the staff for a kiosk's next visitor.
   GazeMenu menu_;
   Buttons buttons_;
   bool ends_ = false;
@@ -83,7 +83,7 @@ class VisitorControls {
   vision::PoseSource* poses_ = nullptr;
   PictureOutput* output_ = nullptr;
   show::Show* show_ = nullptr;
-  double story_length_ = 0.0;  // seconds; 0: not known
+  double story_length_ = 0.0;  // Seconds; 0: not known.
 };
 
 }  // namespace lararium::player

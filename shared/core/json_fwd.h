@@ -7,7 +7,7 @@
 
 namespace lararium {
 
-using Json = nlohmann::json;  // keys are sorted, so that files diff well
+using Json = nlohmann::json;  // Keys are sorted, so that files diff well.
 
 class JsonView;
 

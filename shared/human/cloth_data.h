@@ -160,7 +160,7 @@ struct ClothDrape {
   std::vector<glm::vec3> points;
   std::vector<Float4> places;            // The values of `points` as Float4.
   std::vector<Float4> normals;           // Unit normals at the particles.
-  std::vector<Float4> triangle_normals;  // unit
+  std::vector<Float4> triangle_normals;  // Unit vectors.
 };
 
 struct ClothState::Data {

@@ -48,7 +48,7 @@ struct SourcePatch {
 
 // The expected position of a patch in an image, and its warp from the source.
 struct PatchView {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // raw pixel
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // Raw pixel of the image.
   Eigen::Matrix2d key_from_pixel = Eigen::Matrix2d::Zero();
   // Motion in the image during the exposure, pixels; see PatchMotion.
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();

@@ -20,7 +20,7 @@ namespace lararium::panels {
 struct GizmoTool {
   GizmoMode mode = GizmoMode::kMove;
   std::optional<GizmoDrag> drag;
-  bool given_up = false;  // drag was cancelled.
+  bool given_up = false;  // The drag was cancelled.
 };
 
 // The transform of the selected object; nullopt where it cannot be moved or nothing is selected.
