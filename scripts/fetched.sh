@@ -22,8 +22,11 @@ need_programs() {
   done
 }
 
-# an_empty_folder: sets work to a folder that goes when the script ends.
+# an_empty_folder [FOLDER]: sets work to an empty folder, FOLDER if it is given, that goes when the script ends.
 an_empty_folder() {
-  work=$(mktemp -d)
-  trap 'rm -rf "$work"' EXIT INT TERM
+  work=${1:-$(mktemp -d)}
+  rm -rf "$work"
+  mkdir -p "$work"
+  trap 'rm -rf "$work"' EXIT
+  trap 'exit 130' INT TERM
 }

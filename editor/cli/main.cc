@@ -108,6 +108,9 @@ struct Runner {
     return RunExport(options, progress);
   }
   Result<CommandResult> operator()(const KeyOptions& options) { return RunKey(options); }
+  Result<CommandResult> operator()(const FetchCastLibraryOptions&) {
+    return RunFetchCastLibrary(progress);
+  }
   Result<CommandResult> operator()(const WindowOptions& options) {
     LARARIUM_RETURN_IF_ERROR(RunWindow(options.project, log));
     return CommandResult{};

@@ -47,7 +47,8 @@ using Subcommand = std::variant<WindowOptions,
                                 CameraOptions,
                                 CalibrateOptions,
                                 ExportOptions,
-                                KeyOptions>;
+                                KeyOptions,
+                                FetchCastLibraryOptions>;
 
 struct CommandLine {
   Subcommand subcommand;

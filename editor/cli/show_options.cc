@@ -142,6 +142,9 @@ void AddShowCommands(CommandTable& table) {
             AddReference);
   table.Add("export", "Pack the show", AddExport);
   table.Add("key", "Make the keys that shows are signed with", AddKey);
+  table.Add<FetchCastLibraryOptions>("fetch-cast-library",
+                                     "Fetch the library of which people are built, with npm",
+                                     [](CLI::App*, FetchCastLibraryOptions&) {});
 }
 
 }  // namespace lararium::editor

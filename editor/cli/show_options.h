@@ -34,6 +34,8 @@ struct ExportOptions {
   std::filesystem::path sign = {};  // Secret key file; empty: the bundle is not signed.
 };
 
+struct FetchCastLibraryOptions {};
+
 struct KeyOptions {
   std::filesystem::path name;  // Name of the pair: NAME.key and NAME.pub.
 };

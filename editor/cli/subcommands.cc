@@ -5,6 +5,7 @@
 #include "editor/check/project_check.h"
 #include "editor/document/project.h"
 #include "editor/jobs/baking.h"
+#include "editor/jobs/cast_library_fetch.h"
 #include "editor/jobs/credits.h"
 #include "editor/jobs/exporting.h"
 #include "editor/jobs/lines.h"
@@ -101,6 +102,12 @@ Result<CommandResult> RunKey(const KeyOptions& options) {
   LARARIUM_RETURN_IF_ERROR(bundle::SavePublicKey(open, key.public_key()));
   return CommandResult{"keep " + secret + " to yourself, give " + open + " to the players\n",
                        {{"secret", secret}, {"public", open}}};
+}
+
+Result<CommandResult> RunFetchCastLibrary(Progress& progress) {
+  LARARIUM_RETURN_IF_ERROR(FetchCastLibrary(progress));
+  const std::string folder = FindCastLibrary().value_or("").string();
+  return CommandResult{"the cast library is in " + folder + "\n", {{"folder", folder}}};
 }
 
 }  // namespace lararium::editor

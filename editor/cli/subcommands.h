@@ -24,5 +24,6 @@ Result<CommandResult> RunCredits(const CreditsOptions& options);
 Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress, Log& log);
 Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress);
 Result<CommandResult> RunKey(const KeyOptions& options);
+Result<CommandResult> RunFetchCastLibrary(Progress& progress);
 
 }  // namespace lararium::editor

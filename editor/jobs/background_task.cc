@@ -21,6 +21,7 @@ constexpr std::array kTaskNames = {
     TrLater("Opening"),
     TrLater("Measuring"),
     TrLater("Opening the cast library"),
+    TrLater("Fetching the cast library"),
     TrLater("Reading the bones"),
     TrLater("Reading the light probe"),
     TrLater("Measuring the camera"),

@@ -29,6 +29,7 @@ enum class TaskKind {
   kOpening,
   kMeasuring,
   kCatalogue,
+  kFetching,
   kBoneReview,
   kProbe,
   kCamera,

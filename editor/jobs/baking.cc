@@ -1,7 +1,6 @@
 #include "editor/jobs/baking.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <span>
@@ -22,12 +21,12 @@
 #include "editor/import/motion/clip_import.h"
 #include "editor/import/objects/object_import.h"
 #include "editor/import/objects/object_models.h"
+#include "editor/jobs/cast_library_fetch.h"
 #include "editor/jobs/lines.h"
 #include "editor/jobs/sounds.h"
 #include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
-#include "shared/core/program.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/stage/mesh_file.h"
 #include "shared/stage/object_use.h"
@@ -255,7 +254,7 @@ FigureSource StandIn(const CastDocument& member) {
   figure.make = [member](std::vector<std::string>& warnings) -> Result<human::Human> {
     warnings.push_back(member.name +
                        ": the plain figure stands in, because the cast library is not "
-                       "installed; fetch it with scripts/fetch_cast_library.sh");
+                       "installed; fetch it with lararium-editor fetch-cast-library");
     return MakePlainFigure(member);
   };
   return figure;
@@ -568,21 +567,6 @@ float EvenRadiance(const vision::SceneDatabase& map) {
   }
   const auto mean = static_cast<float>(sum / static_cast<double>(map.colours.size()));
   return std::clamp(mean / kUsualAlbedo, 0.02f, 2.0f);
-}
-
-std::optional<std::filesystem::path> FindCastLibrary() {
-  if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
-      chosen != nullptr && *chosen != 0) {
-    return std::filesystem::path(chosen);
-  }
-  // The library lies beside the folders of the programs in a build tree.
-  std::filesystem::path folder = ProgramFolder();
-  for (int up = 0; up < 4 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
-    if (Exists(folder / "cast-library")) {
-      return folder / "cast-library";
-    }
-  }
-  return std::nullopt;
 }
 
 Result<BakeReport> Bake(const ProjectPaths& paths,

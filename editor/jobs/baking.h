@@ -22,10 +22,6 @@
 
 namespace lararium::editor {
 
-// The folder of the cast library, from which people are built by their recipes:
-// LARARIUM_CAST_LIBRARY, or else "cast-library" in a folder above the program.
-std::optional<std::filesystem::path> FindCastLibrary();
-
 struct BakeReport {
   std::vector<std::string> baked;      // Names of the products that were generated.
   std::vector<std::string> unchanged;  // Names of the products that were up to date.

@@ -36,14 +36,14 @@ struct Figure {
 };
 
 // The region that the picture must contain, actor frame, metres.
-struct Subject {
+struct Extent {
   glm::vec3 centre = glm::vec3(0.0f);
   float half_height = 1.0f;
   float half_width = 0.5f;
 };
 
 // Everything that is drawn of a person, centred on the person's vertical axis.
-Subject WholeFigure(const Figure& person, float azimuth) {
+Extent WholeFigure(const Figure& person, float azimuth) {
   const glm::vec3 right(std::cos(azimuth), 0.0f, -std::sin(azimuth));
   float bottom = 1e9f;
   float top = -1e9f;
@@ -71,8 +71,8 @@ std::vector<bool> HeadJoints(const human::Skeleton& skeleton, size_t skull) {
 }
 
 // The region around the head's joint, from a little below the chin to above the crown.
-Subject Head(const Figure& person, float azimuth) {
-  const Subject whole = WholeFigure(person, azimuth);
+Extent Head(const Figure& person, float azimuth) {
+  const Extent whole = WholeFigure(person, azimuth);
   if (!person.skull) {
     const float top = whole.centre.y + whole.half_height;
     const float half = 0.16f * whole.half_height;
@@ -102,18 +102,18 @@ Subject Head(const Figure& person, float azimuth) {
 }
 
 // Head, neck and shoulders. A figure without a head is shown as a whole.
-Subject Bust(const Figure& person, float azimuth) {
+Extent Bust(const Figure& person, float azimuth) {
   if (!person.skull) {
     return WholeFigure(person, azimuth);
   }
-  Subject bust = Head(person, azimuth);
+  Extent bust = Head(person, azimuth);
   bust.centre.y -= 0.42f * bust.half_height;
   bust.half_width *= 1.7f;
   bust.half_height *= 1.55f;
   return bust;
 }
 
-Subject Choose(StudioFrame frame, const Figure& person, float azimuth) {
+Extent Choose(StudioFrame frame, const Figure& person, float azimuth) {
   switch (frame) {
     case StudioFrame::kBust:
       return Bust(person, azimuth);
@@ -126,7 +126,7 @@ Subject Choose(StudioFrame frame, const Figure& person, float azimuth) {
 }
 
 // An object as seen by a camera that looks down on it.
-Subject WholeThing(const stage::ObjectModel& model, float elevation) {
+Extent WholeThing(const stage::ObjectModel& model, float elevation) {
   const glm::vec3 size = model.upper() - model.lower();
   const float across = glm::length(glm::vec2(size.x, size.z));
   const float tall = size.y * std::cos(elevation) + across * std::sin(elevation);
@@ -185,7 +185,7 @@ geometry::CameraModel StudioLens(cv::Size size) {
 }
 
 // The nearest camera from which the subject fits into the picture.
-geometry::Rigid3 PlaceCamera(const Subject& subject, const StudioView& view, cv::Size size) {
+geometry::Rigid3 PlaceCamera(const Extent& subject, const StudioView& view, cv::Size size) {
   const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
   const float half = kMargin * std::max(subject.half_height, subject.half_width / aspect);
   // Perspective enlarges the parts that are closer to the viewer.
@@ -201,7 +201,7 @@ geometry::Rigid3 PlaceCamera(const Subject& subject, const StudioView& view, cv:
                         Eigen::Vector3d::UnitY());
 }
 
-render::RenderScene SceneFor(const Subject& subject, const StudioView& view, cv::Size size) {
+render::RenderScene SceneFor(const Extent& subject, const StudioView& view, cv::Size size) {
   render::RenderScene scene;
   scene.background = Backdrop(size);
   scene.camera = scene.display = StudioLens(size);

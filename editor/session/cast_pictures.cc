@@ -180,6 +180,17 @@ void CastPictures::SetCast(const std::vector<CastDocument>& cast) {
   Start();
 }
 
+void CastPictures::BakeAgain() {
+  const std::lock_guard lock(mutex_);
+  for (auto* people : {&cast_, &presets_}) {
+    for (auto& [name, sitter] : *people) {
+      sitter.done.clear();
+    }
+  }
+  gaze_done_.clear();
+  Start();
+}
+
 void CastPictures::SetObjects(const std::vector<ObjectDocument>& objects) {
   const std::lock_guard lock(mutex_);
   std::map<std::string, Thing> now;

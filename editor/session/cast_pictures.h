@@ -51,6 +51,8 @@ class CastPictures {
   // All of the following functions return at once.
 
   void SetCast(const std::vector<CastDocument>& cast);
+  // Bakes those again whose inputs outside the project changed, and draws everybody again.
+  void BakeAgain();
   void SetObjects(const std::vector<ObjectDocument>& objects);
   // Draws thumbnails of presets too, from now on.
   void WantPresets();

