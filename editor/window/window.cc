@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "editor/panels/widgets/key_state.h"
 #include "editor/panels/widgets/keyboard_focus.h"
 #include "editor/panels/widgets/keys.h"
 #include "editor/panels/widgets/theme.h"

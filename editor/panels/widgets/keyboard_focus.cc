@@ -1,12 +1,12 @@
 #include "editor/panels/widgets/keyboard_focus.h"
 
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
 #include <span>
 
+#include "editor/panels/widgets/key_state.h"
 #include "editor/panels/widgets/theme.h"
 
 namespace lararium::panels {
@@ -26,11 +26,6 @@ bool MouseIsUsed() {
     return std::find(buttons.begin(), buttons.end(), true) != buttons.end();
   };
   return any(io.MouseDown) || any(io.MouseClicked) || any(io.MouseReleased);
-}
-
-bool KeyIsUsed() {
-  const std::span<const bool> keys = ImGui::GetIO().KeysDown;
-  return std::find(keys.begin(), keys.end(), true) != keys.end();
 }
 
 // Shows the keyboard focus from now on; the mouse hovers nothing until it moves.
@@ -124,7 +119,7 @@ bool KeysBelongToMenus() {
 
 void Navigation::Prepare(bool walk) {
   ImGuiIO& io = ImGui::GetIO();
-  keys_last_ = !MouseIsUsed() && (keys_last_ || KeyIsUsed());
+  keys_last_ = !MouseIsUsed() && (keys_last_ || AnyKeyIsDown());
   const bool menus = KeysBelongToMenus();
   if (menus && !menus_ && keys_last_) {
     DrawNavigation();
@@ -135,41 +130,9 @@ void Navigation::Prepare(bool walk) {
   } else {
     io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
   }
-  if (io.KeysDown[GLFW_KEY_ENTER] || io.KeysDown[GLFW_KEY_KP_ENTER]) {
-    io.NavInputs[ImGuiNavInput_Activate] = 1.0f;
-  }
-  // Ctrl+Tab switches regions instead of ImGui's windows, and AltTap handles Alt.
-  io.KeyMap[ImGuiKey_Tab] = io.KeyCtrl ? -1 : GLFW_KEY_TAB;
+  PrepareKeys();
+  // AltTap handles Alt.
   ImGui::GetCurrentContext()->NavWindowingToggleLayer = false;
-}
-
-void KeyLatch::Press(int key, int modifiers) { pressed_.push_back({key, modifiers}); }
-
-void KeyLatch::Hold() {
-  ImGuiIO& io = ImGui::GetIO();
-  for (const Pressed& pressed : pressed_) {
-    if (pressed.key < 0 || pressed.key >= IM_ARRAYSIZE(io.KeysDown) || io.KeysDown[pressed.key]) {
-      continue;  // The key has no code or is still down.
-    }
-    io.KeysDown[pressed.key] = true;
-    held_.push_back(pressed.key);
-    io.KeyCtrl |= (pressed.modifiers & GLFW_MOD_CONTROL) != 0;
-    io.KeyShift |= (pressed.modifiers & GLFW_MOD_SHIFT) != 0;
-  }
-  pressed_.clear();
-}
-
-void KeyLatch::LetGo() {
-  ImGuiIO& io = ImGui::GetIO();
-  if (held_.empty()) {
-    return;
-  }
-  for (const int key : held_) {
-    io.KeysDown[key] = false;
-  }
-  held_.clear();
-  io.KeyCtrl = io.KeysDown[GLFW_KEY_LEFT_CONTROL] || io.KeysDown[GLFW_KEY_RIGHT_CONTROL];
-  io.KeyShift = io.KeysDown[GLFW_KEY_LEFT_SHIFT] || io.KeysDown[GLFW_KEY_RIGHT_SHIFT];
 }
 
 }  // namespace lararium::panels

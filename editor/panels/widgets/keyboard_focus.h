@@ -6,7 +6,6 @@
 // instead. A click hides the ring.
 
 #include <optional>
-#include <vector>
 
 namespace lararium::panels {
 
@@ -58,31 +57,12 @@ bool KeysBelongToMenus();
 // dialogs.
 class Navigation {
  public:
-  // Call before each of ImGui's frames. Makes Enter activate where ImGui accepts only Space.
+  // Call before each of ImGui's frames.
   void Prepare(bool walk);
 
  private:
   bool menus_ = false;      // Menus had the keyboard before the last frame.
   bool keys_last_ = false;  // The last input was a key, not the mouse.
-};
-
-// ImGui 1.86 samples the state of keys once per frame and misses keys that are pressed and released
-// in between. This holds such keys down for one frame.
-class KeyLatch {
- public:
-  // key, modifiers: GLFW's codes.
-  void Press(int key, int modifiers);
-  // Call around each frame.
-  void Hold();
-  void LetGo();
-
- private:
-  struct Pressed {
-    int key = 0;
-    int modifiers = 0;
-  };
-  std::vector<Pressed> pressed_;  // Pressed since the last frame.
-  std::vector<int> held_;         // Held in this frame.
 };
 
 }  // namespace lararium::panels

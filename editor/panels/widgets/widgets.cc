@@ -11,6 +11,7 @@
 
 #include "editor/document/angles.h"
 #include "editor/panels/widgets/icons.h"
+#include "editor/panels/widgets/key_state.h"
 #include "editor/panels/widgets/keys.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
@@ -144,18 +145,13 @@ void DrawModal(const char* title, float width, bool& open, const std::function<v
 
 namespace {
 
-bool EnterPressed() {
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
-         ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false);
-}
-
 // Whether Enter confirms the dialog: it ends the input of a field, or no button has the keyboard
 // focus, and no list is open above.
 bool EnterConfirms() {
   constexpr ImGuiFocusedFlags kHere =
       ImGuiFocusedFlags_RootAndChildWindows | ImGuiFocusedFlags_NoPopupHierarchy;
   const ImGuiIO& io = ImGui::GetIO();
-  return EnterPressed() && !ImGui::IsWindowAppearing() && ImGui::IsWindowFocused(kHere) &&
+  return EnterIsPressed() && !ImGui::IsWindowAppearing() && ImGui::IsWindowFocused(kHere) &&
          (io.WantTextInput || !io.NavVisible);
 }
 
