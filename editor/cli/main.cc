@@ -22,7 +22,6 @@
 #include "editor/jobs/reference.h"
 #include "editor/window/window.h"
 #include "shared/core/log.h"
-#include "shared/core/processor.h"
 
 namespace {
 
@@ -129,9 +128,6 @@ Result<CommandResult> Run(const CommandLine& line, Log& log) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (const Status status = CheckProcessor(); !status.ok()) {
-    return ReportFailure(status, false);
-  }
   const auto parsed = ParseCommandLine(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) {
     return *code;

@@ -20,7 +20,6 @@
 #include "shared/bundle/bundle.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/json.h"
-#include "shared/core/processor.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/window.h"
 #include "shared/show/show.h"
@@ -448,9 +447,6 @@ Json FindingsToJson(const std::vector<Finding>& findings) {
 
 bool RunDoctor(const DoctorOptions& options, Log& log) {
   std::vector<Finding> findings;
-  const Status processor = CheckProcessor();
-  findings.push_back({"processor", processor.ok() ? Verdict::kGood : Verdict::kBad,
-                      processor.ok() ? "has what the player needs" : processor.message()});
   std::optional<show::ShowContent> content;
   if (!options.show.empty()) {
     Result<show::ShowContent> opened = OpenShow(options);

@@ -12,7 +12,6 @@
 #include "player/benchmark/benchmark.h"
 #include "player/staff/staff_page.h"
 #include "shared/core/log.h"
-#include "shared/core/processor.h"
 
 namespace {
 
@@ -41,10 +40,6 @@ Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log
 
 int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
-  if (const Status status = CheckProcessor(); !status.ok()) {
-    std::fprintf(stderr, "%s\n", status.message().c_str());
-    return 1;
-  }
   const Command command = ParseCommandLine(argc, argv);
   if (const int* code = std::get_if<int>(&command)) {
     return *code;

@@ -67,7 +67,7 @@ echo 'function main() while true do wait(1) end end' > "$project/drama.lua"
 # Of this machine the doctor knows: it has no camera, and draws in software.
 "$player" doctor "$show" --state "$out/kiosk" > "$out/doctor.log" 2>> "$out/editor.log" &&
   fail "without a camera the doctor finds nothing bad"
-for finding in "good +processor" "warning +bundle +\"Test\"" "good +map .*500 points" "BAD +camera" \
+for finding in "warning +bundle +\"Test\"" "good +map .*500 points" "BAD +camera" \
   "(good|warning) +graphics" "(good|warning) +drawing .*pictures a second" "good +display" \
   "good +disk +.*kiosk" "do: plug it in"; do
   grep -qE "$finding" "$out/doctor.log" || { cat "$out/doctor.log"; fail "no line of '$finding'"; }
