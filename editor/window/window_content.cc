@@ -130,19 +130,19 @@ void WindowContent::Open(const std::filesystem::path& project) {
   }
 }
 
-Status WindowContent::MakeNew(const StartChoice& choice) {
-  const ProjectPaths paths{choice.project};
-  LARARIUM_RETURN_IF_ERROR(CreateProject(paths, choice.fields.name));
+Status WindowContent::MakeNew(const panels::NewProject& made) {
+  const ProjectPaths paths{made.folder};
+  LARARIUM_RETURN_IF_ERROR(CreateProject(paths, made.fields.name));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Workspace> workspace, Workspace::Open(paths, log_));
   Enter(std::move(workspace));
-  switch (choice.begin) {
-    case StartChoice::Begin::kRecording:
-      panels::TrainRecording(*workspace_, choice.fields);
+  switch (made.begin) {
+    case panels::NewProject::Begin::kRecording:
+      panels::TrainRecording(*workspace_, made.fields);
       break;
-    case StartChoice::Begin::kFilming:
-      film_ = choice.fields.place;
+    case panels::NewProject::Begin::kFilming:
+      film_ = made.fields.place;
       break;
-    case StartChoice::Begin::kEmpty:
+    case panels::NewProject::Begin::kEmpty:
       break;
   }
   workspace_->project().Save();
@@ -161,7 +161,7 @@ void WindowContent::Follow(const StartChoice& choice) {
       Open(choice.project);
       return;
     case StartChoice::Kind::kNew:
-      problem = MakeNew(choice);
+      problem = MakeNew(choice.made);
       break;
     case StartChoice::Kind::kSample: {
       const Result<std::filesystem::path> own = OwnSample(sample_, DataFolder());

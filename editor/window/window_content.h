@@ -62,7 +62,7 @@ class WindowContent {
   // program ends, and are restored when the project is opened again.
   void Leave();
   void Open(const std::filesystem::path& project);
-  Status MakeNew(const panels::StartChoice& choice);
+  Status MakeNew(const panels::NewProject& made);
   void Follow(const panels::StartChoice& choice);
   void KeepPicture();
 
