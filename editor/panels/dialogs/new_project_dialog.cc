@@ -3,8 +3,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+
 #include "editor/document/user_folders.h"
-#include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/widgets.h"
 
@@ -16,12 +17,21 @@ namespace {
 
 constexpr const char* kProjectSuffix = ".lararium";
 
+// Whether the folder has a project of that name.
+bool IsTaken(const fs::path& parent, const std::string& name) {
+  std::error_code ignored;
+  return fs::exists(parent / (name + kProjectSuffix), ignored);
+}
+
 }  // namespace
 
-void NewProjectDialog::Open(From from, const fs::path& parent) {
+void NewProjectDialog::Open(From from, const fs::path& parent, const fs::path& recording) {
   open_ = true;
   from_ = from;
   fields_ = {};
+  fields_.file = recording.string();
+  fields_.title = recording.stem().string();
+  std::replace(fields_.title.begin(), fields_.title.end(), '_', ' ');
   fields_.images = from == From::kImages;
   parent_ = parent.string();
 }
@@ -40,20 +50,15 @@ const char* NewProjectDialog::Title() const {
   return Tr("New, empty");
 }
 
-std::string NewProjectDialog::Problem(const fs::path& parent) const {
+DialogProblem NewProjectDialog::Problem(const fs::path& parent, const TitledName& project) const {
   std::error_code ignored;
-  const std::string problem = NameProblem(fields_.name);
-  if (!problem.empty()) {
-    return problem;
-  }
-  if (!fs::is_directory(parent, ignored)) {
-    return Tr("Choose a folder that exists.");
-  }
-  if (fs::exists(parent / (fields_.name + kProjectSuffix), ignored)) {
-    return Tr("A project of that name is there already.");
-  }
   const bool recorded = from_ == From::kVideo || from_ == From::kImages;
-  return recorded ? RecordingProblem({parent}, fields_) : "";
+  if (!fs::is_directory(parent, ignored)) {
+    return Wrong(Tr("Choose a folder that exists."));
+  }
+  const DialogProblem problem =
+      TitleProblem(project, [&](const std::string& name) { return IsTaken(parent, name); });
+  return problem.any() || !recorded ? problem : RecordingProblem({parent}, fields_);
 }
 
 std::optional<NewProject> NewProjectDialog::DrawContent() {
@@ -64,20 +69,24 @@ std::optional<NewProject> NewProjectDialog::DrawContent() {
                       "still missing, and learns the place from that.")
                  : Tr("Learns a place from a recording: walk sideways around it, slowly, with "
                       "everything in view that visitors will see."));
+  fs::path parent = editor::HomeFolder() / parent_;
+  TitledName project;
   if (BeginProperties("new")) {
-    PropertyLabel(Tr("Name"));
-    ImGui::InputText("##name", &fields_.name);
+    project = TitleRows(
+        Tr("Name"), Tr("Its folder"), "project",
+        [&](const std::string& name) { return IsTaken(parent, name); }, fields_.title,
+        fields_.name);
     PropertyLabel(Tr("In the folder"));
-    PathField("folder", parent_, editor::HomeFolder(), {});
+    PathField("folder", parent_, editor::HomeFolder(), FileType::kFolder);
     if (!filming && !empty &&
         RecordingFields(parent_, fields_, Tr(kFromVideo), Tr(kFromVideoHint))) {
       calibration_.Open();
     }
     EndProperties();
   }
-  const fs::path parent = editor::HomeFolder() / parent_;
+  parent = editor::HomeFolder() / parent_;
   const char* action = empty ? Tr("Make") : filming ? Tr("Film") : Tr("Train");
-  const DialogAnswer answer = DialogButtons(action, Problem(parent));
+  const DialogAnswer answer = DialogButtons(action, Problem(parent, project));
   open_ = answer == DialogAnswer::kNone;
   if (answer != DialogAnswer::kAct) {
     return std::nullopt;
@@ -86,9 +95,11 @@ std::optional<NewProject> NewProjectDialog::DrawContent() {
   made.begin = empty     ? NewProject::Begin::kEmpty
                : filming ? NewProject::Begin::kFilming
                          : NewProject::Begin::kRecording;
-  made.folder = parent / (fields_.name + kProjectSuffix);
+  made.folder = parent / (project.name + kProjectSuffix);
+  made.title = project.title;
   made.fields = fields_;
-  made.fields.place = fields_.name;
+  made.fields.place = project.title;
+  made.fields.name.clear();
   made.fields.file = (parent / fields_.file).string();
   return made;
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "editor/panels/dialogs/calibration_dialog.h"
-#include "editor/panels/dialogs/dialog_state.h"
+#include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/viewport/picture_textures.h"
 
 namespace lararium::panels {
@@ -18,23 +18,27 @@ struct NewProject {
   // that recording, or empty.
   enum class Begin { kRecording, kFilming, kEmpty };
   std::filesystem::path folder;  // The project's own folder.
+  std::string title;
   Begin begin = Begin::kRecording;
-  DialogFields fields;  // Name, place and recording of the project.
+  DialogFields fields;  // The first place and its recording.
 };
 
 class NewProjectDialog {
  public:
   enum class From { kVideo, kImages, kCamera, kNothing };
 
-  // parent: the folder that is proposed for the project.
-  void Open(From from, const std::filesystem::path& parent);
+  // parent: the folder that is proposed for the project. recording: the file or folder to begin
+  // with, if it is known.
+  void Open(From from,
+            const std::filesystem::path& parent,
+            const std::filesystem::path& recording = {});
   bool is_open() const { return open_; }
   // Draws the dialog while it is open. Returns the project when the user confirms.
   std::optional<NewProject> Show(PictureTextures& pictures);
 
  private:
   const char* Title() const;
-  std::string Problem(const std::filesystem::path& parent) const;
+  DialogProblem Problem(const std::filesystem::path& parent, const TitledName& project) const;
   std::optional<NewProject> DrawContent();
 
   bool open_ = false;

@@ -47,14 +47,15 @@ fs::path UsualFolder(const editor::RecentProjects& recent) {
   return editor::HomeFolder();
 }
 
-std::string FolderProblem(const fs::path& folder) {
+DialogProblem FolderProblem(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
-    return Tr("Choose a folder that exists.");
+    return Wrong(Tr("Choose a folder that exists."));
   }
-  return editor::RecentProject{folder, "", 0}.Exists()
-             ? ""
-             : Tr("There is no project.json in this folder: choose one called NAME.lararium.");
+  return IsProject(folder)
+             ? DialogProblem()
+             : Missing(Tr("There is no project.json in this folder: choose one called "
+                          "NAME.lararium."));
 }
 
 bool WideButton(const char* label, bool important) {
@@ -109,7 +110,7 @@ void StartPage::HandleKeys(const editor::RecentProjects& recent,
     if (action == KeyAction::kQuit) {
       choice.kind = StartChoice::Kind::kQuit;
     }
-    if (dialog_ != Open::kNothing || new_.is_open()) {
+    if (has_dialog()) {
       continue;
     }
     if (action == KeyAction::kKeyList) {
@@ -127,7 +128,7 @@ void StartPage::HandleKeys(const editor::RecentProjects& recent,
                                                      {KeyAction::kNewEmpty, From::kNothing}};
     for (const auto& [opens, from] : kOpens) {
       if (of_start == opens) {
-        OpenNew(from, recent);
+        BeginNew(from, recent);
       }
     }
   }
@@ -139,9 +140,11 @@ void StartPage::OpenDialog(Open dialog, const editor::RecentProjects& recent) {
   folder_ = UsualFolder(recent).string();
 }
 
-void StartPage::OpenNew(NewProjectDialog::From from, const editor::RecentProjects& recent) {
+void StartPage::BeginNew(NewProjectDialog::From from,
+                         const editor::RecentProjects& recent,
+                         const fs::path& recording) {
   problem_.clear();
-  new_.Open(from, UsualFolder(recent));
+  new_.Open(from, UsualFolder(recent), recording);
 }
 
 void StartPage::DrawActions(const editor::RecentProjects& recent,
@@ -154,16 +157,16 @@ void StartPage::DrawActions(const editor::RecentProjects& recent,
   Hint(Tr("People of the past, where they lived."));
   ImGui::Dummy(ImVec2(0, Px(12)));
   if (WideButton(Tr("New from video\xe2\x80\xa6"), true)) {
-    OpenNew(NewProjectDialog::From::kVideo, recent);
+    BeginNew(NewProjectDialog::From::kVideo, recent);
   }
   if (WideButton(Tr("New from images\xe2\x80\xa6"), false)) {
-    OpenNew(NewProjectDialog::From::kImages, recent);
+    BeginNew(NewProjectDialog::From::kImages, recent);
   }
   if (WideButton(Tr("New from camera\xe2\x80\xa6"), false)) {
-    OpenNew(NewProjectDialog::From::kCamera, recent);
+    BeginNew(NewProjectDialog::From::kCamera, recent);
   }
   if (WideButton(Tr("New, empty\xe2\x80\xa6"), false)) {
-    OpenNew(NewProjectDialog::From::kNothing, recent);
+    BeginNew(NewProjectDialog::From::kNothing, recent);
   }
   ImGui::Dummy(ImVec2(0, Px(8)));
   if (WideButton(Tr("Open\xe2\x80\xa6"), false)) {
@@ -309,7 +312,7 @@ void StartPage::ProjectDialog(editor::RecentProjects& recent, StartChoice& choic
               : Tr("A project is a folder with project.json in it, called NAME.lararium."));
   if (BeginProperties("project")) {
     PropertyLabel(Tr("Folder"));
-    PathField("folder", folder_, editor::HomeFolder(), {});
+    PathField("folder", folder_, editor::HomeFolder(), FileType::kProject);
     EndProperties();
   }
   const fs::path project = editor::HomeFolder() / folder_;

@@ -14,6 +14,7 @@
 #include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/widgets/keys.h"
 #include "editor/session/recent_projects.h"
+#include "editor/session/settings.h"
 
 namespace lararium::panels {
 
@@ -34,6 +35,13 @@ class StartPage {
                    bool has_sample,
                    editor::Settings& settings);
 
+  // Opens the dialog for a new project; recording: see NewProjectDialog::Open().
+  void BeginNew(NewProjectDialog::From from,
+                const editor::RecentProjects& recent,
+                const std::filesystem::path& recording = {});
+  // Whether a dialog is open.
+  bool has_dialog() const { return dialog_ != Open::kNothing || new_.is_open(); }
+
   // Shows a problem until the next choice, for example why a project cannot be opened.
   void SetProblem(std::string problem) { problem_ = std::move(problem); }
 
@@ -51,7 +59,6 @@ class StartPage {
                   std::span<const KeyPress> keys,
                   StartChoice& choice);
   void OpenDialog(Open dialog, const editor::RecentProjects& recent);
-  void OpenNew(NewProjectDialog::From from, const editor::RecentProjects& recent);
   void DrawActions(const editor::RecentProjects& recent,
                    bool has_sample,
                    editor::Settings& settings,
