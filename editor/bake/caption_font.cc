@@ -2,6 +2,7 @@
 
 #include <ft2build.h>
 
+#include "shared/core/utf8.h"
 #include "shared/image/encode.h"
 #include FT_FREETYPE_H
 #include FT_MODULE_H
@@ -163,7 +164,7 @@ std::filesystem::path CaptionFontFile() {
 
 void AddCharacters(std::string_view text, std::set<uint32_t>& characters) {
   for (size_t at = 0; at < text.size();) {
-    const uint32_t character = render::NextCharacter(text, at);
+    const uint32_t character = NextCharacter(text, at);
     if (character >= 0x20) {
       characters.insert(character);
     }

@@ -68,6 +68,10 @@ Status AddClip(const CastOptions& options, const ProjectPaths& paths, CastDocume
 }
 
 Status Change(const CastOptions& options, const ProjectPaths& paths, CastDocument& member) {
+  if (options.title) {
+    LARARIUM_RETURN_IF_ERROR(CheckTitle("--title", *options.title));
+    SetTitle(*options.title, member);
+  }
   LARARIUM_RETURN_IF_ERROR(ChangeFigure(options, paths, member));
   ChangeBones(options.bones, member);
   LARARIUM_RETURN_IF_ERROR(ChangeVoice(options, member));
@@ -94,7 +98,8 @@ CommandResult List(const ProjectDocument& document) {
   CommandResult result;
   result.json = Json::array();
   for (const CastDocument& member : document.cast) {
-    result.text += member.name + ": " + FigureText(member);
+    const std::string title = member.title.empty() ? "" : " (" + member.title + ")";
+    result.text += member.name + title + ": " + FigureText(member);
     for (const ClipDocument& clip : member.clips) {
       result.text += "; " + clip.name + " from " + clip.file;
     }
@@ -181,7 +186,7 @@ class CastWorker {
   }
 
   Result<CastDocument*> Known(const std::string& name) {
-    return FindNamed(document_.cast, name, paths_.Project().string(), "has no person");
+    return FindTitled(document_.cast, name, paths_.Project().string(), "has no person");
   }
 
   // Finds the member with this name. Creates one unless the options require an existing member.
@@ -191,8 +196,9 @@ class CastWorker {
         !options_.rename_clip.empty()) {
       return known;
     }
-    LARARIUM_RETURN_IF_ERROR(CheckPlainName("--name", options_.name));
-    document_.cast.emplace_back().name = options_.name;
+    CastDocument added;
+    LARARIUM_RETURN_IF_ERROR(NameEntry(document_.cast, "--name", options_.name, "person", added));
+    document_.cast.push_back(std::move(added));
     return &document_.cast.back();
   }
 

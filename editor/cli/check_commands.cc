@@ -186,10 +186,11 @@ class CheckPointWorker {
 Result<CommandResult> RunCheckPoints(const CheckPointsOptions& options) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  if (!options.place.empty() && document.FindPlace(options.place) == nullptr) {
-    return ChoosePlace(paths, document, options.place).status();
+  CheckPointsOptions named = options;
+  if (!options.place.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(named.place, ChoosePlace(paths, document, options.place));
   }
-  return CheckPointWorker(paths, std::move(document), options).Run();
+  return CheckPointWorker(paths, std::move(document), named).Run();
 }
 
 }  // namespace lararium::editor

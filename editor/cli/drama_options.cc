@@ -70,7 +70,9 @@ void AddCast(CLI::App* command, CastOptions& options) {
   AddProject(command, options.project);
   CLI::Option* name = command->add_option(
       "--name", options.name,
-      "Add this person, as the drama calls them, or change what is given; the list otherwise");
+      "Add this person, as the drama calls them, or change what is given; a title makes a name of "
+      "its own; the list otherwise");
+  AddText(command, "--title", options.title, "What they are called in the editor")->needs(name);
   command->add_option("--remove", options.remove, "Take this person out of the cast")
       ->excludes(name);
   AddFigure(command, name, options);

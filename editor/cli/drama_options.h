@@ -13,7 +13,8 @@ namespace lararium::editor {
 // member, only the given properties change.
 struct CastOptions {
   std::filesystem::path project = {};
-  std::string name = {};    // Member to add or change; may be empty.
+  std::string name = {};  // Member to add or change; may be empty.
+  std::optional<std::string> title = {};
   std::string remove = {};  // Removes the member from the cast; the files stay.
   // At most one source of the figure. Without one, a member keeps its figure, and a new one
   // gets the plain built-in figure.

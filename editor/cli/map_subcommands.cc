@@ -7,7 +7,7 @@
 
 #include "editor/check/stage_report.h"
 #include "editor/cli/subcommands.h"
-#include "editor/document/document_fields.h"
+#include "editor/document/named_entries.h"
 #include "editor/document/project.h"
 #include "editor/jobs/camera_measure.h"
 #include "editor/jobs/filming.h"
@@ -35,16 +35,14 @@ Result<PlaceDocument*> PlaceToTrain(ProjectDocument& document, const std::string
   if (name.empty()) {
     name = document.places.size() == 1 ? document.places.front().name : "place";
   }
-  if (!IsPlainName(name)) {
-    return Status::Error("--place " + name, "cannot name a place",
-                         "use 1 to 64 letters, digits, '_' and '-'");
+  const Result<PlaceDocument*> known = FindTitled(document.places, name, "--place", "has no place");
+  if (known.ok()) {
+    return known;
   }
-  if (document.FindPlace(name) == nullptr) {
-    PlaceDocument place;
-    place.name = name;
-    document.places.push_back(std::move(place));
-  }
-  return document.FindPlace(name);
+  PlaceDocument place;
+  LARARIUM_RETURN_IF_ERROR(NameEntry(document.places, "--place", name, "place", place));
+  document.places.push_back(std::move(place));
+  return &document.places.back();
 }
 
 // Training takes minutes, so unwritable outputs are refused before it.

@@ -284,10 +284,11 @@ class OccluderWorker {
 Result<CommandResult> RunOccluder(const OccluderOptions& options) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  if (!options.place.empty() && document.FindPlace(options.place) == nullptr) {
-    return ChoosePlace(paths, document, options.place).status();
+  OccluderOptions named = options;
+  if (!options.place.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(named.place, ChoosePlace(paths, document, options.place));
   }
-  return OccluderWorker(paths, std::move(document), options).Run();
+  return OccluderWorker(paths, std::move(document), named).Run();
 }
 
 }  // namespace lararium::editor

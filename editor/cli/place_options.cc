@@ -27,7 +27,8 @@ void AddProjectItself(CLI::App* command, ProjectOptions& options) {
 void AddPlace(CLI::App* command, PlaceOptions& options) {
   AddProject(command, options.project);
   CLI::Option_group* work = command->add_option_group("work", "Before the list");
-  work->add_option("--add", options.add, "Add NAME, to be trained");
+  work->add_option("--add", options.add,
+                   "Add NAME, to be trained; a title makes a name of its own");
   work->add_option("--set", options.set, "Change NAME");
   work->add_option("--first", options.first,
                    "Put NAME before the others: the window opens with it");
@@ -37,6 +38,7 @@ void AddPlace(CLI::App* command, PlaceOptions& options) {
   work->require_option(0, 1);
   CLI::Option* to = command->add_option("--to", options.to, "The other name")->needs(rename);
   rename->needs(to);
+  AddText(command, "--title", options.title, "What it is called");
   CLI::Option* video = command->add_option("--video", options.video, "What it is trained from")
                            ->check(CLI::ExistingFile);
   command->add_option("--from-images", options.images_of, "A folder of images to train it from")
@@ -53,7 +55,7 @@ void AddPlace(CLI::App* command, PlaceOptions& options) {
 }
 
 void CheckPlace(const PlaceOptions& options) {
-  const bool changes = !options.video.empty() || !options.images_of.empty() ||
+  const bool changes = options.title || !options.video.empty() || !options.images_of.empty() ||
                        !options.preview.empty() || !options.occluders_of.empty();
   if (changes && options.add.empty() && options.set.empty()) {
     throw CLI::ValidationError("place", "needs a place: --add NAME or --set NAME");

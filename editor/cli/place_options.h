@@ -37,6 +37,7 @@ struct PlaceOptions {
   std::string rename = {};  // Name of a place to rename, with its folder, to `to`.
   std::string to = {};      // New name.
   std::string remove = {};  // Name of a place to remove; its files stay.
+  std::optional<std::string> title = {};  // Title of the place that is added or changed.
   // Training recording of the place that is added or changed: a video or a folder of images.
   std::filesystem::path video = {};
   std::filesystem::path images_of = {};

@@ -155,10 +155,11 @@ class ProbeWorker {
 Result<CommandResult> RunPlaceProbe(const ProbeOptions& options) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  if (!options.place.empty() && document.FindPlace(options.place) == nullptr) {
-    return ChoosePlace(paths, document, options.place).status();
+  ProbeOptions named = options;
+  if (!options.place.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(named.place, ChoosePlace(paths, document, options.place));
   }
-  return ProbeWorker(paths, std::move(document), options).Run();
+  return ProbeWorker(paths, std::move(document), named).Run();
 }
 
 }  // namespace lararium::editor

@@ -123,7 +123,7 @@ class PlaceWorker {
 
  private:
   Result<PlaceDocument*> Find(const std::string& name) {
-    return FindNamed(document_.places, name, paths_.Project().string(), "has no place");
+    return FindTitled(document_.places, name, paths_.Project().string(), "has no place");
   }
 
   // Performs the edit and saves; does not list.
@@ -136,13 +136,14 @@ class PlaceWorker {
       return Status();
     }
     if (!options_.add.empty()) {
-      LARARIUM_RETURN_IF_ERROR(CheckNewName(document_.places, "--add", options_.add));
-      document_.places.emplace_back().name = options_.add;
+      PlaceDocument added;
+      LARARIUM_RETURN_IF_ERROR(NameEntry(document_.places, "--add", options_.add, "place", added));
+      document_.places.push_back(std::move(added));
     }
     LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place,
                               Find(options_.add + options_.set + options_.first + options_.remove));
     if (!options_.first.empty()) {
-      PutPlaceFirst(options_.first, document_);
+      PutPlaceFirst(std::string(place->name), document_);
     } else if (!options_.remove.empty()) {
       document_.places.erase(document_.places.begin() + (place - document_.places.data()));
     } else {
@@ -152,6 +153,10 @@ class PlaceWorker {
   }
 
   Status Change(PlaceDocument& place) {
+    if (options_.title) {
+      LARARIUM_RETURN_IF_ERROR(CheckTitle("--title", *options_.title));
+      SetTitle(*options_.title, place);
+    }
     for (const auto& [file, kind] :
          {std::pair{&options_.video, SourceDocument::Kind::kVideo},
           std::pair{&options_.images_of, SourceDocument::Kind::kImages}}) {
@@ -173,15 +178,19 @@ class PlaceWorker {
   }
 
   Status Rename() {
-    LARARIUM_RETURN_IF_ERROR(Find(options_.rename).status());
-    LARARIUM_RETURN_IF_ERROR(CheckNewName(document_.places, "--to", options_.to));
-    return RenamePlace(paths_, options_.rename, options_.to, document_);
+    LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, Find(options_.rename));
+    const std::string from = place->name;
+    PlaceDocument named;
+    LARARIUM_RETURN_IF_ERROR(NameEntry(document_.places, "--to", options_.to, "place", named));
+    place->title = named.title;
+    return RenamePlace(paths_, from, named.name, document_);
   }
 
   Status List(const PlaceDocument& place, CommandResult& result) const {
     std::error_code ignored;
     const bool trained = std::filesystem::exists(paths_.Scene(place.name), ignored);
-    result.text += place.name + ": " + (trained ? "trained from " : "not trained; ") +
+    const std::string title = place.title.empty() ? "" : " (" + place.title + ")";
+    result.text += place.name + title + ": " + (trained ? "trained from " : "not trained; ") +
                    DescribeSource(place.training);
     if (!place.preview.empty()) {
       result.text += ", seen by " + place.preview.path;
@@ -189,6 +198,7 @@ class PlaceWorker {
     result.text += Text("; %zu recordings added, %zu occluders, %zu probes\n", place.added.size(),
                         place.occluders.size(), place.probes.size());
     Json json = {{"name", place.name},
+                 {"title", place.title},
                  {"trained", trained},
                  {"training", place.training.path},
                  {"preview", place.preview.path},

@@ -52,6 +52,7 @@ Result<import::BoneNames> GivenBoneNames(const std::filesystem::path& bone_map,
 
 void DescribeFields(Fields& fields, CastDocument& member) {
   DescribePlainName(fields, "name", member.name);
+  DescribeTitle(fields, member.title);
   const bool has_preset = fields.Has("preset", !member.preset.empty());
   const bool has_recipe = fields.Has("recipe", member.recipe && !has_preset);
   const bool has_model = fields.Has("model", !member.model.empty() && !has_preset && !has_recipe);

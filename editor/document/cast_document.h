@@ -30,6 +30,7 @@ struct ClipDocument {
 // At most one of preset, recipe and model is set. Without any: the plain built-in figure.
 struct CastDocument {
   std::string name;                          // The name of the actor in the drama.
+  std::string title;                         // The name in the interface; empty: as in the drama.
   std::string preset;                        // One of import::CastPresetNames().
   std::optional<import::CastRecipe> recipe;  // Like a preset, but stored in this project.
   std::string model;                         // The file of a figure that the editor imports.
@@ -42,6 +43,8 @@ struct CastDocument {
   // Properties of the plain figure, which is also used where the cast library is missing.
   double height = 1.72;                        // Metres.
   Eigen::Vector3d tunic = {0.60, 0.55, 0.45};  // Linear RGB albedo.
+
+  const std::string& label() const { return title.empty() ? name : title; }
 };
 
 // The recipe that builds the member; nullopt where it is not a person of the cast library. Fails

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "editor/document/titles.h"
+
 namespace lararium::editor {
 
 using geometry::Similarity3;
@@ -45,6 +47,12 @@ void DescribePlainName(Fields& fields, const FieldKey& key, std::string& name) {
   fields.Text(key, name);
   fields.Require(IsPlainName(name), "\"" + std::string(key.name) + "\" is also a file name",
                  "use 1 to 64 letters, digits, '_' and '-'");
+}
+
+void DescribeTitle(Fields& fields, std::string& title) {
+  fields.Text(Optional("title", !title.empty()), title);
+  fields.Require(title.empty() || IsTitle(title), "\"title\" cannot be a title",
+                 "use one line of at most " + std::to_string(kMaxTitle) + " bytes");
 }
 
 Json FormatVector(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }

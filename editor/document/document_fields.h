@@ -30,6 +30,9 @@ void DescribeRotation(Fields& fields, Eigen::Quaterniond& rotation);
 void DescribeSimilarity(Fields& fields, geometry::Similarity3& similarity);
 void DescribePlainName(Fields& fields, const FieldKey& key, std::string& name);
 
+// The field "title", which is missing where it is empty (titles.h).
+void DescribeTitle(Fields& fields, std::string& title);
+
 // While reading, two entries of the list with the same name are an error.
 template <typename Entry>
 void RequireUniqueNames(Fields& fields, const FieldKey& list, const std::vector<Entry>& entries) {

@@ -37,11 +37,11 @@ void ForEachFile(Document& document, const See& see) {
     }
   };
   for (auto& place : document.places) {
-    recording(place.training, RoleOf(TrLater("the recording of \"%s\""), place.name));
+    recording(place.training, RoleOf(TrLater("the recording of \"%s\""), place.label()));
     recording(place.preview,
-              RoleOf(TrLater("the recording for the preview of \"%s\""), place.name));
+              RoleOf(TrLater("the recording for the preview of \"%s\""), place.label()));
     for (auto& session : place.added) {
-      recording(session.source, RoleOf(TrLater("an added session of \"%s\""), place.name));
+      recording(session.source, RoleOf(TrLater("an added session of \"%s\""), place.label()));
     }
     for (auto& occluder : place.occluders) {
       see(occluder.file, FileKind::kModel, RoleOf(TrLater("the occluder \"%s\""), occluder.name),
@@ -53,13 +53,14 @@ void ForEachFile(Document& document, const See& see) {
     }
   }
   for (auto& member : document.cast) {
-    see(member.model, FileKind::kModel, RoleOf(TrLater("the figure of \"%s\""), member.name),
+    see(member.model, FileKind::kModel, RoleOf(TrLater("the figure of \"%s\""), member.label()),
         "put it back, or import \"" + member.name + "\" again");
-    see(member.bone_map, FileKind::kBones, RoleOf(TrLater("the bone map of \"%s\""), member.name),
+    see(member.bone_map, FileKind::kBones,
+        RoleOf(TrLater("the bone map of \"%s\""), member.label()),
         "put it back, or name the bones again");
     for (auto& clip : member.clips) {
       see(clip.file, FileKind::kClip,
-          RoleOf(TrLater("the clip \"%s\" of \"%s\""), clip.name, member.name),
+          RoleOf(TrLater("the clip \"%s\" of \"%s\""), clip.name, member.label()),
           "put it back, or remove the clip \"" + clip.name + "\"");
     }
   }

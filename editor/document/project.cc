@@ -120,6 +120,7 @@ void DescribeGeometry(Fields& fields, OccluderDocument& occluder) {
 
 void DescribePlace(Fields& fields, PlaceDocument& place) {
   DescribePlainName(fields, "name", place.name);
+  DescribeTitle(fields, place.title);
   PlaceRecordings recordings = RecordingsOf(place);
   DescribeFields(fields, recordings);
   if (fields.reading()) {
@@ -242,6 +243,12 @@ PlaceDocument* ProjectDocument::FindPlace(std::string_view name) {
   return const_cast<PlaceDocument*>(std::as_const(*this).FindPlace(name));
 }
 
+std::string ProjectDocument::PersonLabel(const std::string& name) const {
+  const auto found =
+      std::find_if(cast.begin(), cast.end(), [&](const auto& m) { return m.name == name; });
+  return found == cast.end() ? name : found->label();
+}
+
 namespace {
 
 void DescribeLanguages(Fields& fields, std::string_view name, std::vector<std::string>& list) {
@@ -334,10 +341,15 @@ Result<std::string> ChoosePlace(const ProjectPaths& paths,
                                 const ProjectDocument& document,
                                 const std::string& name) {
   if (!name.empty()) {
-    if (document.FindPlace(name) == nullptr) {
+    if (document.FindPlace(name) != nullptr) {
+      return name;
+    }
+    const auto titled = std::find_if(document.places.begin(), document.places.end(),
+                                     [&](const auto& place) { return place.title == name; });
+    if (titled == document.places.end()) {
       return Status::Error(paths.Project().string(), "has no place \"" + name + "\"");
     }
-    return name;
+    return titled->name;
   }
   if (document.places.size() != 1) {
     return Status::Error(paths.Project().string(),

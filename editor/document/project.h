@@ -133,7 +133,8 @@ inline constexpr double kMinStageScale = 1e-4;
 inline constexpr double kMaxStageScale = 1e4;
 
 struct PlaceDocument {
-  std::string name;
+  std::string name;   // The name of its folder, and in scripts.
+  std::string title;  // What it is called in the interface; empty: as its name.
   SourceDocument training;
   // The recording in the editor's camera view. Empty: the training recording.
   SourceDocument preview;
@@ -155,6 +156,7 @@ struct PlaceDocument {
   // Picks of the project's check points at this place. An anchor has the name of its check point.
   std::vector<stage::Anchor> check_picks;
 
+  const std::string& label() const { return title.empty() ? name : title; }
   const OccluderDocument* FindOccluder(std::string_view occluder) const;
   OccluderDocument* FindOccluder(std::string_view occluder);
 };
@@ -190,6 +192,8 @@ struct ProjectDocument {
 
   const PlaceDocument* FindPlace(std::string_view name) const;
   PlaceDocument* FindPlace(std::string_view name);
+  // The title of the person with a name of the drama; the name itself where there is none.
+  std::string PersonLabel(const std::string& name) const;
 };
 
 // Removes an added recording of a place (session: 1 or higher) and the picks in it. Later sessions,
@@ -214,7 +218,7 @@ Status CreateProject(const ProjectPaths& paths, const std::string& title);
 // One Status for each missing file that the project needs (missing_files.h).
 std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document);
 
-// The place that an option names, or the only one.
+// The name of the place that an option gives by its name or title, or of the only one.
 Result<std::string> ChoosePlace(const ProjectPaths& paths,
                                 const ProjectDocument& document,
                                 const std::string& name);

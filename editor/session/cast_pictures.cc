@@ -155,6 +155,7 @@ CastPictures::~CastPictures() = default;
 std::string CastPictures::KeyOf(const CastDocument& member) const {
   CastDocument seen = member;
   seen.voice = {};
+  seen.title.clear();
   std::string key = FormatFields(seen).dump();
   for (const std::string& file : {member.model, member.bone_map}) {
     key += file.empty() ? "" : FileStamp(project_.Resolve(file));

@@ -62,7 +62,8 @@ void CastSession::FetchLibrary() {
 const BoneReview* CastSession::bone_review(const CastDocument& member) {
   const ProjectPaths& paths = project_.paths();
   CastDocument figure = member;
-  figure.voice = {};  // The voice does not change the bones.
+  figure.voice = {};  // The voice and the title do not change the bones.
+  figure.title.clear();
   const std::string key = FormatFields(figure).dump() + FileStamp(paths.Resolve(member.model)) +
                           FileStamp(paths.Resolve(member.bone_map));
   bones_.Refresh(

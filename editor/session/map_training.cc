@@ -3,6 +3,7 @@
 #include <system_error>
 #include <utility>
 
+#include "editor/document/titles.h"
 #include "editor/jobs/previous_map.h"
 #include "editor/jobs/training.h"
 #include "editor/text/text.h"
@@ -65,16 +66,19 @@ void MapTraining::Train() {
   }
 }
 
-void MapTraining::TrainFrom(const std::string& name, const SessionDocument& recording) {
+void MapTraining::TrainFrom(const std::string& name,
+                            const std::string& title,
+                            const SessionDocument& recording) {
   std::error_code ignored;
   const bool has_map = project_.document().FindPlace(name) != nullptr &&
                        std::filesystem::exists(project_.paths().Scene(name), ignored);
   if (!has_map) {
-    project_.Edit(Sentence("train %s", {name}), [&](ProjectDocument& document) {
+    project_.Edit(Sentence("train %s", {title}), [&](ProjectDocument& document) {
       PlaceDocument* place = document.FindPlace(name);
       if (place == nullptr) {
         place = &document.places.emplace_back();
         place->name = name;
+        SetTitle(title, *place);
       }
       place->training = recording.source;
       place->intrinsics = recording.intrinsics;

@@ -28,10 +28,12 @@ class MapTraining {
 
   // Trains the current place from its recordings.
   void Train();
-  // Trains the place of that name from another first recording; adds the place where it does not
-  // exist. Where the place already has a map, the document changes only after a successful
-  // training, and the change cannot be undone.
-  void TrainFrom(const std::string& place, const SessionDocument& recording);
+  // Trains the place of that name from another first recording; adds the place, with the title,
+  // where it does not exist. Where the place already has a map, the document changes only after a
+  // successful training, and the change cannot be undone.
+  void TrainFrom(const std::string& name,
+                 const std::string& title,
+                 const SessionDocument& recording);
   // Merges a further recording into the map of the current place. The document changes only
   // afterwards, and the change cannot be undone.
   void AddSession(const SessionDocument& session);

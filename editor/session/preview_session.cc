@@ -80,7 +80,8 @@ std::string PreviewSession::Key() const {
     // Rotation and brightness can change without opening the preview again.
     key["probes"].push_back({probe.name, probe.file, FileStamp(paths.Resolve(probe.file))});
   }
-  for (const CastDocument& member : document.cast) {
+  for (CastDocument member : document.cast) {
+    member.title.clear();  // A title changes no picture.
     key["cast"].push_back(FormatFields(member));
   }
   for (const ObjectDocument& object : document.objects) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "editor/document/titles.h"
 #include "editor/panels/dialogs/checks_panel.h"
 #include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/dialogs/messages.h"
@@ -115,6 +116,48 @@ void Layout::BeginFilming(const std::string& place) {
   dialogs_.shown = panels::Dialog::kFilm;
   dialogs_.fields = {};
   dialogs_.fields.place = place;
+}
+
+void Layout::TellOfDrop(const std::string& text) {
+  dialogs_.shown = panels::Dialog::kDropMessage;
+  dialogs_.fields = {};
+  dialogs_.fields.title = text;
+}
+
+void Layout::Drop(Workspace& workspace, const panels::DroppedFile& dropped) {
+  using Kind = panels::DroppedFile::Kind;
+  const PlaceDocument* place = workspace.project().place();
+  panels::DialogFields fields;
+  fields.file = dropped.file.string();
+  fields.images = dropped.kind == Kind::kImages;
+  switch (dropped.kind) {
+    case Kind::kVideo:
+    case Kind::kImages:
+      fields.place = place != nullptr ? place->label() : "";
+      dialogs_.shown = workspace.map().loaded().database != nullptr ? panels::Dialog::kAddSession
+                                                                    : panels::Dialog::kTrain;
+      break;
+    case Kind::kModel:
+      dialogs_.shown = panels::Dialog::kDroppedModel;
+      break;
+    case Kind::kFigure:
+      fields.title = dropped.file.stem().string();
+      dialogs_.shown = panels::Dialog::kCast;
+      break;
+    case Kind::kProbe:
+      if (place == nullptr) {
+        TellOfDrop(panels::Tr("A light probe belongs to a place: train one first."));
+        return;
+      }
+      fields.name = PlainNameOf(dropped.file.stem().string());
+      dialogs_.shown = panels::Dialog::kProbe;
+      break;
+    case Kind::kProject:
+    case Kind::kOther:
+      TellOfDrop(panels::UselessDropText(dropped.file.filename().string()));
+      return;
+  }
+  dialogs_.fields = fields;
 }
 
 void Layout::DrawViewport(Workspace& workspace) {

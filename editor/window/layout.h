@@ -6,6 +6,7 @@
 #include <string>
 
 #include "editor/panels/dialogs/calibration_dialog.h"
+#include "editor/panels/dialogs/dropped_file.h"
 #include "editor/panels/dialogs/film_dialog.h"
 #include "editor/panels/dialogs/live_camera_dialog.h"
 #include "editor/panels/dialogs/missing_files_panel.h"
@@ -36,6 +37,16 @@ class Layout {
   void AddKey(const panels::KeyPress& press) { input_.keys.push_back(press); }
   // Whether arrows, Enter and Space navigate in the panel with keyboard focus.
   bool keys_walk() const { return input_.keyboard.walks(); }
+  // Begins what a dropped file is for: a dialog with the file filled in, or a message.
+  void Drop(Workspace& workspace, const panels::DroppedFile& dropped);
+  void TellOfDrop(const std::string& text);
+  // Whether a dialog is open.
+  bool has_dialog() const {
+    return dialogs_.shown != panels::Dialog::kNone || calibration_.is_open() || missing_.locating();
+  }
+  void RequestLeave() { actions_.emplace_back(panels::CloseProject()); }
+  // Whether the project was asked to close, and the user has not chosen to stay.
+  bool leaving() const { return leave_; }
   void RequestQuit() { actions_.emplace_back(panels::CloseWindow()); }
   // True after a request to quit, or to return to the start page, if no long task runs or the user
   // has chosen to stop it.

@@ -8,12 +8,15 @@
 #include <imgui_impl_opengl3.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "editor/panels/widgets/file_chooser.h"
 #include "editor/panels/widgets/key_state.h"
 #include "editor/panels/widgets/keyboard_focus.h"
 #include "editor/panels/widgets/keys.h"
@@ -24,6 +27,10 @@
 #include "editor/window/window_content.h"
 #include "shared/core/memory.h"
 #include "shared/render/gl/window.h"
+
+// Declared here, because GLFW/glfw3native.h also needs the headers of Xlib and RandR. A GLFW that
+// was built for Wayland alone lacks it.
+extern "C" __attribute__((weak)) unsigned long glfwGetX11Window(GLFWwindow* window);
 
 namespace lararium::editor {
 
@@ -124,6 +131,14 @@ int KeyOfLayout(int key) {
   return letter ? name[0] - 'a' + GLFW_KEY_A : key;
 }
 
+// The window as the desktop's portal identifies it; empty where it does not lie on an X server.
+std::string PortalWindow(GLFWwindow* window) {
+  const unsigned long id = glfwGetX11Window != nullptr ? glfwGetX11Window(window) : 0;
+  std::array<char, 32> text = {};
+  std::snprintf(text.data(), text.size(), "x11:%lx", id);
+  return id != 0 ? text.data() : "";
+}
+
 // Reduces a window that is larger than the monitor.
 void FitOnMonitor(const render::Window& window, const WindowSizes& sizes) {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
@@ -161,6 +176,7 @@ Status MainLoop(render::Window& window,
                 const WindowSizes& sizes,
                 Log& log) {
   Interface interface(window);
+  panels::FileChooser chooser(PortalWindow(window.handle()));
   WindowContent content(std::move(workspace), settings, sizes.panels, log);
   render::WindowCallbacks callbacks;
   panels::AltTap alt;
@@ -176,6 +192,9 @@ Status MainLoop(render::Window& window,
   callbacks.mouse_button = [&alt](int, int, int) { alt.Cancel(); };
   callbacks.character = [&content](char32_t character) { content.AddCharacter(character); };
   bool lost = false;
+  callbacks.drop = [&content](const std::vector<std::string>& paths) {
+    content.Drop({paths.begin(), paths.end()});
+  };
   callbacks.refresh = [&lost] { lost = true; };
   window.SetCallbacks(std::move(callbacks));
   auto last = std::chrono::steady_clock::now();
@@ -198,6 +217,7 @@ Status MainLoop(render::Window& window,
       continue;
     }
     interface.SetLook(content.settings(), window.content_scale());
+    chooser.BeginFrame();
     interface.Begin(content.keys_walk());
     status = content.Show();
     if (interface.End(std::exchange(lost, false))) {

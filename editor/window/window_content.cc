@@ -3,8 +3,11 @@
 #include <chrono>
 #include <utility>
 
+#include "editor/document/titles.h"
 #include "editor/document/user_folders.h"
 #include "editor/panels/dialogs/dialogs.h"
+#include "editor/panels/widgets/file_chooser.h"
+#include "editor/panels/widgets/keyboard_focus.h"
 #include "editor/session/project_picture.h"
 #include "editor/session/sample.h"
 #include "editor/text/text.h"
@@ -14,6 +17,10 @@ namespace lararium::editor {
 using panels::StartChoice;
 
 namespace {
+
+const char* DialogIsOpenText() {
+  return Tr("A dialog is open that has no use for what was dropped: close it, then drop it again.");
+}
 
 std::filesystem::path SettingsFile() { return ConfigFolder() / "editor.json"; }
 std::filesystem::path SizesFile() { return StateFolder() / "window.json"; }
@@ -57,6 +64,7 @@ WindowContent::WindowContent(std::unique_ptr<Workspace> workspace,
   if (const Status status = recent_.Reload(); !status.ok()) {
     start_.SetProblem(status.message());
   }
+  panels::FileChooser::Current().SetRecent(recent_.entries());
   if (workspace != nullptr) {
     Enter(std::move(workspace));
   }
@@ -90,6 +98,7 @@ void WindowContent::Enter(std::unique_ptr<Workspace> workspace) {
   if (const Status status = recent_.NoteOpened(project); !status.ok()) {
     log_.warn("{}", status.message());  // Not fatal.
   }
+  panels::FileChooser::Current().SetRecent(recent_.entries());
 }
 
 void WindowContent::Leave() {
@@ -130,19 +139,21 @@ void WindowContent::Open(const std::filesystem::path& project) {
   }
 }
 
-Status WindowContent::MakeNew(const StartChoice& choice) {
-  const ProjectPaths paths{choice.project};
-  LARARIUM_RETURN_IF_ERROR(CreateProject(paths, choice.fields.name));
+Status WindowContent::MakeNew(const panels::NewProject& made) {
+  const ProjectPaths paths{made.folder};
+  LARARIUM_RETURN_IF_ERROR(CreateProject(paths, made.title));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Workspace> workspace, Workspace::Open(paths, log_));
   Enter(std::move(workspace));
-  switch (choice.begin) {
-    case StartChoice::Begin::kRecording:
-      panels::TrainRecording(*workspace_, choice.fields);
+  switch (made.begin) {
+    case panels::NewProject::Begin::kRecording:
+      panels::TrainRecording(
+          *workspace_, {made.title, FreeNameOf(made.title, "place", [](auto&) { return false; })},
+          made.fields);
       break;
-    case StartChoice::Begin::kFilming:
-      film_ = choice.fields.place;
+    case panels::NewProject::Begin::kFilming:
+      film_ = made.fields.place;
       break;
-    case StartChoice::Begin::kEmpty:
+    case panels::NewProject::Begin::kEmpty:
       break;
   }
   workspace_->project().Save();
@@ -161,7 +172,7 @@ void WindowContent::Follow(const StartChoice& choice) {
       Open(choice.project);
       return;
     case StartChoice::Kind::kNew:
-      problem = MakeNew(choice);
+      problem = MakeNew(choice.made);
       break;
     case StartChoice::Kind::kSample: {
       const Result<std::filesystem::path> own = OwnSample(sample_, DataFolder());
@@ -178,6 +189,66 @@ void WindowContent::Follow(const StartChoice& choice) {
   }
 }
 
+void WindowContent::Drop(const std::vector<std::filesystem::path>& paths) {
+  dropped_ = panels::ClassifyDrop(paths);
+  has_dropped_ = true;
+  panels::FileChooser::Current().Drop(dropped_.file);
+}
+
+// Handles what no field has taken.
+void WindowContent::TakeDrop() {
+  using Kind = panels::DroppedFile::Kind;
+  panels::FileChooser& chooser = panels::FileChooser::Current();
+  if (!has_dropped_ || chooser.OffersDrop()) {
+    return;
+  }
+  has_dropped_ = false;
+  if (chooser.drop_taken()) {
+    return;
+  }
+  if (workspace_ == nullptr) {
+    DropOnStart(dropped_);
+  } else if (layout_ == nullptr || layout_->has_dialog() || panels::KeysBelongToMenus()) {
+    workspace_->messages().Tell(Message::Level::kWarning, DialogIsOpenText());
+  } else if (dropped_.kind != Kind::kProject) {
+    layout_->Drop(*workspace_, dropped_);
+  } else if (NormalFolder(dropped_.file) == NormalFolder(workspace_->project().paths().folder)) {
+    layout_->TellOfDrop(Tr("This project is open already."));
+  } else {
+    next_ = dropped_.file;
+    layout_->RequestLeave();
+  }
+}
+
+void WindowContent::DropOnStart(const panels::DroppedFile& dropped) {
+  using Kind = panels::DroppedFile::Kind;
+  using From = panels::NewProjectDialog::From;
+  const std::string name = dropped.file.filename().string();
+  if (start_.has_dialog()) {
+    start_.SetProblem(DialogIsOpenText());
+    return;
+  }
+  switch (dropped.kind) {
+    case Kind::kProject:
+      Open(dropped.file);
+      return;
+    case Kind::kVideo:
+    case Kind::kImages:
+      start_.BeginNew(dropped.kind == Kind::kVideo ? From::kVideo : From::kImages, recent_,
+                      dropped.file);
+      return;
+    case Kind::kModel:
+    case Kind::kFigure:
+    case Kind::kProbe:
+      start_.SetProblem(panels::Text(
+          Tr("%s belongs into a project: open or make one, then drop it again."), name.c_str()));
+      return;
+    case Kind::kOther:
+      start_.SetProblem(panels::UselessDropText(name));
+      return;
+  }
+}
+
 void WindowContent::Update(double seconds) {
   if (workspace_ == nullptr) {
     return;
@@ -190,6 +261,7 @@ void WindowContent::Update(double seconds) {
 
 Status WindowContent::Show() {
   const Settings before = settings_;
+  TakeDrop();
   if (workspace_ == nullptr) {
     const StartChoice choice = start_.Show(recent_, keys_, !sample_.empty(), settings_);
     keys_.clear();
@@ -225,6 +297,11 @@ Status WindowContent::DrawProject() {
   quit_ |= layout_->quit_requested();
   if (layout_->leave_requested()) {
     Leave();
+    if (!next_.empty()) {
+      Open(std::exchange(next_, {}));
+    }
+  } else if (!layout_->leaving()) {
+    next_.clear();  // The user stays.
   }
   return Status();
 }

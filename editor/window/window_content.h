@@ -2,10 +2,12 @@
 
 // What the editor's window shows: the start page, or one project.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "editor/panels/dialogs/dropped_file.h"
 #include "editor/panels/dialogs/start_page.h"
 #include "editor/session/recent_projects.h"
 #include "editor/session/settings.h"
@@ -38,6 +40,9 @@ class WindowContent {
   void AddKey(const panels::KeyPress& press) { keys_.push_back(press); }
   // Sets the character that the last added key types.
   void AddCharacter(char32_t character);
+  // Files and folders that were dropped on the window. A field of an open dialog takes what fits;
+  // otherwise a project is opened, a recording begins a project or a place, and so on.
+  void Drop(const std::vector<std::filesystem::path>& paths);
   // The settings chosen in the interface; saved at once.
   const Settings& settings() const { return settings_; }
   // The panel sizes set by dragging.
@@ -62,9 +67,11 @@ class WindowContent {
   // program ends, and are restored when the project is opened again.
   void Leave();
   void Open(const std::filesystem::path& project);
-  Status MakeNew(const panels::StartChoice& choice);
+  Status MakeNew(const panels::NewProject& made);
   void Follow(const panels::StartChoice& choice);
   void KeepPicture();
+  void TakeDrop();
+  void DropOnStart(const panels::DroppedFile& dropped);
 
   Log& log_;
   Settings settings_;
@@ -76,8 +83,11 @@ class WindowContent {
   std::unique_ptr<Workspace> workspace_;  // nullptr: the start page is shown.
   std::unique_ptr<Layout> layout_;        // The layout of workspace_.
   bool pictured_ = false;                 // True after the project's picture was saved.
-  std::string film_;                      // Place to film, opened with the project's first frame.
-  bool tour_ = false;                     // Starts the tour with the project's first frame.
+  panels::DroppedFile dropped_;
+  bool has_dropped_ = false;    // True until dropped_ was taken or told about.
+  std::filesystem::path next_;  // The project to open when the present one is left.
+  std::string film_;            // Place to film, opened with the project's first frame.
+  bool tour_ = false;           // Starts the tour with the project's first frame.
   bool quit_ = false;
 };
 

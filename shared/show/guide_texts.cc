@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "shared/core/utf8.h"
+
 namespace lararium::show {
 namespace {
 
@@ -38,7 +40,7 @@ constexpr Known kKnown[] = {
 
 bool CanWrite(const render::CaptionFont& font, std::string_view text) {
   for (size_t at = 0; at < text.size();) {
-    const uint32_t character = render::NextCharacter(text, at);
+    const uint32_t character = NextCharacter(text, at);
     if (character != '\n' && font.Find(character) == nullptr) {
       return false;
     }

@@ -84,6 +84,20 @@ TEST_F(CastCommands, WhoIsNewIsAddedAsThePlainFigure) {
   EXPECT_EQ(Run({})->json.size(), 3u);
 }
 
+TEST_F(CastCommands, ATitleMakesANameAndFindsThePerson) {
+  ASSERT_TRUE(Run({.name = "Größe", .height = 1.2}).ok());
+  EXPECT_EQ(Saved(2)["name"], "Groesse");
+  EXPECT_EQ(Saved(2)["title"], "Größe");
+  ASSERT_TRUE(Run({.name = "Größe", .title = "The tall one", .height = 1.3}).ok());
+  EXPECT_EQ(Saved(2)["name"], "Groesse");
+  EXPECT_EQ(Saved(2)["height"], 1.3);
+  EXPECT_THAT(Run({})->text, HasSubstr("Groesse (The tall one): plain figure"));
+  ASSERT_TRUE(Run({.name = "Groesse", .title = "Groesse"}).ok());
+  EXPECT_FALSE(Saved(2).contains("title"));
+  ASSERT_TRUE(Run({.name = "東京"}).ok());
+  EXPECT_EQ(Saved(3)["name"], "person");
+}
+
 TEST_F(CastCommands, OneIsTakenOutAndTheOthersStay) {
   const Json ada = Saved(0);
   ASSERT_TRUE(Run({.remove = "ben"}).ok());
@@ -133,7 +147,8 @@ TEST_F(CastCommands, WhatCannotBeIsRefusedAndNothingIsSaved) {
   EXPECT_THAT(Problem({.name = "ada", .add_clip = folder_ / "a walk.bvh"}),
               HasSubstr("--clip-name"));
   EXPECT_THAT(Problem({.name = "ada", .voice_rate = 1000}), HasSubstr("voice of ada"));
-  EXPECT_THAT(Problem({.name = "a name"}), HasSubstr("\"a name\" is not a valid name"));
+  EXPECT_THAT(Problem({.name = "a\nname"}), HasSubstr("is not a valid title"));
+  EXPECT_THAT(Problem({.name = "ada", .title = ""}), HasSubstr("is not a valid title"));
   EXPECT_EQ(FormatProject(*LoadProject(paths_)), before);
 }
 

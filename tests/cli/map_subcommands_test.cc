@@ -166,7 +166,8 @@ TEST_F(MapSubcommands, AnImportThatFailsLeavesTheProjectAsItWas) {
   ASSERT_TRUE(
       RunExportColmap({.project = paths.folder, .model = folder_ / "model", .place = ""}).ok());
   EXPECT_THAT(Import(paths, folder_ / "model").message(), HasSubstr("has no folder images"));
-  EXPECT_THAT(Import(paths, folder_ / "model", "no/name").message(), HasSubstr("cannot name"));
+  EXPECT_THAT(Import(paths, folder_ / "model", "no\nname").message(),
+              HasSubstr("not a valid title"));
   EXPECT_EQ(*ReadText(paths.Project()), before);
   EXPECT_EQ(*ReadText(paths.Scene("wall")), map_before);
 }

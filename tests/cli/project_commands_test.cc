@@ -77,6 +77,30 @@ TEST_F(ProjectCommands, PlacesAreAddedPutFirstAndRemoved) {
   EXPECT_TRUE(std::filesystem::exists(paths_.Scene("maquette"))) << "files stay";
 }
 
+TEST_F(ProjectCommands, ATitleMakesANameAndFindsThePlace) {
+  ASSERT_TRUE(Place({.add = "Casa del Fauno, atrio"}).ok());
+  EXPECT_THAT(Places(), ElementsAre("maquette", "site", "Casa_del_Fauno_atrio"));
+  EXPECT_EQ(Saved().places[2].title, "Casa del Fauno, atrio");
+  EXPECT_THAT(Place({})->text, HasSubstr("Casa_del_Fauno_atrio (Casa del Fauno, atrio): not"));
+  EXPECT_THAT(Place({.add = "Casa del Fauno, atrio"}).status().message(), HasSubstr("already"));
+  EXPECT_EQ(*ChoosePlace(paths_, Saved(), "Casa del Fauno, atrio"), "Casa_del_Fauno_atrio");
+  ASSERT_TRUE(Place({.first = "Casa del Fauno, atrio"}).ok());
+  EXPECT_EQ(Saved().places[0].name, "Casa_del_Fauno_atrio");
+  // The same letters give a name of its own.
+  ASSERT_TRUE(Place({.add = "Casa del Fauno: atrio"}).ok());
+  EXPECT_EQ(Saved().places[3].name, "Casa_del_Fauno_atrio_2");
+}
+
+TEST_F(ProjectCommands, ATitleAloneLeavesTheFolderAndARenamingFollowsIt) {
+  ASSERT_TRUE(Place({.set = "site", .title = "Größe"}).ok());
+  EXPECT_THAT(Places(), ElementsAre("maquette", "site"));
+  EXPECT_EQ(Saved().places[1].title, "Größe");
+  ASSERT_TRUE(Place({.rename = "Größe", .to = "The bar"}).ok());
+  EXPECT_THAT(Places(), ElementsAre("maquette", "The_bar"));
+  EXPECT_EQ(Saved().places[1].title, "The bar");
+  EXPECT_TRUE(std::filesystem::exists(paths_.Scene("The_bar")));
+}
+
 TEST_F(ProjectCommands, APlaceIsRenamedWithItsFolderAndAllThatLiesInIt) {
   ASSERT_TRUE(
       WriteFileAtomically(paths_.Place("site") / "walk.mp4", std::string_view("film")).ok());
@@ -186,8 +210,8 @@ TEST_F(ProjectCommands, WhatNoPlaceIsCalledIsTold) {
   EXPECT_THAT(Place({.remove = "moon"}).status().message(),
               HasSubstr("has no place \"moon\"; it has maquette, site"));
   EXPECT_THAT(Place({.add = "site"}).status().message(), HasSubstr("already"));
-  EXPECT_THAT(Place({.rename = "site", .to = "a site"}).status().message(),
-              HasSubstr("not a valid name"));
+  EXPECT_THAT(Place({.rename = "site", .to = "a\nsite"}).status().message(),
+              HasSubstr("not a valid title"));
   EXPECT_THAT(Place({.set = "site", .occluders_of = "moon"}).status().message(),
               HasSubstr("no place \"moon\""));
   EXPECT_EQ(FormatProject(Saved()), before);

@@ -15,6 +15,7 @@ using testing::HasSubstr;
 ProjectDocument FullDocument() {
   PlaceDocument place;
   place.name = "thermopolium";
+  place.title = "Größe, l'atrio";
   place.training = {SourceDocument::Kind::kVideo, "training.mp4"};
   place.preview = {SourceDocument::Kind::kImages, "/elsewhere/frames"};
   place.intrinsics = geometry::CameraModel{640, 480, 600.5, 601.25, 319.5, 239.5, -0.1, 0.01};
@@ -214,6 +215,9 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"places", "/places", Json::object()},
         Damage{"path_as_name", "/places/0/name", "../etc"},
         Damage{"empty_name", "/places/0/name", ""},
+        Damage{"two_lines", "/places/0/title", "a\nb"},
+        Damage{"long_title", "/cast/0/title", std::string(201, 'a')},
+        Damage{"title_number", "/cast/0/title", 3},
         Damage{"same_name", "/places/0/name", "maquette"},
         Damage{"no_source", "/places/0/training", Json::object()},
         Damage{"rotation", "/places/0/adjust/rotation", {1, 1, 0, 0}},

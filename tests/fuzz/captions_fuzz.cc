@@ -6,6 +6,7 @@
 #include "editor/bake/caption_file.h"
 #include "editor/bake/caption_layout.h"
 #include "shared/core/check.h"
+#include "shared/core/utf8.h"
 #include "shared/render/text/caption_font.h"
 #include "shared/stage/caption_file.h"
 
@@ -32,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   (void)render::ParseCaptionFont(text, no_atlas, "font.json").ok();
   for (size_t at = 0; at < text.size();) {
     const size_t before = at;
-    (void)render::NextCharacter(text, at);
+    (void)NextCharacter(text, at);
     CHECK(at > before && at <= text.size());
   }
   return 0;

@@ -8,7 +8,7 @@ set(floors
   "shared/stage"
   "shared/drama shared/bundle shared/render shared/audio"
   "shared/show"
-  "editor/text editor/train editor/import editor/export player/kiosk player/benchmark"
+  "editor/desktop editor/text editor/train editor/import editor/export player/kiosk player/benchmark"
   "editor/bake player/staff player/openxr"
   "editor/document player/app"
   "editor/jobs"

@@ -42,22 +42,6 @@ TEST(CaptionFont, RefusesLettersOutsideOfTheAtlasOrOutOfOrder) {
   EXPECT_FALSE(ParseCaptionFont(FormatCaptionMetrics(font), {}, "font.json").ok());
 }
 
-TEST(CaptionFont, CharactersOfBadUtf8AreReplacedAndEnd) {
-  const auto characters = [](std::string_view text) {
-    std::vector<uint32_t> found;
-    for (size_t at = 0; at < text.size();) {
-      found.push_back(NextCharacter(text, at));
-    }
-    return found;
-  };
-  EXPECT_THAT(characters("aē→\xF0\x9F\x8D\xB7"),
-              ::testing::ElementsAre('a', 0x113, 0x2192, 0x1F377));
-  EXPECT_THAT(characters("\x80"
-                         "a"),
-              ::testing::ElementsAre(0xFFFD, 'a'));
-  EXPECT_THAT(characters("\xE2\x86"), ::testing::ElementsAre(0xFFFD));
-}
-
 TEST(CaptionLayout, RowsAreCentredOneBelowTheOtherInsideTheirGround) {
   const CaptionFont font = BoxFont();
   const Caption caption = {"a", glm::vec3(1.0f, 0.0f, 0.0f), CaptionSide::kHere, "abc\nab"};

@@ -267,7 +267,7 @@ TEST_F(TrainFromTest, APlaceWithAMapGoesOnAsItWasWhereTrainingFails) {
                       test::MakeSceneDatabase(test::MakeSyntheticWorld({})))
                   .ok());
   const auto workspace = Open();
-  workspace->training().TrainFrom("site", Recording("second.mp4"));
+  workspace->training().TrainFrom("site", "The site", Recording("second.mp4"));
   EXPECT_TRUE(workspace->AtLongWork());
   WaitForTasks(*workspace);
   EXPECT_FALSE(workspace->AtLongWork());
@@ -277,11 +277,11 @@ TEST_F(TrainFromTest, APlaceWithAMapGoesOnAsItWasWhereTrainingFails) {
 
 TEST_F(TrainFromTest, APlaceWithoutAMapNamesItsRecordingAtOnce) {
   const auto workspace = Open();
-  workspace->training().TrainFrom("site", Recording("first.mp4"));
+  workspace->training().TrainFrom("site", "The site", Recording("first.mp4"));
   ASSERT_NE(workspace->project().place(), nullptr);
   EXPECT_EQ(workspace->project().place()->training.path, "first.mp4");
   WaitForTasks(*workspace);
-  workspace->training().TrainFrom("site", Recording("second.mp4"));
+  workspace->training().TrainFrom("site", "The site", Recording("second.mp4"));
   EXPECT_EQ(workspace->project().place()->training.path, "second.mp4");
   WaitForTasks(*workspace);
   workspace->project().Undo();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shared/core/utf8.h"
 #include "shared/show/guide_texts.h"
 
 namespace lararium::show {
@@ -102,7 +103,7 @@ TEST(LostGuide, NeedsNoMap) {
 render::CaptionFont Letters(std::string_view text) {
   render::CaptionFont font;
   for (size_t at = 0; at < text.size();) {
-    font.glyphs.push_back({render::NextCharacter(text, at), 0.5f});
+    font.glyphs.push_back({NextCharacter(text, at), 0.5f});
   }
   std::sort(font.glyphs.begin(), font.glyphs.end(),
             [](const auto& a, const auto& b) { return a.character < b.character; });

@@ -35,9 +35,9 @@ grep -q "but a board 9x6 was" "$out/wrong.log" || fail "$(cat "$out/wrong.log")"
 open_window 700 780 "$project"
 sleep 3
 click 37 44   # Train
-fill 700 377 tavern
-fill 700 439 "$video"
-click 925 470  # Calibrate
+fill 700 361 tavern
+fill 700 454 "$video"
+click 925 485  # Calibrate
 shot start
 fill 700 431 "$video"
 click 912 582  # Calibrate
@@ -57,7 +57,7 @@ shot filmed
 click 1153 746  # Use
 sleep 1
 shot used
-click 912 590  # Train
+click 912 606  # Train
 press ctrl+s
 wait_for 20 named '"fx":5[56][0-9]\.' || fail "the intrinsics did not come into the dialog"
 named '"name":"tavern"' || fail "what was typed before is lost"

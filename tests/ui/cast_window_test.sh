@@ -36,8 +36,8 @@ xdotool key F8 sleep 1  # the messages leave the most room above
 
 # The second of the presets' pictures, which gives the name too.
 click 206 163
-click 618 404
-click 912 592
+click 618 388
+click 912 608
 saved "$(has '"preset":"keeper"')" "the person was not added"
 
 # Weight, from one to less; the preset becomes a recipe of the project.
@@ -61,12 +61,12 @@ import -window root "$out/recipe.png"
 
 # A figure of another program, and one of its bones named by hand.
 click 206 163
-click 771 495
+click 771 479
 xdotool type --delay 80 wuson
-click 745 526
+click 745 542
 xdotool type --delay 40 $model
 sleep 0.5
-click 912 592
+click 912 608
 saved "$(has '"name":"wuson"')" "the figure was not added"
 wait_for 120 test -e "$project/cast/wuson.larhuman" || fail "the figure was not imported"
 sleep 3

@@ -17,11 +17,11 @@ films() { [ -e "$place/film-$1.mp4.part" ]; }
 # begin NUMBER: films from the dialog that the menu opens.
 begin() {
   click 37 44    # Train
-  click 720 524  # Film it with a camera instead
-  fill 720 432 tavern
-  fill 690 463 "$video"
+  click 720 540  # Film it with a camera instead
+  fill 720 416 tavern
+  fill 690 479 "$video"
   shot start
-  click 912 551  # Film
+  click 912 567  # Film
   wait_for 10 films "$1" || fail "does not film"
 }
 

@@ -25,11 +25,11 @@ sleep 3
 shot empty
 shows_picture && fail "a project without a place shows a picture"
 click 37 44    # Train
-click 720 524  # Film it with a camera instead
+click 720 540  # Film it with a camera instead
 shot start
-fill 720 432 tavern
-fill 720 463 "$video"
-click 912 551  # Film
+fill 720 416 tavern
+fill 720 479 "$video"
+click 912 567  # Film
 sleep 6        # all of the recording, at its own pace
 shot filming
 [ -e "$map" ] && fail "there is a map before anything was filmed"

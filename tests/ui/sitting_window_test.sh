@@ -43,10 +43,10 @@ face() {
 open_window 1300 860
 sleep 2
 click 250 137
-fill 770 388 "tavern"
-fill 740 419 "$out"
-fill 740 481 "$video"
-click 933 578
+fill 770 372 "tavern"
+fill 740 435 "$out"
+fill 740 497 "$video"
+click 933 594
 wait_for 20 titled "tavern" || fail "no project was made"
 wait_for 500 test -s "$project/places/tavern/scene.larscene" || fail "the place was not trained"
 sleep 8
@@ -100,8 +100,8 @@ saved '"depth":0.6.*"name":"face2"' "$json" "the occluders were not saved"
 
 # Somebody, from the presets by their picture.
 click 206 424
-click 618 404
-click 912 592
+click 618 388
+click 912 608
 saved '"preset":"keeper"' "$json" "the person was not added"
 
 # A walk behind the counter, by numbers.

@@ -73,11 +73,11 @@ wait_for 5 lists "moved.lararium" || fail "not forgotten by keys: $(listed)"
 # New from a video: the training begins.
 click 250 137
 import -window root "$out/new.png"
-fill 770 388 "tavern"
-fill 740 419 "$out"
-fill 740 481 "$video"
+fill 770 372 "tavern"
+fill 740 435 "$out"
+fill 740 497 "$video"
 import -window root "$out/filled.png"
-click 933 578
+click 933 594
 wait_for 20 titled "tavern" || fail "no project was made"
 grep -q training "$out/tavern.lararium/project.json" || fail "the project was not saved"
 lists "tavern.lararium moved.lararium" || fail "not in the list: $(listed)"

@@ -272,8 +272,7 @@ void CalibrationDialog::DrawSource(const editor::ProjectPaths& paths) {
   }
   PropertyLabel(source == Source::kVideo ? Tr("File") : Tr("Folder"));
   PathField("file", files_[source_], paths.folder,
-            source == Source::kImages ? std::span<const char* const>()
-                                      : ExtensionsOf(editor::FileKind::kVideo));
+            source == Source::kImages ? FileType::kImages : FileType::kVideo);
 }
 
 void CalibrationDialog::WriteBoard(const editor::ProjectPaths& paths) {
@@ -331,11 +330,11 @@ void CalibrationDialog::DrawStart(const editor::ProjectPaths& paths) {
               written_.c_str()));
   }
   WarningText(problem_);
-  std::string missing = board_.Validate().ok() ? "" : Tr("A side has 3 to 40 inner corners.");
-  if (files_[source_].empty()) {
-    missing = Tr("Choose what shows the board.");
-  }
-  const DialogAnswer answer = DialogButtons(Tr("Calibrate"), missing);
+  const DialogProblem problem =
+      !board_.Validate().ok()   ? Wrong(Tr("A side has 3 to 40 inner corners."))
+      : files_[source_].empty() ? Missing(Tr("Choose what shows the board."))
+                                : DialogProblem();
+  const DialogAnswer answer = DialogButtons(Tr("Calibrate"), problem);
   if (answer == DialogAnswer::kCancel) {
     open_ = false;
   }
@@ -371,11 +370,12 @@ void CalibrationDialog::DrawSearch(PictureTextures& pictures) {
   }
   ImGui::EndChild();
 
-  const std::string problem =
-      calibrating ? Tr("Calibrating\xe2\x80\xa6")
-      : moment.kept < kFewestViews
-          ? Text(Tr("%d views that differ are needed at least."), kFewestViews)
-          : "";
+  DialogProblem problem;
+  if (calibrating) {
+    problem = Missing(Tr("Calibrating\xe2\x80\xa6"));
+  } else if (moment.kept < kFewestViews) {
+    problem = Missing(Text(Tr("%d views that differ are needed at least."), kFewestViews));
+  }
   const DialogAnswer answer = DialogButtons(Tr("Stop and calibrate"), problem);
   if (answer == DialogAnswer::kAct) {
     task_->Finish();
@@ -429,7 +429,7 @@ void CalibrationDialog::DrawResult(const editor::ProjectPaths& paths, DialogFiel
   DrawNumbers(calibration);
   ImGui::EndChild();
   WarningText(problem_);
-  const DialogAnswer answer = DialogButtons(Tr("Use them"), "", Tr("Film again"));
+  const DialogAnswer answer = DialogButtons(Tr("Use them"), {}, Tr("Film again"));
   if (answer == DialogAnswer::kCancel) {
     Clear();
   }

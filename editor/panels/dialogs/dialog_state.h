@@ -22,6 +22,8 @@ enum class Dialog {
   kCast,
   kObject,
   kCheckPoint,
+  kDroppedModel,
+  kDropMessage,
   kFilm,
   kLiveCamera,
   kLeave,
@@ -30,7 +32,8 @@ enum class Dialog {
 
 // The input of the open dialog.
 struct DialogFields {
-  std::string place;
+  std::string place;  // The title or the name of a place; of a new one, `name` is the name.
+  std::string title;
   std::string name;
   std::string file;
   std::string intrinsics;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "editor/document/document_fields.h"
+#include "editor/document/titles.h"
 #include "editor/import/cast/cast_presets.h"
 #include "editor/import/objects/object_models.h"
 #include "editor/panels/dialogs/export_panel.h"
@@ -18,6 +19,7 @@
 #include "editor/panels/inspector/occluder_inspector.h"
 #include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/pick_view.h"
+#include "editor/panels/widgets/key_state.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
@@ -26,19 +28,8 @@ namespace lararium::panels {
 
 namespace {
 
-constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
-constexpr std::array<const char*, 6> kModels = {".glb", ".gltf", ".fbx", ".dae", ".obj", ".ply"};
-// For objects and for people.
-constexpr std::array<const char*, 8> kAllModels = {".glb", ".gltf", ".vrm", ".fbx",
-                                                   ".dae", ".obj",  ".ply", ".x"};
-constexpr std::array<const char*, 7> kFigures = {".json", ".glb", ".gltf", ".vrm",
-                                                 ".fbx",  ".dae", ".x"};
-constexpr std::array<const char*, 2> kProbes = {".exr", ".hdr"};
-constexpr std::array<const char*, 4> kClips = {".bvh", ".fbx", ".glb", ".gltf"};
-constexpr std::array<const char*, 1> kBones = {".json"};
-
 // The last row of the open dialog; both buttons close it. Returns true when the action was chosen.
-bool DialogDone(Dialogs& dialogs, const char* action, const std::string& problem) {
+bool DialogDone(Dialogs& dialogs, const char* action, const DialogProblem& problem) {
   const DialogAnswer answer = DialogButtons(action, problem);
   if (answer != DialogAnswer::kNone) {
     dialogs.left.erase(dialogs.shown);
@@ -70,9 +61,18 @@ std::vector<double> ParseNumbers(const std::string& text) {
   return numbers.size() == 4 || numbers.size() == 8 ? numbers : std::vector<double>();
 }
 
-std::string TrainProblem(const editor::Workspace& workspace, const DialogFields& fields) {
-  const std::string problem = NameProblem(fields.place);
-  return problem.empty() ? RecordingProblem(workspace.project().paths(), fields) : problem;
+DialogProblem TrainProblem(const editor::Workspace& workspace,
+                           const ChosenPlace& place,
+                           const DialogFields& fields) {
+  const DialogProblem problem = PlaceProblem(workspace.project().document(), place);
+  return problem.any() ? problem : RecordingProblem(workspace.project().paths(), fields);
+}
+
+// Why the typed file cannot be used.
+DialogProblem FileProblem(const editor::ProjectPaths& paths, const std::string& file) {
+  return file.empty()           ? Missing(Tr("Choose a file."))
+         : !Exists(paths, file) ? Wrong(Tr("Choose a file that exists."))
+                                : DialogProblem();
 }
 
 // The recording of the input, with its intrinsics. Opens the recording, because the intrinsics need
@@ -100,27 +100,28 @@ bool TrainDialog(editor::Workspace& workspace, Dialogs& dialogs) {
       Tr("Learns the place from a recording: walk sideways around it, slowly, with everything in "
          "view that visitors will see."));
   bool calibrate = false;
+  ChosenPlace place;
+  const editor::ProjectDocument& document = workspace.project().document();
   if (BeginProperties("train")) {
-    PropertyLabel(Tr("Place"));
-    ImGui::InputText("##place", &fields.place);
+    place = PlaceRows(document, fields);
     calibrate = RecordingFields(workspace.project().paths().folder, fields, Tr(kFromVideo),
                                 Tr(kFromVideoHint));
     EndProperties();
   }
-  if (editor::IsPlainName(fields.place)) {
-    const editor::ProjectDocument& document = workspace.project().document();
-    Hint(Text(document.FindPlace(fields.place) != nullptr
-                  ? Tr("%s is trained again; its picks keep the stage where it is.")
+  if (place.title.empty()) {
+    Hint(" ");  // The dialog keeps its size while the title is typed.
+  } else {
+    Hint(Text(place.known ? Tr("%s is trained again; its picks keep the stage where it is.")
               : document.places.empty() ? Tr("%s will be the place of the drama.")
                                         : Tr("%s will be another place of the drama."),
-              fields.place.c_str()));
+              place.title.c_str()));
   }
   if (ImGui::Button(Tr("Film it with a camera instead\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
     dialogs.shown = Dialog::kFilm;
     return false;
   }
-  if (DialogDone(dialogs, Tr("Train"), TrainProblem(workspace, fields))) {
-    TrainRecording(workspace, fields);
+  if (DialogDone(dialogs, Tr("Train"), TrainProblem(workspace, place, fields))) {
+    TrainRecording(workspace, place, fields);
   }
   return calibrate;
 }
@@ -210,7 +211,7 @@ void OccluderDialog(editor::Workspace& workspace,
     ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
     if (fields.own_model) {
       PropertyLabel(Tr("File"));
-      PathField("file", fields.file, workspace.project().paths().folder, kModels);
+      PathField("file", fields.file, workspace.project().paths().folder, FileType::kMesh);
     } else {
       ShapeFields(workspace, fields.shape);
     }
@@ -220,12 +221,12 @@ void OccluderDialog(editor::Workspace& workspace,
                         : Tr("It is put on the stage's floor, where the camera looks."));
   editor::OccluderDocument occluder;
   occluder.name = fields.name.empty() ? usual_name : fields.name;
-  std::string problem = NameProblem(occluder.name);
-  if (problem.empty() && Taken(known, occluder.name)) {
-    problem = Tr("That name is taken.");
+  DialogProblem problem = NameProblem(occluder.name);
+  if (Taken(known, occluder.name)) {
+    problem = Wrong(Tr("That name is taken."));
   }
-  if (problem.empty() && fields.own_model && !Exists(workspace.project().paths(), fields.file)) {
-    problem = Tr("Choose a file that exists.");
+  if (!problem.any() && fields.own_model) {
+    problem = FileProblem(workspace.project().paths(), fields.file);
   }
   if (DialogDone(dialogs, Tr("Add"), problem)) {
     if (fields.own_model) {
@@ -304,20 +305,13 @@ bool PresetGrid(editor::Workspace& workspace, PictureTextures& pictures, Dialogs
   return changed;
 }
 
-std::string CastProblem(const editor::Workspace& workspace, const DialogFields& fields) {
-  const std::string problem = NameProblem(fields.name);
-  if (!problem.empty()) {
-    return problem;
-  }
-  if (Taken(workspace.project().document().cast, fields.name)) {
-    return Tr("That name is taken.");
-  }
+DialogProblem CastProblem(const editor::Workspace& workspace, const DialogFields& fields) {
   if (!fields.preset.empty() && !fields.file.empty()) {
-    return Tr("Choose a preset or a file.");
+    return Wrong(Tr("Choose a preset or a file."));
   }
   return fields.file.empty() || Exists(workspace.project().paths(), fields.file)
-             ? ""
-             : Tr("Choose a file that exists.");
+             ? DialogProblem()
+             : Wrong(Tr("Choose a file that exists."));
 }
 
 void CastDialog(editor::Workspace& workspace,
@@ -329,23 +323,31 @@ void CastDialog(editor::Workspace& workspace,
          "figure to import. Without any: the plain figure that is built in."));
   DialogFields& fields = dialogs.fields;
   const std::string before = fields.preset;
-  if (PresetGrid(workspace, pictures, dialogs) && fields.name == before) {
-    fields.name = fields.preset;
+  if (PresetGrid(workspace, pictures, dialogs) && fields.title == before) {
+    fields.title = fields.preset;
   }
+  TitledName person;
+  const auto taken = [&](const std::string& name) {
+    return Taken(workspace.project().document().cast, name);
+  };
   if (BeginProperties("cast")) {
-    PropertyLabel(Tr("Name"));
-    ImGui::InputText("##name", &fields.name);
+    person = TitleRows(Tr("Name"), Tr("In the drama"), "person", taken, fields.title, fields.name);
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.project().paths().folder, kFigures);
+    PathField("file", fields.file, workspace.project().paths().folder, FileType::kFigure);
     EndProperties();
   }
-  if (DialogDone(dialogs, Tr("Add"), CastProblem(workspace, fields))) {
+  DialogProblem problem = TitleProblem(person, taken);
+  if (!problem.any()) {
+    problem = CastProblem(workspace, fields);
+  }
+  if (DialogDone(dialogs, Tr("Add"), problem)) {
     editor::CastDocument member;
-    member.name = fields.name;
+    member.name = person.name;
+    editor::SetTitle(person.title, member);
     member.preset = fields.preset;
     LoadFigure(workspace, fields.file, member);
     workspace.project().Edit(
-        Sentence("add %s", {member.name}),
+        Sentence("add %s", {member.label()}),
         [&](editor::ProjectDocument& document) { document.cast.push_back(member); });
     selection = {Selection::Kind::kActor, member.name};
   }
@@ -375,7 +377,7 @@ void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& d
   if (BeginProperties("object")) {
     PropertyLabel(Tr("Model"));
     if (fields.own_model) {
-      PathField("file", fields.file, workspace.project().paths().folder, kModels);
+      PathField("file", fields.file, workspace.project().paths().folder, FileType::kMesh);
       object.file = DocumentPath(workspace, fields.file);
     } else {
       BuiltInObject(fields);
@@ -397,11 +399,13 @@ void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& d
            "it; without that file it only stands there."));
   }
   object.name = fields.name.empty() ? usual_name : fields.name;
-  std::string problem = NameProblem(object.name);
-  if (fields.own_model && !Exists(workspace.project().paths(), fields.file)) {
-    problem = Tr("Choose a file that exists.");
-  } else if (problem.empty() && Taken(known, object.name)) {
-    problem = Tr("That name is taken.");
+  DialogProblem problem =
+      fields.own_model ? FileProblem(workspace.project().paths(), fields.file) : DialogProblem();
+  if (!problem.any()) {
+    problem = NameProblem(object.name);
+  }
+  if (Taken(known, object.name)) {
+    problem = Wrong(Tr("That name is taken."));
   }
   if (DialogDone(dialogs, Tr("Add"), problem)) {
     workspace.project().Edit(
@@ -420,15 +424,15 @@ void ProbeDialog(editor::Workspace& workspace, Selection& selection, Dialogs& di
     PropertyLabel(Tr("Name"));
     ImGui::InputText("##name", &fields.name);
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.project().paths().folder, kProbes);
+    PathField("file", fields.file, workspace.project().paths().folder, FileType::kProbe);
     EndProperties();
   }
-  std::string problem = NameProblem(fields.name);
-  if (problem.empty() && Taken(workspace.project().place()->probes, fields.name)) {
-    problem = Tr("That name is taken.");
+  DialogProblem problem = NameProblem(fields.name);
+  if (Taken(workspace.project().place()->probes, fields.name)) {
+    problem = Wrong(Tr("That name is taken."));
   }
-  if (problem.empty() && !Exists(workspace.project().paths(), fields.file)) {
-    problem = Tr("Choose a file that exists.");
+  if (!problem.any()) {
+    problem = FileProblem(workspace.project().paths(), fields.file);
   }
   if (DialogDone(dialogs, Tr("Add"), problem)) {
     editor::ProbeDocument probe;
@@ -447,7 +451,7 @@ void LeaveDialog(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& 
            ? Tr("The place is being trained. Leaving stops that: the place keeps the map that it "
                 "has.")
            : Tr("The show is being exported. Leaving stops that: nothing is written."));
-  switch (DialogButtons(Tr("Stay"), "", Tr("Stop it and leave"))) {
+  switch (DialogButtons(Tr("Stay"), {}, Tr("Stop it and leave"))) {
     case DialogAnswer::kNone:
       break;
     case DialogAnswer::kAct:
@@ -456,6 +460,42 @@ void LeaveDialog(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& 
     case DialogAnswer::kCancel:
       actions.push_back(StopWorkAndLeave{});
       break;
+  }
+}
+
+// Asks what a dropped model is, and opens the dialog for it.
+void DroppedModelDialog(const editor::Workspace& workspace, Dialogs& dialogs) {
+  const std::string file = dialogs.fields.file;
+  const std::filesystem::path name = std::filesystem::path(file).filename();
+  Hint(Text(Tr("What is %s?"), name.c_str()));
+  const auto choice = [&](const char* label, Dialog dialog, bool possible) {
+    ImGui::BeginDisabled(!possible);
+    if (ImGui::Button(label, ImVec2(-FLT_MIN, Px(34)))) {
+      dialogs.shown = dialog;
+      dialogs.fields = {};
+      dialogs.fields.file = file;
+      dialogs.fields.own_model = true;
+      dialogs.fields.title = dialog == Dialog::kCast ? name.stem().string() : "";
+    }
+    ImGui::EndDisabled();
+  };
+  const bool person = HasExtension(name, SpecOf(FileType::kFigure).extensions);
+  choice(Tr("A person, with bones"), Dialog::kCast, person);
+  choice(Tr("An object that people use"), Dialog::kObject, Fits(file, FileType::kMesh));
+  choice(Tr("A real thing that hides people (occluder)"), Dialog::kOccluder,
+         workspace.project().place() != nullptr && Fits(file, FileType::kMesh));
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  if (ImGui::Button(Tr("Cancel"), ImVec2(-FLT_MIN, 0))) {
+    dialogs.shown = Dialog::kNone;
+  }
+}
+
+void DropMessageDialog(Dialogs& dialogs) {
+  ImGui::TextWrapped("%s", dialogs.fields.title.c_str());
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  if (ImGui::Button(Tr("Close"), ImVec2(-FLT_MIN, 0)) ||
+      (!ImGui::IsWindowAppearing() && EnterIsPressed())) {
+    dialogs.shown = Dialog::kNone;
   }
 }
 
@@ -474,6 +514,8 @@ constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, TrLater("Train a place")},
                                     {Dialog::kCast, TrLater("Add a person")},
                                     {Dialog::kObject, TrLater("Add an object")},
                                     {Dialog::kCheckPoint, TrLater("Add a check point")},
+                                    {Dialog::kDroppedModel, TrLater("A model was dropped")},
+                                    {Dialog::kDropMessage, TrLater("Dropped")},
                                     {Dialog::kLeave, TrLater("Work is not done")}};
 
 // Returns true when the user wants to calibrate the camera.
@@ -509,6 +551,12 @@ bool DrawContent(editor::Workspace& workspace,
     case Dialog::kCheckPoint:
       CheckPointDialog(workspace, selection, options, dialogs);
       break;
+    case Dialog::kDroppedModel:
+      DroppedModelDialog(workspace, dialogs);
+      break;
+    case Dialog::kDropMessage:
+      DropMessageDialog(dialogs);
+      break;
     default:
       LeaveDialog(workspace, dialogs, actions);
       break;
@@ -518,24 +566,10 @@ bool DrawContent(editor::Workspace& workspace,
 
 }  // namespace
 
-std::span<const char* const> ExtensionsOf(editor::FileKind kind) {
-  switch (kind) {
-    case editor::FileKind::kVideo:
-      return kVideos;
-    case editor::FileKind::kImages:
-      return {};
-    case editor::FileKind::kModel:
-      return kAllModels;
-    case editor::FileKind::kProbe:
-      return kProbes;
-    case editor::FileKind::kClip:
-      return kClips;
-    case editor::FileKind::kBones:
-      return kBones;
-    case editor::FileKind::kSound:
-      return editor::SoundExtensions();
-  }
-  return {};
+std::string UselessDropText(const std::string& name) {
+  return Text(Tr("%s cannot be used here. What can be dropped, one thing at a time: a video, a "
+                 "folder of images, a model, a light probe (EXR, HDR) or a project."),
+              name.c_str());
 }
 
 void WarningText(const std::string& text) {
@@ -546,18 +580,72 @@ void WarningText(const std::string& text) {
   }
 }
 
-std::string NameProblem(const std::string& name) {
-  return editor::IsPlainName(name) ? "" : Tr("The name takes letters, digits, _ and -.");
+DialogProblem NameProblem(const std::string& name) {
+  return name.empty()                ? Missing(Tr("It needs a name."))
+         : editor::IsPlainName(name) ? DialogProblem()
+                                     : Wrong(Tr("The name takes letters, digits, _ and -."));
 }
 
-std::string RecordingProblem(const editor::ProjectPaths& paths, const DialogFields& fields) {
+TitledName TitleRows(const char* title_label,
+                     const char* name_label,
+                     const char* otherwise,
+                     const std::function<bool(const std::string&)>& taken,
+                     std::string& title,
+                     std::string& name) {
+  PropertyLabel(title_label);
+  ImGui::InputText("##title", &title);
+  const std::string proposed = editor::FreeNameOf(title, otherwise, taken);
+  PropertyLabel(name_label);
+  ImGui::InputTextWithHint("##name", title.empty() ? "" : proposed.c_str(), &name);
+  Tooltip(
+      Tr("Letters, digits, _ and -. It follows from what is typed above, unless you type "
+         "another one."));
+  return {title, name.empty() ? proposed : name};
+}
+
+DialogProblem TitleProblem(const TitledName& titled,
+                           const std::function<bool(const std::string&)>& taken) {
+  if (titled.title.empty()) {
+    return Missing(Tr("It needs a name."));
+  }
+  if (!editor::IsTitle(titled.title)) {
+    return Wrong(Tr("The name is too long, or only spaces."));
+  }
+  return taken(titled.name) ? Wrong(Tr("That name is taken.")) : NameProblem(titled.name);
+}
+
+ChosenPlace PlaceRows(const editor::ProjectDocument& document, DialogFields& fields) {
+  const auto known =
+      std::find_if(document.places.begin(), document.places.end(), [&](const auto& place) {
+        return place.name == fields.place || place.label() == fields.place;
+      });
+  if (known != document.places.end()) {
+    PropertyLabel(Tr("Place"));
+    ImGui::InputText("##title", &fields.place);
+    return {{known->label(), known->name}, true};
+  }
+  const auto taken = [&](const std::string& name) { return document.FindPlace(name) != nullptr; };
+  return {TitleRows(Tr("Place"), Tr("Its folder"), "place", taken, fields.place, fields.name),
+          false};
+}
+
+DialogProblem PlaceProblem(const editor::ProjectDocument& document, const ChosenPlace& place) {
+  return place.known ? DialogProblem() : TitleProblem(place, [&](const std::string& name) {
+    return document.FindPlace(name) != nullptr;
+  });
+}
+
+DialogProblem RecordingProblem(const editor::ProjectPaths& paths, const DialogFields& fields) {
+  if (fields.file.empty()) {
+    return Missing(Tr("Choose a recording."));
+  }
   if (!Exists(paths, fields.file)) {
-    return Tr("Choose a recording that exists.");
+    return Wrong(Tr("Choose a recording that exists."));
   }
   if (!fields.intrinsics.empty() && ParseNumbers(fields.intrinsics).empty()) {
-    return Tr("Intrinsics are 4 or 8 numbers.");
+    return Wrong(Tr("Intrinsics are 4 or 8 numbers."));
   }
-  return "";
+  return {};
 }
 
 bool RecordingFields(const std::filesystem::path& folder,
@@ -571,7 +659,7 @@ bool RecordingFields(const std::filesystem::path& folder,
     fields.images = kind == 1;
   }
   PropertyLabel(fields.images ? Tr("Folder") : Tr("File"));
-  PathField("file", fields.file, folder, fields.images ? std::span<const char* const>() : kVideos);
+  PathField("file", fields.file, folder, fields.images ? FileType::kImages : FileType::kVideo);
   PropertyLabel(Tr("Intrinsics"));
   const char* const calibrate = Tr("Calibrate\xe2\x80\xa6");
   const float button = WidestButton(std::array{calibrate}, 0.0f);
@@ -588,13 +676,15 @@ bool RecordingFields(const std::filesystem::path& folder,
   return wanted;
 }
 
-void TrainRecording(editor::Workspace& workspace, const DialogFields& fields) {
+void TrainRecording(editor::Workspace& workspace,
+                    const TitledName& place,
+                    const DialogFields& fields) {
   const Result<editor::SessionDocument> recording = ChosenRecording(workspace, fields);
   if (!recording.ok()) {
     workspace.messages().Tell(editor::Message::Level::kError, recording.message());
     return;
   }
-  workspace.training().TrainFrom(fields.place, *recording);
+  workspace.training().TrainFrom(place.name, place.title, *recording);
 }
 
 bool DrawDialogs(editor::Workspace& workspace,

@@ -19,8 +19,6 @@ namespace lararium::panels {
 
 namespace {
 
-constexpr std::array<const char*, 1> kShows = {".larshow"};
-constexpr std::array<const char*, 1> kKeys = {".key"};
 constexpr int kFewestPoints = 500;
 constexpr int kMostPoints = 200'000;
 constexpr std::array<const char*, editor::kContentKinds> kKindNames = {
@@ -105,7 +103,7 @@ void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
     return;
   }
   PropertyLabel(Tr("File"));
-  PathField("file", fields.file, workspace.project().paths().folder, kShows);
+  PathField("file", fields.file, workspace.project().paths().folder, FileType::kShow);
   PropertyLabel(Tr("Points of a map"));
   if (ImGui::InputInt("##points", &fields.points, 1000, 5000)) {
     fields.points = std::clamp(fields.points, kFewestPoints, kMostPoints);
@@ -114,7 +112,7 @@ void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
   PropertyLabel(Tr("Signed with"));
   const ImGuiStyle& style = ImGui::GetStyle();
   const float button = ImGui::CalcTextSize(Tr("New keys")).x + 2 * style.FramePadding.x;
-  PathField("key", fields.key, workspace.project().paths().folder, kKeys,
+  PathField("key", fields.key, workspace.project().paths().folder, FileType::kKey,
             button + style.ItemSpacing.x);
   ImGui::SameLine();
   if (ImGui::Button(Tr("New keys"))) {
@@ -126,18 +124,18 @@ void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
   EndProperties();
 }
 
-std::string DrawProblem(const editor::Workspace& workspace, const DialogFields& fields) {
+DialogProblem ExportProblem(const editor::Workspace& workspace, const DialogFields& fields) {
   std::error_code ignored;
+  if (workspace.project().document().places.empty()) {
+    return Missing(Tr("A show needs a place: train one first."));
+  }
   if (!fields.file.ends_with(".larshow")) {
-    return Tr("The name ends in .larshow.");
+    return Wrong(Tr("The name ends in .larshow."));
   }
-  if (!fields.key.empty() &&
-      !std::filesystem::exists(workspace.project().paths().Resolve(fields.key), ignored)) {
-    return Tr("Choose a key that exists, or none.");
-  }
-  return workspace.project().document().places.empty()
-             ? Tr("A show needs a place: train one first.")
-             : "";
+  const bool has_key =
+      fields.key.empty() ||
+      std::filesystem::exists(workspace.project().paths().Resolve(fields.key), ignored);
+  return has_key ? DialogProblem() : Wrong(Tr("Choose a key that exists, or none."));
 }
 
 void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
@@ -158,7 +156,7 @@ void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& a
     ImGui::TextWrapped("%s", workspace.jobs().export_problem().c_str());
     ImGui::PopStyleColor();
   }
-  const DialogAnswer answer = DialogButtons(Tr("Export"), DrawProblem(workspace, fields));
+  const DialogAnswer answer = DialogButtons(Tr("Export"), ExportProblem(workspace, fields));
   if (answer == DialogAnswer::kCancel) {
     dialogs.shown = Dialog::kNone;
   }
@@ -181,7 +179,7 @@ void DrawDuring(editor::BackgroundTask& task, Dialogs& dialogs) {
       now.cancelling ? Tr("Stopping\xe2\x80\xa6") : editor::TaskText(task.kind(), now);
   ImGui::TextUnformatted(text.c_str());
   ImGui::ProgressBar(static_cast<float>(now.fraction), ImVec2(-FLT_MIN, Px(8)), "");
-  switch (DialogButtons(Tr("Close"), "", Tr("Stop"))) {
+  switch (DialogButtons(Tr("Close"), {}, Tr("Stop"))) {
     case DialogAnswer::kAct:
       dialogs.shown = Dialog::kNone;
       break;
@@ -202,7 +200,7 @@ void DrawAfter(editor::Workspace& workspace, Dialogs& dialogs) {
                                    : Tr("Not signed: players that ask for a signature refuse it."));
   DimText(Tr("The player is left with Escape."));
   const bool playing = workspace.tasks().Running(editor::TaskKind::kTrying);
-  switch (DialogButtons(playing ? Tr("Stop player") : Tr("Test in player"), "", Tr("Close"))) {
+  switch (DialogButtons(playing ? Tr("Stop player") : Tr("Test in player"), {}, Tr("Close"))) {
     case DialogAnswer::kAct:
       if (playing) {
         workspace.tasks().Cancel(editor::TaskKind::kTrying);

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <utility>
 
-#include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/viewport/gizmo_view.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
@@ -139,7 +138,7 @@ void FilmDialog::Discard(Dialogs& dialogs) {
   Close(dialogs);
 }
 
-void FilmDialog::Begin(editor::Workspace& workspace, const std::string& place) {
+void FilmDialog::Begin(editor::Workspace& workspace, const TitledName& place) {
   std::error_code ignored;
   const std::filesystem::path file = workspace.project().paths().Resolve(camera_);
   auto camera = editor::OpenFilmCamera(
@@ -148,7 +147,7 @@ void FilmDialog::Begin(editor::Workspace& workspace, const std::string& place) {
   if (camera.ok()) {
     place_ = place;
     asks_ = false;
-    const std::filesystem::path folder = workspace.project().paths().Place(place);
+    const std::filesystem::path folder = workspace.project().paths().Place(place.name);
     film_ = std::make_unique<editor::FilmTask>(*std::move(camera), editor::NewFilmFile(folder));
   }
 }
@@ -158,35 +157,36 @@ void FilmDialog::DrawStart(editor::Workspace& workspace, Dialogs& dialogs) {
       Tr("While you film it says what to do next and how much of the place visitors need is there. "
          "It follows corners in the images; what it says is no map, and training may still find "
          "gaps."));
+  const editor::ProjectDocument& document = workspace.project().document();
+  ChosenPlace place;
   if (BeginProperties("film")) {
-    PropertyLabel(Tr("Place"));
-    ImGui::InputText("##place", &dialogs.fields.place);
+    place = PlaceRows(document, dialogs.fields);
     field_.Show(camera_, workspace.project().paths().folder);
     EndProperties();
   }
   field_.DrawHint();
   WarningText(problem_);
-  const DialogAnswer answer = DialogButtons(Tr("Film"), NameProblem(dialogs.fields.place));
+  const DialogAnswer answer = DialogButtons(Tr("Film"), PlaceProblem(document, place));
   if (answer == DialogAnswer::kCancel) {
     Close(dialogs);
   }
   if (answer == DialogAnswer::kAct) {
-    Begin(workspace, dialogs.fields.place);
+    Begin(workspace, place);
   }
 }
 
 void FilmDialog::Train(editor::Workspace& workspace, Dialogs& dialogs) {
   DialogFields fields;
-  fields.place = place_;
   fields.file = film_->file().string();
   Close(dialogs);
-  TrainRecording(workspace, fields);
+  TrainRecording(workspace, place_, fields);
 }
 
 // The buttons during filming.
 void FilmDialog::DrawButtons() {
-  const std::string problem =
-      film_->moment().frames == 0 ? Tr("Waiting for the camera\xe2\x80\xa6") : "";
+  const DialogProblem problem = film_->moment().frames == 0
+                                    ? Missing(Tr("Waiting for the camera\xe2\x80\xa6"))
+                                    : DialogProblem();
   switch (DialogButtons(Tr("Stop and train"), problem, Tr("Discard\xe2\x80\xa6"))) {
     case DialogAnswer::kCancel:
       asks_ = true;
@@ -203,7 +203,7 @@ void FilmDialog::DrawQuestion(Dialogs& dialogs) {
   ImGui::TextWrapped("%s", Text(Tr("%.0f s are filmed. Train from them, or discard them?"),
                                 film_->moment().seconds)
                                .c_str());
-  const DialogAnswer answer = DialogButtons(Tr("Stop and train"), "", Tr("Keep filming"));
+  const DialogAnswer answer = DialogButtons(Tr("Stop and train"), {}, Tr("Keep filming"));
   const bool discard = DiscardButton();
   if (answer == DialogAnswer::kAct) {
     film_->Finish();
@@ -222,7 +222,7 @@ void FilmDialog::DrawEnded(const editor::Filmed& filmed, Dialogs& dialogs) {
   ImGui::TextWrapped("%s", Text(Tr("%.0f s are filmed, and kept in %s."), filmed.last.seconds,
                                 film_->file().filename().c_str())
                                .c_str());
-  const DialogAnswer answer = DialogButtons(Tr("Train from it"), "", Tr("Film again"));
+  const DialogAnswer answer = DialogButtons(Tr("Train from it"), {}, Tr("Film again"));
   const bool discard = DiscardButton();
   if (answer == DialogAnswer::kAct) {
     film_->Finish();
@@ -237,7 +237,7 @@ void FilmDialog::DrawEnded(const editor::Filmed& filmed, Dialogs& dialogs) {
 // Filming failed, and there is nothing to keep.
 void FilmDialog::DrawFailed(const std::string& problem, Dialogs& dialogs) {
   WarningText(problem);
-  const DialogAnswer answer = DialogButtons(Tr("Film again"), "");
+  const DialogAnswer answer = DialogButtons(Tr("Film again"), {});
   if (answer == DialogAnswer::kCancel) {
     Close(dialogs);
   }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "editor/jobs/filming.h"
-#include "editor/panels/dialogs/dialog_state.h"
+#include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/viewport/camera_field.h"
 #include "editor/panels/viewport/picture_textures.h"
 #include "editor/session/workspace.h"
@@ -22,7 +22,7 @@ class FilmDialog {
 
  private:
   void DrawStart(editor::Workspace& workspace, Dialogs& dialogs);
-  void Begin(editor::Workspace& workspace, const std::string& place);
+  void Begin(editor::Workspace& workspace, const TitledName& place);
   void DrawFilming(editor::Workspace& workspace, PictureTextures& pictures, Dialogs& dialogs);
   void DrawButtons();
   void DrawQuestion(Dialogs& dialogs);
@@ -38,7 +38,7 @@ class FilmDialog {
   CameraField field_;
   std::string camera_ = "0";
   std::string problem_;  // Why the camera could not be opened.
-  std::string place_;    // The place that is filmed.
+  TitledName place_;     // The place that is filmed.
   bool asks_ = false;    // Asks what to do with the film.
   std::unique_ptr<editor::FilmTask> film_;
 };

@@ -18,11 +18,14 @@ void LiveCameraDialog::DrawContent(editor::Workspace& workspace,
     EndProperties();
   }
   field_.DrawHint();
-  std::string problem;
+  DialogProblem problem;
   std::error_code ignored;
-  if (!editor::IsCameraNumber(camera) &&
-      !std::filesystem::is_regular_file(workspace.project().paths().Resolve(camera), ignored)) {
-    problem = Tr("Choose a file that exists.");
+  if (camera.empty()) {
+    problem = Missing(Tr("Choose a camera or a video."));
+  } else if (!editor::IsCameraNumber(camera) &&
+             !std::filesystem::is_regular_file(workspace.project().paths().Resolve(camera),
+                                               ignored)) {
+    problem = Wrong(Tr("Choose a file that exists."));
   }
   const DialogAnswer answer = DialogButtons(Tr("Show"), problem);
   if (answer == DialogAnswer::kAct) {

@@ -15,21 +15,47 @@ namespace lararium::panels {
 namespace {
 
 constexpr double kFileCheckInterval = 1.0;  // seconds
+FileType TypeOf(editor::FileKind kind) {
+  switch (kind) {
+    case editor::FileKind::kVideo:
+      return FileType::kVideo;
+    case editor::FileKind::kImages:
+      return FileType::kImages;
+    case editor::FileKind::kModel:
+      return FileType::kModel;
+    case editor::FileKind::kProbe:
+      return FileType::kProbe;
+    case editor::FileKind::kClip:
+      return FileType::kClip;
+    case editor::FileKind::kBones:
+      return FileType::kBones;
+    case editor::FileKind::kSound:
+      break;
+  }
+  return FileType::kSound;
+}
+
 constexpr size_t kMostListed = 8;  // The number of other moved files that are listed by name.
 
-std::string LocateProblem(const editor::ProjectPaths& paths,
-                          editor::FileKind kind,
-                          const std::string& typed) {
+// was: the path that is typed when the dialog opens; it names no file that exists.
+DialogProblem LocateProblem(const editor::ProjectPaths& paths,
+                            editor::FileKind kind,
+                            const std::string& was,
+                            const std::string& typed) {
   std::error_code ignored;
   const std::filesystem::path file = paths.Resolve(typed);
-  if (typed.empty() || !std::filesystem::exists(file, ignored)) {
-    return Tr("Choose a file that exists.");
-  }
   const bool folder = std::filesystem::is_directory(file, ignored);
-  if (folder != (kind == editor::FileKind::kImages)) {
-    return folder ? Tr("This is a folder; choose a file in it.") : Tr("Choose a folder of images.");
+  if (typed.empty() || typed == was) {
+    return Missing(Tr("Choose a file."));
   }
-  return "";
+  if (!std::filesystem::exists(file, ignored)) {
+    return Wrong(Tr("Choose a file that exists."));
+  }
+  if (folder != (kind == editor::FileKind::kImages)) {
+    return Wrong(folder ? Tr("This is a folder; choose a file in it.")
+                        : Tr("Choose a folder of images."));
+  }
+  return {};
 }
 
 }  // namespace
@@ -63,6 +89,7 @@ void MissingFilesPanel::DrawRow(const editor::Workspace& workspace,
     typed_ = std::filesystem::is_directory(was.parent_path(), ignored)
                  ? was.string()
                  : workspace.project().paths().folder.string();
+    was_ = typed_;
     offered_for_.clear();
     offers_.clear();
     take_offers_ = true;
@@ -86,16 +113,16 @@ void MissingFilesPanel::DrawDialog(editor::Workspace& workspace) {
   }
   if (BeginProperties("locate")) {
     PropertyLabel(locating_->kind == editor::FileKind::kImages ? Tr("Folder") : Tr("File"));
-    PathField("file", typed_, paths.folder, ExtensionsOf(locating_->kind));
+    PathField("file", typed_, paths.folder, TypeOf(locating_->kind));
     EndProperties();
   }
-  const std::string problem = LocateProblem(paths, locating_->kind, typed_);
+  const DialogProblem problem = LocateProblem(paths, locating_->kind, was_, typed_);
   const editor::Relocation located{locating_->path,
                                    typed_.empty() ? "" : paths.Shorten(paths.Resolve(typed_))};
-  if (problem.empty()) {
+  if (!problem.any()) {
     FillOffers(workspace, located);
   }
-  if (problem.empty() && !offers_.empty()) {
+  if (!problem.any() && !offers_.empty()) {
     const std::string label = TrCount("Also %d other that moved along",
                                       "Also %d others that moved "
                                       "along",

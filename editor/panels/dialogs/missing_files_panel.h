@@ -34,6 +34,7 @@ class MissingFilesPanel {
   double looked_ = -1.0;
   std::optional<editor::MissingFile> locating_;
   std::string typed_;                       // The new path.
+  std::string was_;                         // The path that was typed_ at first.
   std::string offered_for_;                 // The path that offers_ belong to.
   std::vector<editor::Relocation> offers_;  // Other files that made the same move.
   bool take_offers_ = true;

@@ -29,7 +29,6 @@ constexpr float kActions = 240.0f;
 constexpr float kCard = 264.0f;
 constexpr float kPad = 10.0f;  // Inside a card.
 constexpr float kGap = 18.0f;  // Between cards.
-constexpr const char* kSuffix = ".lararium";
 
 // The path with "~" for the user's home.
 std::string FolderText(const fs::path& folder) {
@@ -48,14 +47,15 @@ fs::path UsualFolder(const editor::RecentProjects& recent) {
   return editor::HomeFolder();
 }
 
-std::string FolderProblem(const fs::path& folder) {
+DialogProblem FolderProblem(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
-    return Tr("Choose a folder that exists.");
+    return Wrong(Tr("Choose a folder that exists."));
   }
-  return editor::RecentProject{folder, "", 0}.Exists()
-             ? ""
-             : Tr("There is no project.json in this folder: choose one called NAME.lararium.");
+  return IsProject(folder)
+             ? DialogProblem()
+             : Missing(Tr("There is no project.json in this folder: choose one called "
+                          "NAME.lararium."));
 }
 
 bool WideButton(const char* label, bool important) {
@@ -110,21 +110,25 @@ void StartPage::HandleKeys(const editor::RecentProjects& recent,
     if (action == KeyAction::kQuit) {
       choice.kind = StartChoice::Kind::kQuit;
     }
-    if (dialog_ != Open::kNothing) {
+    if (has_dialog()) {
       continue;
     }
     if (action == KeyAction::kKeyList) {
       OpenDialog(Open::kKeys, recent);
       continue;
     }
-    constexpr std::pair<KeyAction, Open> kOpens[] = {{KeyAction::kNewProject, Open::kVideo},
-                                                     {KeyAction::kNewFromImages, Open::kImages},
-                                                     {KeyAction::kNewFromCamera, Open::kCamera},
-                                                     {KeyAction::kNewEmpty, Open::kEmpty},
-                                                     {KeyAction::kOpenProject, Open::kProject}};
-    for (const auto& [opens, dialog] : kOpens) {
-      if (ActionOf(KeyScope::kStart, press) == opens) {
-        OpenDialog(dialog, recent);
+    const KeyAction of_start = ActionOf(KeyScope::kStart, press);
+    if (of_start == KeyAction::kOpenProject) {
+      OpenDialog(Open::kProject, recent);
+    }
+    using From = NewProjectDialog::From;
+    constexpr std::pair<KeyAction, From> kOpens[] = {{KeyAction::kNewProject, From::kVideo},
+                                                     {KeyAction::kNewFromImages, From::kImages},
+                                                     {KeyAction::kNewFromCamera, From::kCamera},
+                                                     {KeyAction::kNewEmpty, From::kNothing}};
+    for (const auto& [opens, from] : kOpens) {
+      if (of_start == opens) {
+        BeginNew(from, recent);
       }
     }
   }
@@ -132,10 +136,15 @@ void StartPage::HandleKeys(const editor::RecentProjects& recent,
 
 void StartPage::OpenDialog(Open dialog, const editor::RecentProjects& recent) {
   dialog_ = dialog;
-  fields_ = {};
-  fields_.images = dialog == Open::kImages;
   problem_.clear();
   folder_ = UsualFolder(recent).string();
+}
+
+void StartPage::BeginNew(NewProjectDialog::From from,
+                         const editor::RecentProjects& recent,
+                         const fs::path& recording) {
+  problem_.clear();
+  new_.Open(from, UsualFolder(recent), recording);
 }
 
 void StartPage::DrawActions(const editor::RecentProjects& recent,
@@ -148,16 +157,16 @@ void StartPage::DrawActions(const editor::RecentProjects& recent,
   Hint(Tr("People of the past, where they lived."));
   ImGui::Dummy(ImVec2(0, Px(12)));
   if (WideButton(Tr("New from video\xe2\x80\xa6"), true)) {
-    OpenDialog(Open::kVideo, recent);
+    BeginNew(NewProjectDialog::From::kVideo, recent);
   }
   if (WideButton(Tr("New from images\xe2\x80\xa6"), false)) {
-    OpenDialog(Open::kImages, recent);
+    BeginNew(NewProjectDialog::From::kImages, recent);
   }
   if (WideButton(Tr("New from camera\xe2\x80\xa6"), false)) {
-    OpenDialog(Open::kCamera, recent);
+    BeginNew(NewProjectDialog::From::kCamera, recent);
   }
   if (WideButton(Tr("New, empty\xe2\x80\xa6"), false)) {
-    OpenDialog(Open::kEmpty, recent);
+    BeginNew(NewProjectDialog::From::kNothing, recent);
   }
   ImGui::Dummy(ImVec2(0, Px(8)));
   if (WideButton(Tr("Open\xe2\x80\xa6"), false)) {
@@ -286,14 +295,6 @@ void StartPage::DrawRecent(editor::RecentProjects& recent, StartChoice& choice) 
 
 const char* StartPage::TitleOf(Open dialog) {
   switch (dialog) {
-    case Open::kVideo:
-      return Tr("New from video");
-    case Open::kImages:
-      return Tr("New from images");
-    case Open::kCamera:
-      return Tr("New from camera");
-    case Open::kEmpty:
-      return Tr("New, empty");
     case Open::kProject:
       return Tr("Open a project");
     case Open::kLocate:
@@ -305,66 +306,13 @@ const char* StartPage::TitleOf(Open dialog) {
   return "";
 }
 
-std::string StartPage::NewProblem(const fs::path& parent) const {
-  std::error_code ignored;
-  const std::string problem = NameProblem(fields_.name);
-  if (!problem.empty()) {
-    return problem;
-  }
-  if (!fs::is_directory(parent, ignored)) {
-    return Tr("Choose a folder that exists.");
-  }
-  if (fs::exists(parent / (fields_.name + kSuffix), ignored)) {
-    return Tr("A project of that name is there already.");
-  }
-  const bool recorded = dialog_ == Open::kVideo || dialog_ == Open::kImages;
-  return recorded ? RecordingProblem({parent}, fields_) : "";
-}
-
-void StartPage::NewDialog(StartChoice& choice) {
-  const bool filming = dialog_ == Open::kCamera;
-  const bool empty = dialog_ == Open::kEmpty;
-  Hint(empty     ? Tr("A project without a place: train one later, or write the drama first.")
-       : filming ? Tr("Films the place with a camera, says meanwhile what to do next and what is "
-                      "still missing, and learns the place from that.")
-                 : Tr("Learns a place from a recording: walk sideways around it, slowly, with "
-                      "everything in view that visitors will see."));
-  if (BeginProperties("new")) {
-    PropertyLabel(Tr("Name"));
-    ImGui::InputText("##name", &fields_.name);
-    PropertyLabel(Tr("In the folder"));
-    PathField("folder", folder_, editor::HomeFolder(), {});
-    if (!filming && !empty &&
-        RecordingFields(folder_, fields_, Tr(kFromVideo), Tr(kFromVideoHint))) {
-      calibration_.Open();
-    }
-    EndProperties();
-  }
-  const fs::path parent = editor::HomeFolder() / folder_;
-  const char* action = empty ? Tr("Make") : filming ? Tr("Film") : Tr("Train");
-  const DialogAnswer answer = DialogButtons(action, NewProblem(parent));
-  if (answer == DialogAnswer::kAct) {
-    choice.kind = StartChoice::Kind::kNew;
-    choice.begin = empty     ? StartChoice::Begin::kEmpty
-                   : filming ? StartChoice::Begin::kFilming
-                             : StartChoice::Begin::kRecording;
-    choice.project = parent / (fields_.name + kSuffix);
-    choice.fields = fields_;
-    choice.fields.place = fields_.name;
-    choice.fields.file = (parent / fields_.file).string();
-  }
-  if (answer != DialogAnswer::kNone) {
-    dialog_ = Open::kNothing;
-  }
-}
-
 void StartPage::ProjectDialog(editor::RecentProjects& recent, StartChoice& choice) {
   const bool locate = dialog_ == Open::kLocate;
   Hint(locate ? Text(Tr("Where is the project now that was in %s?"), missing_.c_str())
               : Tr("A project is a folder with project.json in it, called NAME.lararium."));
   if (BeginProperties("project")) {
     PropertyLabel(Tr("Folder"));
-    PathField("folder", folder_, editor::HomeFolder(), {});
+    PathField("folder", folder_, editor::HomeFolder(), FileType::kProject);
     EndProperties();
   }
   const fs::path project = editor::HomeFolder() / folder_;
@@ -388,23 +336,19 @@ void StartPage::DrawDialog(editor::RecentProjects& recent,
   if (dialog_ == Open::kKeys && !DrawKeyList(keys)) {
     dialog_ = Open::kNothing;
   }
-  if (dialog_ == Open::kNothing || dialog_ == Open::kKeys) {
-    return;
+  if (std::optional<NewProject> made = new_.Show(pictures_)) {
+    choice.kind = StartChoice::Kind::kNew;
+    choice.made = *std::move(made);
   }
-  if (calibration_.is_open()) {
-    calibration_.Show({editor::HomeFolder() / folder_}, pictures_, fields_);
+  if (dialog_ == Open::kNothing || dialog_ == Open::kKeys) {
     return;
   }
   bool open = true;
   DrawModal(Label(TitleOf(dialog_), "dialog").c_str(), 560, open, [&] {
-    if (dialog_ == Open::kProject || dialog_ == Open::kLocate) {
-      ProjectDialog(recent, choice);
-    } else {
-      NewDialog(choice);
-    }
-    open = dialog_ != Open::kNothing && !calibration_.is_open();
+    ProjectDialog(recent, choice);
+    open = dialog_ != Open::kNothing;
   });
-  if (!open && !calibration_.is_open()) {
+  if (!open) {
     dialog_ = Open::kNothing;
   }
 }

@@ -10,23 +10,20 @@
 #include <span>
 #include <string>
 
-#include "editor/panels/dialogs/calibration_dialog.h"
+#include "editor/panels/dialogs/new_project_dialog.h"
 #include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/widgets/keys.h"
 #include "editor/session/recent_projects.h"
+#include "editor/session/settings.h"
 
 namespace lararium::panels {
 
 // The user's choice on the start page.
 struct StartChoice {
   enum class Kind { kNothing, kOpen, kNew, kSample, kQuit };
-  // How a new project begins: with a recording that its first place is trained from, with filming
-  // that recording, or empty.
-  enum class Begin { kRecording, kFilming, kEmpty };
   Kind kind = Kind::kNothing;
-  std::filesystem::path project;  // The project to open or to make.
-  Begin begin = Begin::kRecording;
-  DialogFields fields;  // Name, place and recording of a new project.
+  std::filesystem::path project;  // The project to open.
+  NewProject made;                // The project to make.
 };
 
 class StartPage {
@@ -38,11 +35,18 @@ class StartPage {
                    bool has_sample,
                    editor::Settings& settings);
 
+  // Opens the dialog for a new project; recording: see NewProjectDialog::Open().
+  void BeginNew(NewProjectDialog::From from,
+                const editor::RecentProjects& recent,
+                const std::filesystem::path& recording = {});
+  // Whether a dialog is open.
+  bool has_dialog() const { return dialog_ != Open::kNothing || new_.is_open(); }
+
   // Shows a problem until the next choice, for example why a project cannot be opened.
   void SetProblem(std::string problem) { problem_ = std::move(problem); }
 
  private:
-  enum class Open { kNothing, kVideo, kImages, kCamera, kEmpty, kProject, kLocate, kKeys };
+  enum class Open { kNothing, kProject, kLocate, kKeys };
   static const char* TitleOf(Open dialog);
   // The state of an entry's folder. It is read at intervals, because folders appear and disappear.
   struct Face {
@@ -68,17 +72,14 @@ class StartPage {
   void DrawDialog(editor::RecentProjects& recent,
                   std::span<const KeyPress> keys,
                   StartChoice& choice);
-  void NewDialog(StartChoice& choice);
-  std::string NewProblem(const std::filesystem::path& parent) const;
   void ProjectDialog(editor::RecentProjects& recent, StartChoice& choice);
 
   std::map<std::filesystem::path, Face> faces_;
   double looked_ = -1.0;  // Time of the last look, seconds of ImGui's clock.
   PictureTextures pictures_;
   Open dialog_ = Open::kNothing;
-  DialogFields fields_;
-  CalibrationDialog calibration_;
-  std::string folder_;  // The folder for a new project, or in which a project is searched.
+  NewProjectDialog new_;
+  std::string folder_;             // The folder of the project to open or to locate.
   std::filesystem::path missing_;  // The project that is being located.
   std::string problem_;
 };

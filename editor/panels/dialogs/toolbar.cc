@@ -32,9 +32,8 @@ void OpenTrainDialog(const editor::Workspace& workspace, Dialogs& dialogs) {
   if (dialogs.Open(Dialog::kTrain)) {
     return;
   }
-  dialogs.fields.place = "place";
   if (const editor::PlaceDocument* place = workspace.project().place()) {
-    dialogs.fields.place = place->name;
+    dialogs.fields.place = place->label();
     dialogs.fields.file = place->training.path;
     dialogs.fields.images = place->training.kind == editor::SourceDocument::Kind::kImages;
     dialogs.fields.intrinsics = place->intrinsics ? editor::IntrinsicsText(*place->intrinsics) : "";

@@ -63,7 +63,7 @@ bool DrawEnd(editor::Workspace& workspace) {
   Hint(
       Tr("The map from before stays beside the new one until the next training, and can be put "
          "back here or in the place's inspector."));
-  const DialogAnswer answer = DialogButtons(Tr("Keep this map"), "", Tr("Put the former map back"));
+  const DialogAnswer answer = DialogButtons(Tr("Keep this map"), {}, Tr("Put the former map back"));
   if (answer == DialogAnswer::kCancel) {
     workspace.training().RestorePreviousMap();
   }
@@ -78,7 +78,7 @@ void TrainingReportDialog(editor::Workspace& workspace, Dialogs& dialogs) {
     dialogs.shown = Dialog::kNone;
     return;
   }
-  Heading(workspace.project().place()->name.c_str());
+  Heading(workspace.project().place()->label().c_str());
   DrawFigures(*report);
   ImGui::Dummy(ImVec2(0, Px(4)));
   DrawAdvice(*report);

@@ -1,12 +1,14 @@
 #include "editor/panels/inspector/cast_inspector.h"
 
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cfloat>
 #include <string>
 
 #include "editor/document/cast_document.h"
+#include "editor/document/titles.h"
 #include "editor/panels/inspector/bone_panel.h"
 #include "editor/panels/inspector/clips_panel.h"
 #include "editor/panels/inspector/recipe_panel.h"
@@ -71,6 +73,30 @@ RecipeChange DrawFigure(editor::Workspace& workspace,
   return change;
 }
 
+// The title of a person, which can be changed, and the name, which the drama uses.
+void DrawName(editor::Workspace& workspace, const editor::CastDocument& member) {
+  if (!BeginProperties("name")) {
+    return;
+  }
+  std::string title = member.label();
+  PropertyLabel(Tr("Name"));
+  if (ImGui::InputText("##title", &title) && (title.empty() || editor::IsTitle(title))) {
+    workspace.project().Edit(
+        Sentence("name of %s", {member.name}),
+        [&, name = member.name](editor::ProjectDocument& document) {
+          for (editor::CastDocument& known : document.cast) {
+            if (known.name == name) {
+              editor::SetTitle(title, known);
+            }
+          }
+        },
+        "name");
+  }
+  EndGestureWithItem(workspace);
+  PropertyText(Tr("In the drama"), member.name);
+  EndProperties();
+}
+
 }  // namespace
 
 void DrawActor(editor::Workspace& workspace,
@@ -80,7 +106,7 @@ void DrawActor(editor::Workspace& workspace,
                const Input& input,
                Dialogs& dialogs,
                const editor::CastDocument& member) {
-  Heading(member.name.c_str());
+  Heading(member.label().c_str());
   Hint(KindOf(member));
   DrawPortrait(workspace, cast_view, pictures, input, member, !member.model.empty());
   // The rest scrolls below the portrait, so that changes are always visible.
@@ -92,7 +118,7 @@ void DrawActor(editor::Workspace& workspace,
   DrawVoice(workspace, edited, change);
   if (change.any()) {
     workspace.project().Edit(
-        Sentence("%s of %s", {change.what, member.name}),
+        Sentence("%s of %s", {change.what, member.label()}),
         [&edited](editor::ProjectDocument& document) {
           std::replace_if(
               document.cast.begin(), document.cast.end(),
@@ -101,9 +127,10 @@ void DrawActor(editor::Workspace& workspace,
         change.gesture);
   }
   DrawClips(workspace, dialogs, member);
+  DrawName(workspace, member);
   Hint(Tr("Where people stand and what they do is written in the drama."));
   if (ImGui::Button(Tr("Remove"), ImVec2(-FLT_MIN, 0))) {
-    workspace.project().Edit(Sentence("remove %s", {member.name}),
+    workspace.project().Edit(Sentence("remove %s", {member.label()}),
                              [name = member.name](editor::ProjectDocument& document) {
                                std::erase_if(document.cast,
                                              [&](const auto& m) { return m.name == name; });

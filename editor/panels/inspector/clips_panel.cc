@@ -20,7 +20,6 @@
 namespace lararium::panels {
 namespace {
 
-constexpr const char* kMotions[] = {".bvh", ".fbx", ".glb", ".gltf", ".vrm"};
 constexpr float kLabels = 70.0f;  // logical pixels
 constexpr float kAddingWidth = 460.0f;
 
@@ -163,20 +162,19 @@ class ClipsPanel {
     return fields.name.empty() ? std::filesystem::path(fields.file).stem().string() : fields.name;
   }
 
-  // Why it cannot be added yet; empty: it can.
-  std::string NewProblem() const {
+  DialogProblem NewProblem() const {
     const std::string& file = fields_.file;
     std::error_code ignored;
     if (file.empty()) {
-      return Tr("It needs a file: BVH, FBX, glTF or VRM.");
+      return Missing(Tr("It needs a file: BVH, FBX, glTF or VRM."));
     }
     if (!std::filesystem::is_regular_file(workspace_.project().paths().Resolve(file), ignored)) {
-      return Tr("There is no such file.");
+      return Wrong(Tr("There is no such file."));
     }
-    if (std::string problem = NameProblem(NewName()); !problem.empty()) {
-      return problem;
-    }
-    return editor::CheckClipName(member_, NewName()).ok() ? "" : Tr("That name is taken.");
+    const DialogProblem problem = NameProblem(NewName());
+    return problem.any() || editor::CheckClipName(member_, NewName()).ok()
+               ? problem
+               : Wrong(Tr("That name is taken."));
   }
 
   void DrawAdding() {
@@ -196,7 +194,7 @@ class ClipsPanel {
     DialogFields& fields = fields_;
     if (BeginProperties("new clip")) {
       PropertyLabel(Tr("File"));
-      PathField("file", fields.file, workspace_.project().paths().folder, kMotions);
+      PathField("file", fields.file, workspace_.project().paths().folder, FileType::kClip);
       PropertyLabel(Tr("Name"));
       const std::string as_file = fields.file.empty() ? Tr("as the file") : NewName();
       ImGui::InputTextWithHint("##name", as_file.c_str(), &fields.name);

@@ -217,7 +217,7 @@ void DrawFloor(editor::Workspace& workspace, const editor::PlaceDocument& place)
 
 void TakeOverOccluders(editor::Workspace& workspace, const editor::PlaceDocument& from) {
   workspace.project().EditPlace(
-      Sentence("take over the occluders of %s", {from.name}),
+      Sentence("take over the occluders of %s", {from.label()}),
       [&](editor::PlaceDocument& place) { editor::TakeOverOccluders(from, place); });
 }
 
@@ -229,15 +229,15 @@ void DrawOtherPlaces(editor::Workspace& workspace, const editor::PlaceDocument& 
   for (const editor::PlaceDocument& other : document->places) {
     const bool has_models = std::any_of(other.occluders.begin(), other.occluders.end(),
                                         [](const auto& occluder) { return !occluder.drawn(); });
-    const std::string label = Text(Tr("Take over the occluders of %s"), other.name.c_str());
+    const std::string label = Text(Tr("Take over the occluders of %s"), other.label().c_str());
     if (other.name != place.name && has_models && ImGui::Button(label.c_str(), wide)) {
       TakeOverOccluders(workspace, other);
     }
   }
-  const std::string remove = Text(Tr("Remove %s from the project"), place.name.c_str());
+  const std::string remove = Text(Tr("Remove %s from the project"), place.label().c_str());
   if (ImGui::Button(remove.c_str(), wide)) {
     workspace.project().Edit(
-        Sentence("remove %s", {place.name}), [&](editor::ProjectDocument& edited) {
+        Sentence("remove %s", {place.label()}), [&](editor::ProjectDocument& edited) {
           std::erase_if(edited.places, [&](const auto& p) { return p.name == place.name; });
         });
   }
@@ -322,7 +322,7 @@ void DrawPlace(editor::Workspace& workspace,
                ViewOptions& options,
                Dialogs& dialogs,
                const editor::PlaceDocument& place) {
-  Heading(place.name.c_str());
+  Heading(place.label().c_str());
   const auto database = workspace.map().loaded().database;
   if (BeginProperties("place")) {
     PropertyText(TrIn("recording", "Training"), SourceText(place.training));

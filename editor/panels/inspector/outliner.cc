@@ -37,6 +37,7 @@ void CheckPointRow(Selection& selection, const editor::CheckPointReport& point) 
 void PicturedRow(Selection& selection,
                  PictureTextures& pictures,
                  const Selection& own,
+                 const std::string& label,
                  const editor::CastPictures::Picture& picture) {
   const bool person = own.kind == Selection::Kind::kActor;
   const float side = Px(34);
@@ -54,7 +55,7 @@ void PicturedRow(Selection& selection,
                 person ? ThumbnailOf::kPerson : ThumbnailOf::kThing);
   ImGui::SetCursorPos(
       ImVec2(from.x + side + Px(8), from.y + 0.5f * (side - ImGui::GetTextLineHeight())));
-  ImGui::TextUnformatted(own.name.c_str());
+  ImGui::TextUnformatted(label.c_str());
   ImGui::SetCursorPos(after);
   ImGui::Unindent(Px(6));
   ImGui::PopID();
@@ -93,7 +94,8 @@ void DrawOutliner(editor::Workspace& workspace,
   Section(Tr("Places"), &dialogs, Dialog::kTrain, Tr("Adds a place"));
   for (const editor::PlaceDocument& place : workspace.project().document().places) {
     const bool shown = workspace.project().place() == &place;
-    const std::string label = shown ? place.name : Text(Tr("%s (not shown)"), place.name.c_str());
+    const std::string label =
+        shown ? place.label() : Text(Tr("%s (not shown)"), place.label().c_str());
     Row(selection, Icon::kPlace, label, {Kind::kPlace, place.name});
     if (!shown && selection == Selection{Kind::kPlace, place.name}) {
       workspace.project().SelectPlace(place.name);
@@ -116,12 +118,12 @@ void DrawOutliner(editor::Workspace& workspace,
   }
   Section(Tr("Cast"), &dialogs, Dialog::kCast, Tr("Adds a person"));
   for (const editor::CastDocument& member : workspace.project().document().cast) {
-    PicturedRow(selection, pictures, {Kind::kActor, member.name},
+    PicturedRow(selection, pictures, {Kind::kActor, member.name}, member.label(),
                 workspace.cast().pictures().Thumbnail(member.name));
   }
   Section(Tr("Objects"), &dialogs, Dialog::kObject, Tr("Adds an object"));
   for (const editor::ObjectDocument& object : workspace.project().document().objects) {
-    PicturedRow(selection, pictures, {Kind::kObject, object.name},
+    PicturedRow(selection, pictures, {Kind::kObject, object.name}, object.name,
                 workspace.cast().pictures().ObjectThumbnail(object.name));
   }
   if (workspace.project().place() != nullptr) {

@@ -13,6 +13,7 @@
 
 #include "editor/document/occluder_shape.h"
 #include "editor/document/place_edits.h"
+#include "editor/document/titles.h"
 #include "editor/jobs/sounds.h"
 #include "editor/jobs/staging.h"
 #include "editor/panels/dialogs/dialogs.h"
@@ -42,17 +43,21 @@ constexpr std::array<const char*, 9> kReverbs = {TrLater("No reverberation"),
                                                  TrLater("Courtyard"),
                                                  TrLater("Street")};
 
-std::string LookedAtProblem(const editor::ProjectPaths& paths, const DialogFields& fields) {
+DialogProblem LookedAtProblem(const editor::ProjectPaths& paths, const DialogFields& fields) {
   std::error_code ignored;
   const std::filesystem::path file = paths.Resolve(fields.file);
-  if (fields.file.empty() || !std::filesystem::exists(file, ignored)) {
-    return Tr("Choose a recording that exists.");
+  if (fields.file.empty()) {
+    return Missing(Tr("Choose a recording."));
+  }
+  if (!std::filesystem::exists(file, ignored)) {
+    return Wrong(Tr("Choose a recording that exists."));
   }
   const bool folder = std::filesystem::is_directory(file, ignored);
   if (folder != fields.images) {
-    return folder ? Tr("This is a folder; choose a file in it.") : Tr("Choose a folder of images.");
+    return Wrong(folder ? Tr("This is a folder; choose a file in it.")
+                        : Tr("Choose a folder of images."));
   }
-  return "";
+  return {};
 }
 
 // Sets the recording of the camera view, as one edit. Where it cannot be opened, only shows a
@@ -227,11 +232,11 @@ bool RecordingToLookAtDialog(editor::Workspace& workspace, ViewOptions& options,
   if (other && BeginProperties("looked at")) {
     PropertyLabel(fields.images ? Tr("Folder") : Tr("File"));
     PathField("file", fields.file, workspace.project().paths().folder,
-              ExtensionsOf(fields.images ? editor::FileKind::kImages : editor::FileKind::kVideo));
+              fields.images ? FileType::kImages : FileType::kVideo);
     EndProperties();
   }
-  const DialogAnswer answer =
-      DialogButtons(Tr("Show"), other ? LookedAtProblem(workspace.project().paths(), fields) : "");
+  const DialogAnswer answer = DialogButtons(
+      Tr("Show"), other ? LookedAtProblem(workspace.project().paths(), fields) : DialogProblem());
   if (answer == DialogAnswer::kAct) {
     LookAt(workspace, options,
            other ? editor::RecordingAt(workspace.project().paths(), fields.file)
@@ -240,46 +245,56 @@ bool RecordingToLookAtDialog(editor::Workspace& workspace, ViewOptions& options,
   return answer != DialogAnswer::kNone;
 }
 
-// Renames the place as one edit. The folder has both names, so undo works.
+// Gives the place another title, and its folder another name, as one edit. The folder has both
+// names, so undo works.
 void Rename(editor::Workspace& workspace,
             Selection& selection,
             const std::string& from,
-            const std::string& to) {
-  const Status status = editor::GiveFolderOtherName(workspace.project().paths(), from, to);
-  if (!status.ok()) {
-    workspace.messages().Tell(editor::Message::Level::kError, status.message());
-    return;
+            const TitledName& to) {
+  const editor::ProjectPaths& paths = workspace.project().paths();
+  if (to.name != from) {
+    if (const Status status = editor::GiveFolderOtherName(paths, from, to.name); !status.ok()) {
+      workspace.messages().Tell(editor::Message::Level::kError, status.message());
+      return;
+    }
   }
-  workspace.project().Edit(Sentence("rename %s", {from}), [&](editor::ProjectDocument& document) {
-    editor::RenamePlaceInDocument(workspace.project().paths(), from, to, document);
-  });
-  workspace.project().SelectPlace(to);
-  selection = {Selection::Kind::kPlace, to};
+  workspace.project().Edit(
+      Sentence("rename %s", {workspace.project().document().FindPlace(from)->label()}),
+      [&](editor::ProjectDocument& document) {
+        if (to.name != from) {
+          editor::RenamePlaceInDocument(paths, from, to.name, document);
+        }
+        editor::SetTitle(to.title, *document.FindPlace(to.name));
+      });
+  workspace.project().SelectPlace(to.name);
+  selection = {Selection::Kind::kPlace, to.name};
 }
 
 // Returns true when the dialog is finished.
 bool RenameDialog(editor::Workspace& workspace,
                   Selection& selection,
                   Dialogs& dialogs,
-                  const std::string& place) {
-  std::string& name = dialogs.fields.name;
-  Hint(
-      Tr("Its folder gets the name too, and keeps the old one beside it, so that undo finds the "
-         "files."));
+                  const editor::PlaceDocument& place) {
   if (BeginProperties("rename")) {
     PropertyLabel(Tr("Name"));
-    ImGui::InputText("##name", &name);
+    ImGui::InputText("##title", &dialogs.fields.title);
+    PropertyLabel(Tr("Its folder"));
+    ImGui::InputText("##name", &dialogs.fields.name);
     EndProperties();
   }
-  std::string problem = NameProblem(name);
-  if (problem.empty() && name == place) {
-    problem = Tr("It is called so already.");
-  } else if (problem.empty() && workspace.project().document().FindPlace(name) != nullptr) {
-    problem = Tr("That name is taken.");
+  const TitledName to = {dialogs.fields.title, dialogs.fields.name};
+  Hint(
+      Tr("If its folder gets another name, it keeps the old one beside it, so that undo finds the "
+         "files."));
+  DialogProblem problem = TitleProblem(to, [&](const std::string& name) {
+    return name != place.name && workspace.project().document().FindPlace(name) != nullptr;
+  });
+  if (to.title == place.label() && to.name == place.name) {
+    problem = Missing(Tr("It is called so already."));
   }
   const DialogAnswer answer = DialogButtons(Tr("Rename"), problem);
   if (answer == DialogAnswer::kAct) {
-    Rename(workspace, selection, place, name);
+    Rename(workspace, selection, std::string(place.name), to);
   }
   return answer != DialogAnswer::kNone;
 }
@@ -328,27 +343,30 @@ void DrawPlaceName(editor::Workspace& workspace,
                    const editor::PlaceDocument& place) {
   const std::shared_ptr<const editor::ProjectDocument> document =
       workspace.project().commands().snapshot();
+  // Copied, because edits replace the place.
   const std::string name = place.name;
+  const std::string label = place.label();
   const std::string title = Label(Tr("Rename a place"), "rename");
   const ImVec2 wide(-FLT_MIN, 0);
   const bool busy = workspace.tasks().Running(editor::TaskKind::kTraining) ||
                     workspace.tasks().Running(editor::TaskKind::kWritingMap);
   ImGui::BeginDisabled(busy);
-  if (ImGui::Button(Text(Tr("Rename %s\xe2\x80\xa6"), name.c_str()).c_str(), wide)) {
+  if (ImGui::Button(Text(Tr("Rename %s\xe2\x80\xa6"), place.label().c_str()).c_str(), wide)) {
     dialogs.fields = {};
+    dialogs.fields.title = place.label();
     dialogs.fields.name = name;
     ImGui::OpenPopup(title.c_str());
   }
   ImGui::EndDisabled();
   Tooltip(busy ? Tr("Its map is being made or written. Try again when that is done.")
-               : Tr("Its folder gets the name too"));
-  DrawInspectorDialog(title, [&] { return RenameDialog(workspace, selection, dialogs, name); });
+               : Tr("What it is called, and what its folder is"));
+  DrawInspectorDialog(title, [&] { return RenameDialog(workspace, selection, dialogs, place); });
   if (document->places.front().name == name) {
     return;
   }
-  if (ImGui::Button(Text(Tr("Put %s first"), name.c_str()).c_str(), wide)) {
+  if (ImGui::Button(Text(Tr("Put %s first"), label.c_str()).c_str(), wide)) {
     workspace.project().Edit(
-        Sentence("put %s first", {name}),
+        Sentence("put %s first", {label}),
         [&](editor::ProjectDocument& edited) { editor::PutPlaceFirst(name, edited); });
   }
   Tooltip(Tr("The project opens with the place that is the first of the list"));

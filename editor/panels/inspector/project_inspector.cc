@@ -4,7 +4,6 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cfloat>
 #include <filesystem>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "editor/bake/sound_synthesis.h"
+#include "editor/document/titles.h"
 #include "editor/jobs/sounds.h"
 #include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/dialogs/inspector_dialog.h"
@@ -78,33 +78,26 @@ bool LanguageRow(const char* label,
   return changed;
 }
 
-// A valid file name made from any name.
-std::string PlainStem(const std::string& file) {
-  std::string name = std::filesystem::path(file).stem().string();
-  std::replace_if(
-      name.begin(), name.end(),
-      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-'; }, '_');
-  return name;
-}
-
 bool IsBuiltInSound(const std::string& name) {
   const auto sounds = bake::BuiltInSounds();
   return std::any_of(sounds.begin(), sounds.end(),
                      [&](const auto& sound) { return sound.name == name; });
 }
 
-std::string SoundProblem(const editor::ProjectPaths& paths,
-                         const std::string& name,
-                         const std::string& file) {
+DialogProblem SoundProblem(const editor::ProjectPaths& paths,
+                           const std::string& name,
+                           const std::string& file) {
   std::error_code ignored;
+  if (file.empty()) {
+    return Missing(Tr("Choose a file."));
+  }
   if (!std::filesystem::is_regular_file(paths.Resolve(file), ignored)) {
-    return Tr("Choose a file that exists.");
+    return Wrong(Tr("Choose a file that exists."));
   }
-  const std::string problem = NameProblem(name);
-  if (!problem.empty()) {
-    return problem;
-  }
-  return editor::SoundFileIn(paths.folder / "audio", name).empty() ? "" : Tr("That name is taken.");
+  const DialogProblem problem = NameProblem(name);
+  return problem.any() || editor::SoundFileIn(paths.folder / "audio", name).empty()
+             ? problem
+             : Wrong(Tr("That name is taken."));
 }
 
 // Returns true when the dialog is finished.
@@ -113,10 +106,11 @@ bool SoundDialog(editor::Workspace& workspace, Dialogs& dialogs) {
       Tr("A recording of one channel, close to what sounds and without reverberation, is best. It "
          "is copied into the project's audio folder; places and the drama call it by its name."));
   DialogFields& fields = dialogs.fields;
-  const std::string usual_name = PlainStem(fields.file);
+  const std::string usual_name =
+      editor::PlainNameOf(std::filesystem::path(fields.file).stem().string());
   if (BeginProperties("sound")) {
     PropertyLabel(Tr("File"));
-    PathField("file", fields.file, workspace.project().paths().folder, editor::SoundExtensions());
+    PathField("file", fields.file, workspace.project().paths().folder, FileType::kSound);
     PropertyLabel(Tr("Name"));
     ImGui::InputTextWithHint("##name", usual_name.c_str(), &fields.name);
     EndProperties();

@@ -423,7 +423,7 @@ void DrawItem(editor::Workspace& workspace,
   Heading(ItemTitle(lane.kind));
   if (!lane.actor.empty()) {
     ImGui::SameLine();
-    DimText(lane.actor);
+    DimText(workspace.project().document().PersonLabel(lane.actor));
   }
   if (BeginProperties("item", 84.0f)) {
     const drama::LaneSpec& spec = drama::SpecOf(lane.kind);
@@ -452,7 +452,7 @@ void DrawBlock(editor::Workspace& workspace,
                const drama::TaskRecord& task) {
   Heading(task.from_timeline ? Tr("As it was played") : Tr("Of the script"));
   if (BeginProperties("block", 84.0f)) {
-    PropertyText(Tr("Who"), task.actor);
+    PropertyText(Tr("Who"), workspace.project().document().PersonLabel(task.actor));
     PropertyText(Tr("Does"), task.action + (task.object.empty() ? "" : " " + task.object));
     PropertyText(Tr("Begins"), Text("%.2f s", task.began));
     PropertyText(Tr("Ends"), Text("%.2f s", task.ended));

@@ -191,7 +191,10 @@ void TimelinePanel::DrawBlocks(const editor::Workspace& workspace,
   }
 }
 
-void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float width) const {
+void TimelinePanel::DrawGutter(const editor::Workspace& workspace,
+                               const TimelineRow& row,
+                               const ImVec2& at,
+                               float width) const {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float text_y = at.y + 0.5f * (Px(TimelineLayout::kRow) - ImGui::GetTextLineHeight());
   const ImVec4 clip(at.x, at.y, at.x + width - Px(6), at.y + Px(TimelineLayout::kRow));
@@ -219,7 +222,9 @@ void TimelinePanel::DrawGutter(const TimelineRow& row, const ImVec2& at, float w
     draw.AddTriangleFilled(ImVec2(c.x - Px(5), c.y - Px(3)), ImVec2(c.x + Px(5), c.y - Px(3)),
                            ImVec2(c.x, c.y + Px(4)), Packed(Colours().dim));
   }
-  write(Px(22), Colours().text, row.group.empty() ? Tr("Stage") : row.group);
+  const std::string group =
+      row.of_object ? row.group : workspace.project().document().PersonLabel(row.group);
+  write(Px(22), Colours().text, group.empty() ? Tr("Stage") : group);
 }
 
 void TimelinePanel::DrawRow(const editor::Workspace& workspace,
@@ -331,7 +336,7 @@ void TimelinePanel::DrawRows(editor::Workspace& workspace, Input& input, EditorA
       break;
     }
     DrawRow(workspace, *layout_.shown()[i], top, layout_.Top(i + 1) - layout_.Top(i), hit, draw);
-    DrawGutter(*layout_.shown()[i], ImVec2(view.x, top), Px(kGutter));
+    DrawGutter(workspace, *layout_.shown()[i], ImVec2(view.x, top), Px(kGutter));
   }
   draw.PushClipRect(ImVec2(scale_.left, view.y),
                     ImVec2(scale_.left + scale_.width, view.y + view_size.y), true);
@@ -383,7 +388,7 @@ void TimelinePanel::DrawKindMenu(editor::Workspace& workspace, const std::string
 void TimelinePanel::DrawAddMenu(editor::Workspace& workspace) {
   DimText(Text(Tr("At %s"), FormatTime(workspace.playback().time(), 0.01).c_str()));
   for (const editor::CastDocument& member : workspace.project().document().cast) {
-    if (ImGui::BeginMenu(WithIcon(Icon::kPerson, member.name).c_str())) {
+    if (ImGui::BeginMenu(WithIcon(Icon::kPerson, member.label()).c_str())) {
       DrawKindMenu(workspace, member.name);
       ImGui::EndMenu();
     }
@@ -437,7 +442,8 @@ void TimelinePanel::DrawContextMenu(editor::Workspace& workspace, EditorActions&
             ? &layout_.Shown(context_.row)
             : nullptr;
     if (row != nullptr && !row->of_object) {
-      DimText(row->group.empty() ? Tr("Stage") : row->group);
+      DimText(row->group.empty() ? Tr("Stage")
+                                 : workspace.project().document().PersonLabel(row->group));
       DrawKindMenu(workspace, row->group);
     } else {
       DrawAddMenu(workspace);

@@ -97,7 +97,10 @@ class TimelinePanel {
                   float height,
                   const Hit& hit,
                   ImDrawList& draw);
-  void DrawGutter(const TimelineRow& row, const ImVec2& at, float width) const;
+  void DrawGutter(const editor::Workspace& workspace,
+                  const TimelineRow& row,
+                  const ImVec2& at,
+                  float width) const;
   void DrawVoiceOf(const editor::Workspace& workspace,
                    const std::string& line,
                    double begin,

@@ -67,13 +67,12 @@ void CameraField::Show(std::string& camera, const std::filesystem::path& folder)
   if (!std::exchange(looked_, true) || ImGui::IsWindowAppearing()) {
     Look(camera);
   }
-  const std::span<const char* const> videos = ExtensionsOf(editor::FileKind::kVideo);
   const char* const again = Tr("Look again");
   const float button = WidestButton(std::array{again}, 0.0f);
   const float right = button + ImGui::GetStyle().ItemSpacing.x;
   PropertyLabel(Tr("Camera"));
   if (cameras_.empty()) {
-    PathField("camera", camera, folder, videos, right);
+    PathField("camera", camera, folder, FileType::kVideo, right);
   } else {
     DrawList(camera, ImGui::GetContentRegionAvail().x - right);
   }
@@ -84,7 +83,7 @@ void CameraField::Show(std::string& camera, const std::filesystem::path& folder)
   Tooltip(Tr("Looks which cameras are connected now"));
   if (typed_ && !cameras_.empty()) {
     PropertyLabel(Tr("Number, video"));
-    PathField("camera", camera, folder, videos);
+    PathField("camera", camera, folder, FileType::kVideo);
   }
 }
 

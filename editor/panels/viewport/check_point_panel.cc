@@ -256,7 +256,7 @@ void DrawCheckPoint(editor::Workspace& workspace,
     EndProperties();
   }
   ImGui::Dummy(ImVec2(0, Px(4)));
-  Heading(Text(Tr("All of them at %s"), workspace.project().place()->name.c_str()).c_str());
+  Heading(Text(Tr("All of them at %s"), workspace.project().place()->label().c_str()).c_str());
   DrawTable(selection, report);
   DrawOutcome(workspace, report);
   ImGui::Dummy(ImVec2(0, Px(4)));
@@ -310,16 +310,16 @@ void CheckPointDialog(editor::Workspace& workspace,
     EndProperties();
   }
   const auto& points = workspace.project().document().check_points;
-  std::string problem;
+  DialogProblem problem;
   if (name.empty()) {
-    problem = Tr("It needs a name.");
+    problem = Missing(Tr("It needs a name."));
   } else if (name.size() > editor::kMaxCheckPointName) {
-    problem = Tr("The name is too long.");
+    problem = Wrong(Tr("The name is too long."));
   } else if (std::any_of(points.begin(), points.end(),
                          [&](const auto& p) { return p.name == name; })) {
-    problem = Tr("That name is taken.");
+    problem = Wrong(Tr("That name is taken."));
   } else if (points.size() >= editor::kMaxCheckPoints) {
-    problem = Tr("There are too many already.");
+    problem = Wrong(Tr("There are too many already."));
   }
   const DialogAnswer answer = DialogButtons(Tr("Add"), problem);
   if (answer != DialogAnswer::kNone) {

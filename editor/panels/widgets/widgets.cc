@@ -10,81 +10,16 @@
 #include <vector>
 
 #include "editor/document/angles.h"
+#include "editor/panels/widgets/file_chooser.h"
 #include "editor/panels/widgets/icons.h"
 #include "editor/panels/widgets/key_state.h"
 #include "editor/panels/widgets/keys.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
-#include "shared/core/lower_case.h"
 #include "shared/core/srgb.h"
 #include "shared/core/units.h"
 
 namespace lararium::panels {
-
-namespace {
-
-struct FolderEntry {
-  std::string name;
-  bool folder = false;
-};
-
-bool HasExtension(const std::filesystem::path& file, std::span<const char* const> extensions) {
-  const std::string extension = LowerCase(file.extension().string());
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const char* known) { return extension == known; });
-}
-
-// Folders first, then files, each sorted by name.
-std::vector<FolderEntry> ListFolder(const std::filesystem::path& folder,
-                                    std::span<const char* const> extensions) {
-  std::vector<FolderEntry> entries;
-  std::error_code error;
-  for (auto at = std::filesystem::directory_iterator(folder, error);
-       !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
-    std::error_code ignored;
-    const bool is_folder = at->is_directory(ignored);
-    const std::string name = at->path().filename().string();
-    if (!name.starts_with('.') && (is_folder || HasExtension(at->path(), extensions))) {
-      entries.push_back({name, is_folder});
-    }
-  }
-  std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
-    return a.folder != b.folder ? a.folder : a.name < b.name;
-  });
-  return entries;
-}
-
-// The folder that is listed for the typed path.
-std::filesystem::path ListedFolder(const std::filesystem::path& typed) {
-  std::error_code ignored;
-  return std::filesystem::is_directory(typed, ignored) ? typed : typed.parent_path();
-}
-
-bool FolderList(std::string& path,
-                const std::filesystem::path& folder,
-                std::span<const char* const> extensions) {
-  const std::filesystem::path listed = ListedFolder(folder / path).lexically_normal();
-  DimText(listed.string());
-  ImGui::Separator();
-  bool changed = false;
-  if (ImGui::Selectable("..", false, ImGuiSelectableFlags_DontClosePopups)) {
-    const std::filesystem::path at = listed.has_filename() ? listed : listed.parent_path();
-    path = at.parent_path().string();
-    changed = true;
-  }
-  for (const FolderEntry& entry : ListFolder(listed, extensions)) {
-    const std::string label = entry.folder ? entry.name + "/" : entry.name;
-    const ImGuiSelectableFlags flags =
-        entry.folder ? ImGuiSelectableFlags_DontClosePopups : ImGuiSelectableFlags_None;
-    if (ImGui::Selectable(label.c_str(), false, flags)) {
-      path = (listed / entry.name).string();
-      changed = true;
-    }
-  }
-  return changed;
-}
-
-}  // namespace
 
 void Heading(const char* text) {
   ImGui::PushFont(ThemeFonts().strong);
@@ -114,19 +49,24 @@ void Hint(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void DrawModal(const char* title, float width, bool& open, const std::function<void()>& content) {
+void DrawModal(const char* title,
+               float width,
+               bool& open,
+               const std::function<void()>& content,
+               ImGuiWindowFlags flags) {
   const ImVec2 center = ImGui::GetMainViewport()->GetCenter();
   ImGui::OpenPopup(title);
   ImGui::SetNextWindowPos(center, ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   const float widest = ImGui::GetMainViewport()->WorkSize.x - Px(16);
   ImGui::SetNextWindowSize(ImVec2(std::min(Px(width), widest), 0));
   bool kept = true;
-  if (!ImGui::BeginPopupModal(title, &kept,
-                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+  if (!ImGui::BeginPopupModal(
+          title, &kept, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings | flags)) {
     open &= kept;  // The close button was pressed.
     return;
   }
-  if (ImGui::IsWindowAppearing() && ImGui::GetIO().NavVisible) {
+  const bool walks = (flags & ImGuiWindowFlags_NoNavInputs) == 0;
+  if (ImGui::IsWindowAppearing() && ImGui::GetIO().NavVisible && walks) {
     ImGui::SetKeyboardFocusHere();  // The dialog was opened by keys, so the user types next.
   }
   content();
@@ -172,10 +112,10 @@ void KeepRingOffButtons(const char* first, const char* second) {
 
 }  // namespace
 
-DialogAnswer DialogButtons(const char* action, const std::string& problem, const char* cancel) {
+DialogAnswer DialogButtons(const char* action, const DialogProblem& problem, const char* cancel) {
   ImGui::Dummy(ImVec2(0, Px(2)));
-  ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
-  ImGui::TextUnformatted(problem.empty() ? " " : problem.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, problem.missing ? Colours().dim : Colours().warning);
+  ImGui::TextUnformatted(problem.text.empty() ? " " : problem.text.c_str());
   ImGui::PopStyleColor();
   const char* const other = cancel != nullptr ? cancel : Tr("Cancel");
   const float width = WidestButton(std::array{other, action}, 110.0f);
@@ -187,9 +127,9 @@ DialogAnswer DialogButtons(const char* action, const std::string& problem, const
     answer = DialogAnswer::kCancel;
   }
   ImGui::SameLine();
-  ImGui::BeginDisabled(!problem.empty());
+  ImGui::BeginDisabled(problem.any());
   ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
-  if (ImGui::Button(action, ImVec2(width, 0)) || (problem.empty() && EnterConfirms())) {
+  if (ImGui::Button(action, ImVec2(width, 0)) || (!problem.any() && EnterConfirms())) {
     answer = DialogAnswer::kAct;
   }
   ImGui::PopStyleColor();
@@ -543,25 +483,41 @@ bool Swatch(editor::Workspace& workspace, const char* id, glm::vec3& srgb) {
 bool PathField(const char* id,
                std::string& path,
                const std::filesystem::path& folder,
-               std::span<const char* const> extensions,
+               FileType type,
                float right) {
+  FileChooser& chooser = FileChooser::Current();
   ImGui::PushID(id);
-  const float button = ImGui::GetFrameHeight() * 1.4f;
+  const ImGuiID field = ImGui::GetID("files");
+  const char* const browse = Tr("Browse\xe2\x80\xa6");
+  const float button = WidestButton(std::array{browse}, 0.0f);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - right - button -
                           ImGui::GetStyle().ItemSpacing.x);
   bool changed = ImGui::InputText("##path", &path);
   ImGui::SameLine();
-  if (ImGui::Button("\xe2\x80\xa6", ImVec2(button, 0))) {
-    ImGui::OpenPopup("files");
+  if (ImGui::Button(browse, ImVec2(button, 0))) {
+    chooser.Ask(field, type, folder / path);
   }
-  Tooltip(extensions.empty() ? Tr("Lists folders, to choose one")
-                             : Tr("Lists the folder, to choose a file"));
-  ImGui::SetNextWindowSize(ImVec2(Px(460), Px(320)), ImGuiCond_Always);
-  if (ImGui::BeginPopup("files")) {
-    changed |= FolderList(path, folder, extensions);
-    ImGui::EndPopup();
+  Tooltip(chooser.IsWaiting(field)
+              ? Tr("The desktop's dialog is open. Once more opens a list in this window instead.")
+              : Tr(SpecOf(type).title));
+  std::optional<std::filesystem::path> chosen = chooser.Show(field);
+  if (!chosen) {
+    chosen = chooser.TakeDrop(type);
   }
+  if (chosen) {
+    path = chosen->string();
+    changed = true;
+  }
+  if (changed) {
+    chooser.ForgetProblem();
+  }
+  const std::string problem = chooser.Problem(field);
   ImGui::PopID();
+  if (!problem.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
+    ImGui::TextWrapped("%s", problem.c_str());
+    ImGui::PopStyleColor();
+  }
   return changed;
 }
 

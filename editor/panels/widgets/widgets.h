@@ -11,7 +11,9 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "editor/panels/widgets/file_kinds.h"
 #include "editor/session/workspace.h"
 #include "shared/geometry/transform.h"
 
@@ -26,14 +28,29 @@ void Tooltip(const std::string& text);
 
 // A dialog in the middle of the window, until open is false. Escape and the close button close it;
 // Escape first closes a list that is open in it. width: logical pixels.
-void DrawModal(const char* title, float width, bool& open, const std::function<void()>& content);
+// flags: beside those of every dialog.
+void DrawModal(const char* title,
+               float width,
+               bool& open,
+               const std::function<void()>& content,
+               ImGuiWindowFlags flags = 0);
+
+// Why the action of a dialog is not possible. What is only missing, such as a name that nobody has
+// typed yet, is shown as a hint and not as an error: no dialog begins with an error.
+struct DialogProblem {
+  std::string text;  // Empty: the action is possible.
+  bool missing = false;
+
+  bool any() const { return !text.empty(); }
+};
+inline DialogProblem Missing(std::string text) { return {std::move(text), true}; }
+inline DialogProblem Wrong(std::string text) { return {std::move(text), false}; }
 
 enum class DialogAnswer { kNone, kCancel, kAct };
 // Ends a dialog with a row of two buttons: Cancel (or another text) and the action. Enter triggers
-// the action unless the focus is on another button. problem: why the action is not possible yet;
-// empty when it is.
+// the action unless the focus is on another button.
 DialogAnswer DialogButtons(const char* action,
-                           const std::string& problem,
+                           const DialogProblem& problem,
                            const char* cancel = nullptr);
 
 // "22 Nov 2026, 14:05", local time. seconds: since 1970.
@@ -129,12 +146,13 @@ bool NameCombo(const char* id,
 // A colour button that opens a picker. srgb: 0..1.
 bool Swatch(editor::Workspace& workspace, const char* id, glm::vec3& srgb);
 
-// A path as text, with a button that lists the folder. extensions: with the dot, lower case; empty:
-// a folder is chosen. folder: the base of relative paths. right: pixels that stay free beside it.
+// A path as text, with a button that asks for a file of that type (FileChooser); a file of the type
+// that is dropped on the window goes into the field. folder: the base of relative paths. right:
+// pixels that stay free beside it.
 bool PathField(const char* id,
                std::string& path,
                const std::filesystem::path& folder,
-               std::span<const char* const> extensions,
+               FileType type,
                float right = 0.0f);
 
 }  // namespace lararium::panels

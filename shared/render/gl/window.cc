@@ -151,6 +151,11 @@ struct Window::State {
         Of(self).scroll(x, y);
       }
     });
+    glfwSetDropCallback(w, [](GLFWwindow* self, int count, const char** paths) {
+      if (Of(self).drop) {
+        Of(self).drop({paths, paths + count});
+      }
+    });
     glfwSetWindowRefreshCallback(w, [](GLFWwindow* self) {
       if (Of(self).refresh) {
         Of(self).refresh();

@@ -36,6 +36,8 @@ struct WindowCallbacks {
   std::function<void(double x, double y)> cursor;
   std::function<void(double x, double y)> scroll;
   std::function<void(int width, int height)> resize;  // framebuffer, pixels
+  // Files or folders were dropped on the window; their paths, or addresses that are no files.
+  std::function<void(std::vector<std::string> paths)> drop = {};
   // The content of the window was lost, for example because another window covered it.
   std::function<void()> refresh = {};
 };

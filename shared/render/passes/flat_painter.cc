@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/core/check.h"
+#include "shared/core/utf8.h"
 #include "shared/render/gl/gl_object.h"
 #include "shared/render/gl/shader_program.h"
 

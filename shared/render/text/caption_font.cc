@@ -5,6 +5,7 @@
 
 #include "shared/core/json.h"
 #include "shared/core/json_fields.h"
+#include "shared/core/utf8.h"
 #include "shared/render/gl/texture_image.h"
 
 namespace lararium::render {
@@ -77,26 +78,6 @@ Result<CaptionFont> ParseCaptionFont(std::string_view metrics,
 
 std::string FormatCaptionMetrics(const CaptionFont& font) {
   return FormatFields(font, DescribeMetrics).dump() + "\n";
-}
-
-uint32_t NextCharacter(std::string_view text, size_t& at) {
-  constexpr uint32_t kBad = 0xFFFD;
-  const auto lead = static_cast<unsigned char>(text[at++]);
-  if (lead < 0x80) {
-    return lead;
-  }
-  const int more = lead >= 0xF0 && lead < 0xF5 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC2 ? 1 : 0;
-  if (more == 0 || lead >= 0xF5) {
-    return kBad;
-  }
-  uint32_t character = lead & (0x3Fu >> more);
-  for (int i = 0; i < more; ++i) {
-    if (at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xC0) != 0x80) {
-      return kBad;
-    }
-    character = (character << 6) | (static_cast<unsigned char>(text[at++]) & 0x3F);
-  }
-  return character;
 }
 
 float TextWidth(const CaptionFont& font, std::string_view text) {

@@ -47,9 +47,6 @@ Result<CaptionFont> ParseCaptionFont(std::string_view metrics,
                                      const std::string& where);
 std::string FormatCaptionMetrics(const CaptionFont& font);
 
-// Returns the character at byte `at` and moves `at` behind it. Invalid UTF-8 gives U+FFFD.
-uint32_t NextCharacter(std::string_view text, size_t& at);
-
 // The width of a text, em.
 float TextWidth(const CaptionFont& font, std::string_view text);
 

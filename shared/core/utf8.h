@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace lararium {
+
+// Returns the character at byte `at` and moves `at` behind it. Invalid UTF-8 gives U+FFFD.
+uint32_t NextCharacter(std::string_view text, size_t& at);
+
+// Whether the whole text is valid UTF-8.
+bool IsUtf8(std::string_view text);
+
+}  // namespace lararium
