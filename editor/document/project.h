@@ -134,7 +134,7 @@ inline constexpr double kMaxStageScale = 1e4;
 
 struct PlaceDocument {
   std::string name;   // The name of its folder, and in scripts.
-  std::string title;  // What it is called in the interface; empty: as its name.
+  std::string title;  // The name in the interface; empty: the same as `name`.
   SourceDocument training;
   // The recording in the editor's camera view. Empty: the training recording.
   SourceDocument preview;

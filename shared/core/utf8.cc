@@ -26,7 +26,7 @@ uint32_t NextCharacter(std::string_view text, size_t& at) {
     }
     character = (character << 6) | (static_cast<unsigned char>(text[at++]) & 0x3F);
   }
-  // The smallest character that needs so many bytes; shorter forms exist of those below it.
+  // The smallest character of each length; smaller ones have a shorter form.
   constexpr std::array<uint32_t, 4> kLeast = {0, 0x80, 0x800, 0x10000};
   const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
   return character < kLeast[more] || character > 0x10FFFF || surrogate ? kBad : character;

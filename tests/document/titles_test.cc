@@ -19,7 +19,7 @@ TEST(Titles, MakePlainNames) {
             "Grosse");  // The accent is a character of its own.
   EXPECT_EQ(PlainNameOf("Città (l'atrio) – 2"), "Citta_l_atrio_2");
   EXPECT_EQ(PlainNameOf("Ærøskøbing, Łódź"), "AEroskobing_Lodz");
-  EXPECT_EQ(PlainNameOf("Οἶκος Δήλου"), "O_kos_Delou");
+  EXPECT_EQ(PlainNameOf("Οἶκος Δήλου"), "O_kos_Deloy");
   EXPECT_EQ(PlainNameOf("οίκος"), "oikos");
   EXPECT_EQ(PlainNameOf("  -x-  "), "x");
   EXPECT_EQ(PlainNameOf("../../etc/passwd"), "etc_passwd");

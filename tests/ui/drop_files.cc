@@ -50,7 +50,7 @@ class Source {
           Send("XdndDrop", 0, CurrentTime, 0, 0);
         } else if (event.type == ClientMessage &&
                    event.xclient.message_type == Named("XdndFinished")) {
-          return (event.xclient.data.l[1] & 1) != 0;
+          return event.xclient.data.l[1] != 0;  // GLFW sends the size of what it has read.
         }
       }
       usleep(10'000);

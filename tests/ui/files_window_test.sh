@@ -92,8 +92,9 @@ CONF
 exec 3< <(exec dbus-daemon --config-file="$out/bus.conf" --nofork --print-address 2> "$out/bus.log")
 bus=$!
 read -r address <&3
+trap 'kill $bus ${portal:-} 2> /dev/null' EXIT
 export DBUS_SESSION_BUS_ADDRESS=$address
-"$mock_portal" choose "file://$HOME/films/Gr%C3%B6%C3%9Fe.mp4" > "$out/portal.log" &
+"$mock_portal" choose "file://$HOME/films/Gr%C3%B6%C3%9Fe.mp4" > "$out/portal.log" 2>&1 &
 portal=$!
 wait_for 5 grep -q ready "$out/portal.log" || fail "no portal"
 begin
@@ -103,11 +104,10 @@ sleep 1
 shot portal
 grep -q '^OpenFile parent=x11:[0-9a-f]* title=Choose a video .*filters=Videos:\*' "$out/portal.log" ||
   fail "the portal was asked: $(cat "$out/portal.log")"
-fill 740 372 "Größe"
+fill 740 372 "By the desktop"
 click 933 594
-wait_for 20 titled "Größe" || fail "no project was made"
-tr -d '\n' < "$HOME/Groesse.lararium/project.json" | grep -q 'Größe.mp4' || fail "not the chosen file"
+wait_for 20 titled "By the desktop" || fail "no project was made"
+tr -d '\n' < "$HOME/By_the_desktop.lararium/project.json" | grep -q 'Größe.mp4' || fail "not the chosen file"
 kill $pid
 wait $pid
-kill $portal $bus
 echo "passed; screenshots: $out/list.png $out/titled.png"

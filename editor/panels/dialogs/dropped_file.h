@@ -12,8 +12,8 @@ struct DroppedFile {
     kProject,
     kVideo,
     kImages,  // A folder.
-    kModel,   // Of an object, an occluder or a person.
-    kFigure,  // Of a person (VRM).
+    kModel,   // The model of an object, an occluder or a person.
+    kFigure,  // The model of a person (VRM).
     kProbe,
     kOther,
   };

@@ -43,7 +43,7 @@ class NewProjectDialog {
 
   bool open_ = false;
   From from_ = From::kVideo;
-  std::string parent_;  // As typed; relative paths start at the user's home.
+  std::string parent_;  // The typed path; a relative one starts at the user's home.
   DialogFields fields_;
   CalibrationDialog calibration_;
 };

@@ -93,7 +93,7 @@ void FileChooser::Ask(ImGuiID field, FileType type, const fs::path& path) {
                          : folder                            ? path
                                                              : path.parent_path();
   List list;
-  list.column = list_.column;  // As the table remembers it.
+  list.column = list_.column;  // The table still shows this order.
   list.descending = list_.descending;
   list_ = std::move(list);
   list_.folder = ExistingFolder(shown);
@@ -121,7 +121,7 @@ void FileChooser::Enter(const fs::path& folder) {
   const fs::path before = list_.folder;
   list_.folder = folder.lexically_normal();
   if (!list_.folder.has_filename() && list_.folder.has_relative_path()) {
-    list_.folder = list_.folder.parent_path();  // Without the slash at its end.
+    list_.folder = list_.folder.parent_path();  // This removes the slash at the end.
   }
   list_.typed = list_.folder.string();
   Read();
@@ -218,7 +218,7 @@ void FileChooser::DrawPath() {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::InputText("##path", &list_.typed)) {
-    list_.chosen.reset();  // What is typed counts now.
+    list_.chosen.reset();  // The typed path replaces the choice.
     std::error_code ignored;
     const fs::path typed = editor::HomeFolder() / list_.typed;
     if (fs::is_directory(typed, ignored)) {
@@ -319,7 +319,7 @@ void FileChooser::DrawEntries() {
   const float row = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
   if (std::exchange(list_.scroll, false)) {
     const float top = row * static_cast<float>(list_.chosen.value_or(0));
-    const float room = ImGui::GetWindowHeight() - 2.0f * row;  // Without the header.
+    const float room = ImGui::GetWindowHeight() - 2.0f * row;  // The header takes the rest.
     if (!list_.chosen || top < ImGui::GetScrollY() || top > ImGui::GetScrollY() + room - row) {
       ImGui::SetScrollY(std::max(0.0f, top - 0.5f * room));
     }

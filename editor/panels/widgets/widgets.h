@@ -35,8 +35,8 @@ void DrawModal(const char* title,
                const std::function<void()>& content,
                ImGuiWindowFlags flags = 0);
 
-// Why the action of a dialog is not possible. What is only missing, such as a name that nobody has
-// typed yet, is shown as a hint and not as an error: no dialog begins with an error.
+// The reason why the action of a dialog is not possible. Input that is only missing, such as a name
+// that was not typed yet, is shown as a hint and not as an error: no dialog begins with an error.
 struct DialogProblem {
   std::string text;  // Empty: the action is possible.
   bool missing = false;
