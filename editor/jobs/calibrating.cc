@@ -8,6 +8,7 @@
 #include "editor/jobs/filming.h"
 #include "editor/text/text.h"
 #include "shared/core/file.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/units.h"
 
 namespace lararium::editor {
@@ -80,14 +81,6 @@ std::string VerdictName(Calibration::Verdict verdict) {
       break;
   }
   return "poor";
-}
-
-Json NumbersJson(std::span<const double> numbers) {
-  Json json = Json::array();
-  for (const double number : numbers) {
-    json.push_back(number);
-  }
-  return json;
 }
 
 std::string PartName(train::CalibratedView::Part part) {
@@ -173,8 +166,8 @@ Json CalibrationJson(const Calibration& calibration) {
                      {"tilt_deg", kDegreesPerRadian * view.tilt},
                      {"blur_px", view.view.blur_px}});
   }
-  return {{"intrinsics", NumbersJson(std::array{c.fx, c.fy, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2})},
-          {"deviation", NumbersJson(std::array{d.fx, d.fy, d.cx, d.cy, d.k1, d.k2, d.p1, d.p2})},
+  return {{"intrinsics", std::array{c.fx, c.fy, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2}},
+          {"deviation", std::array{d.fx, d.fy, d.cx, d.cy, d.k1, d.k2, d.p1, d.p2}},
           {"width", c.width},
           {"height", c.height},
           {"rms_px", calibration.rms_px},
@@ -208,12 +201,7 @@ Status SaveDeviceField(const std::filesystem::path& file, const char* field, con
 }
 
 Status SaveDeviceCamera(const std::filesystem::path& file, const geometry::CameraModel& camera) {
-  return SaveDeviceField(
-      file, "camera",
-      {{"width", camera.width},
-       {"height", camera.height},
-       {"K", NumbersJson(std::array{camera.fx, camera.fy, camera.cx, camera.cy})},
-       {"k1_k2_p1_p2", NumbersJson(std::array{camera.k1, camera.k2, camera.p1, camera.p2})}});
+  return SaveDeviceField(file, "camera", FormatFields(camera));
 }
 
 Result<std::string> BoardSvg(train::Board board) {

@@ -1,69 +1,50 @@
 #include "player/app/device_file.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
+#include <iterator>
 
 #include "shared/core/file.h"
-#include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::player {
 namespace {
 
-using geometry::CameraModel;
-
 constexpr uint64_t kMaxDeviceBytes = 1 << 20;
 
-Result<CameraModel> ParseCamera(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 16, 16384));
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t height, view.Integer("height", 16, 16384));
-  LARARIUM_ASSIGN_OR_RETURN(std::vector<double> numbers, view.Numbers("K", 4));
-  if (view.Has("k1_k2_p1_p2")) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> distortion, view.Numbers("k1_k2_p1_p2", 4));
-    numbers.insert(numbers.end(), distortion.begin(), distortion.end());
+// These descriptions are only for reading.
+void DescribeCapture(Fields& fields, capture::CameraSettings& settings) {
+  fields.Text(Optional("format"), settings.format, 4);
+  fields.Require(!fields.Has("format") || settings.format.size() == 4,
+                 "\"format\" must have four letters", "as MJPG or YUYV");
+  if (fields.Has("width") || fields.Has("height")) {
+    fields.Integer("width", settings.width, 16, 16384);
+    fields.Integer("height", settings.height, 16, 16384);
   }
-  const Result<CameraModel> camera =
-      CameraModel::FromNumbers(numbers, static_cast<int>(width), static_cast<int>(height));
-  return camera.ok() ? camera : camera.status().At(view.place());
+  fields.Number(Optional("frames_per_second"), settings.frames_per_second, 1.0, 1000.0);
+  fields.Number(Optional("exposure_ms"), settings.exposure_ms, 0.01, 1000.0);
 }
 
-Result<capture::CameraSettings> ParseCapture(const JsonView& view) {
-  capture::CameraSettings settings;
-  if (view.Has("format")) {
-    LARARIUM_ASSIGN_OR_RETURN(settings.format, view.Text("format", 4));
-    if (settings.format.size() != 4) {
-      return view.Problem("\"format\" must have four letters", "as MJPG or YUYV");
-    }
-  }
-  if (view.Has("width") || view.Has("height")) {
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 16, 16384));
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t height, view.Integer("height", 16, 16384));
-    settings.width = static_cast<int>(width);
-    settings.height = static_cast<int>(height);
-  }
-  if (view.Has("frames_per_second")) {
-    LARARIUM_ASSIGN_OR_RETURN(settings.frames_per_second,
-                              view.Number("frames_per_second", 1.0, 1000.0));
-  }
-  if (view.Has("exposure_ms")) {
-    LARARIUM_ASSIGN_OR_RETURN(settings.exposure_ms, view.Number("exposure_ms", 0.01, 1000.0));
-  }
-  return settings;
+void DescribeLost(Fields& fields, show::TrackingLossFaderOptions& lost) {
+  fields.Number(Optional("hold"), lost.hold, 0.0, 60.0);
+  fields.Number(Optional("fade"), lost.fade, 0.0, 60.0);
+  fields.Number(Optional("appear"), lost.appear, 0.0, 60.0);
+  fields.Number(Optional("guide_after"), lost.guide_after, 0.0, 60.0);
 }
 
-Result<show::TrackingLossFaderOptions> ParseLost(const JsonView& view) {
-  show::TrackingLossFaderOptions lost;
-  const std::pair<const char*, double*> fields[] = {{"hold", &lost.hold},
-                                                    {"fade", &lost.fade},
-                                                    {"appear", &lost.appear},
-                                                    {"guide_after", &lost.guide_after}};
-  for (const auto& [name, seconds] : fields) {
-    if (view.Has(name)) {
-      LARARIUM_ASSIGN_OR_RETURN(*seconds, view.Number(name, 0.0, 60.0));
-    }
-  }
-  return lost;
+void DescribeDevice(Fields& fields, Device& device) {
+  fields.Schema(1, "was written for a newer player", "update the player");
+  fields.Object("camera", device.camera);
+  fields.Object("look", device.look);
+  fields.Object(Optional("capture"), device.capture, DescribeCapture);
+  fields.Object(Optional("lost"), device.lost, DescribeLost);
+  fields.Object("headset", device.headset);
+  DescribeButtons(fields, Optional("buttons"), device.buttons);
+  constexpr const char* kFields[] = {"buttons", "camera", "capture", "headset", "look", "lost"};
+  fields.Require(
+      std::any_of(std::begin(kFields), std::end(kFields),
+                  [&](auto name) { return fields.Has(name); }),
+      "has none of \"buttons\", \"camera\", \"capture\", \"headset\", \"look\", \"lost\"",
+      "docs/file-formats.md says what they hold");
 }
 
 }  // namespace
@@ -74,46 +55,7 @@ Result<Device> LoadDevice(const std::filesystem::path& file) {
 }
 
 Result<Device> ParseDevice(std::string_view text, const std::string& where) {
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
-  const JsonView view(json, where);
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));
-  if (schema != 1) {
-    return view.Problem("was written for a newer player", "update the player");
-  }
-  Device device;
-  if (view.Has("camera")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView camera, view.Field("camera"));
-    LARARIUM_ASSIGN_OR_RETURN(device.camera, ParseCamera(camera));
-  }
-  if (view.Has("look")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView look, view.Field("look"));
-    LARARIUM_ASSIGN_OR_RETURN(device.look,
-                              ParseFields<light::CameraTraits>(look, UnknownFields::kIgnore));
-  }
-  if (view.Has("capture")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView capture, view.Field("capture"));
-    LARARIUM_ASSIGN_OR_RETURN(device.capture, ParseCapture(capture));
-  }
-  if (view.Has("lost")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView lost, view.Field("lost"));
-    LARARIUM_ASSIGN_OR_RETURN(device.lost, ParseLost(lost));
-  }
-  if (view.Has("headset")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView headset, view.Field("headset"));
-    LARARIUM_ASSIGN_OR_RETURN(device.headset, ParseHeadset(headset));
-  }
-  if (view.Has("buttons")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView buttons, view.Field("buttons"));
-    LARARIUM_ASSIGN_OR_RETURN(device.buttons, ParseButtons(buttons));
-  }
-  constexpr std::array<std::string_view, 6> kFields = {"buttons", "camera", "capture",
-                                                       "headset", "look",   "lost"};
-  if (std::none_of(kFields.begin(), kFields.end(), [&](auto field) { return view.Has(field); })) {
-    return view.Problem(
-        "has none of \"buttons\", \"camera\", \"capture\", \"headset\", \"look\", \"lost\"",
-        "docs/file-formats.md says what they hold");
-  }
-  return device;
+  return ParseFields<Device>(text, where, DescribeDevice, UnknownFields::kIgnore);
 }
 
 }  // namespace lararium::player

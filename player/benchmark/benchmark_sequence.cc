@@ -6,6 +6,7 @@
 
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/vision/poses_file.h"
 
 namespace lararium::player {
@@ -100,47 +101,31 @@ Result<std::vector<Eigen::Vector3d>> LoadPoints(const fs::path& folder) {
                        "put points.json or points.txt there or beside it");
 }
 
-// Reads the optional distortion of the whole set: a list k1, k2, p1, p2.
-Result<std::optional<std::array<double, 4>>> SharedDistortion(const JsonView& root) {
-  if (!root.Has("distortion")) {
-    return std::optional<std::array<double, 4>>();
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> d, root.Numbers("distortion", 4));
-  return std::optional(std::array{d[0], d[1], d[2], d[3]});
-}
-
-Status ReadExtras(const JsonView& view, TrueImage& image) {
-  if (view.Has("visible_fraction")) {
-    LARARIUM_ASSIGN_OR_RETURN(image.visible_fraction, view.Number("visible_fraction", 0.0, 1.0));
-  }
-  if (view.Has("gain_ev")) {
-    LARARIUM_ASSIGN_OR_RETURN(image.gain_ev, view.Number("gain_ev", -64.0, 64.0));
-  }
-  return Status();
-}
-
 Result<std::vector<TrueImage>> LoadTrueImages(const fs::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<vision::PoseRecord> records, vision::LoadPoses(file));
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(file));
-  const JsonView root(json, file.string());
-  LARARIUM_ASSIGN_OR_RETURN(const auto distortion, SharedDistortion(root));
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView list, root.Field("images"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> views, list.Array());
   std::vector<TrueImage> images;
-  for (size_t i = 0; i < records.size(); ++i) {
-    TrueImage image;
-    image.file = fs::path(records[i].file).filename().string();
-    image.camera = records[i].camera;
-    if (distortion && !views[i].Has("distortion")) {
-      image.camera.k1 = (*distortion)[0];
-      image.camera.k2 = (*distortion)[1];
-      image.camera.p1 = (*distortion)[2];
-      image.camera.p2 = (*distortion)[3];
-    }
-    image.camera_from_world = records[i].camera_from_world;
-    LARARIUM_RETURN_IF_ERROR(ReadExtras(views[i], image));
-    images.push_back(std::move(image));
-  }
+  const auto describe = [&](Fields& fields) {
+    // k1, k2, p1 and p2 of the images that have no distortion of their own.
+    std::array<double, 4> shared = {};
+    fields.Numbers(Optional("distortion"), shared);
+    auto record = records.begin();
+    fields.List("images", images, records.size(), [&](Fields& entry, TrueImage& image) {
+      image.file = fs::path(record->file).filename().string();
+      image.camera = record->camera;
+      if (!entry.Has("distortion")) {
+        image.camera.k1 = shared[0];
+        image.camera.k2 = shared[1];
+        image.camera.p1 = shared[2];
+        image.camera.p2 = shared[3];
+      }
+      image.camera_from_world = record++->camera_from_world;
+      entry.Number(Optional("visible_fraction"), image.visible_fraction, 0.0, 1.0);
+      entry.Number(Optional("gain_ev"), image.gain_ev, -64.0, 64.0);
+    });
+  };
+  LARARIUM_RETURN_IF_ERROR(
+      ReadFields(JsonView(json, file.string()), describe, UnknownFields::kIgnore));
   return images;
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <limits>
+#include <map>
 
-#include "shared/core/json.h"
 #include "shared/render/gl/window.h"
 #include "shared/show/show_content.h"
 
@@ -50,19 +52,6 @@ bool IsButton(std::string_view name) {
   return render::IsButtonName(name) || name == kHandSelect || name == kHandMenu;
 }
 
-Result<std::vector<std::string>> ParseNames(const JsonView& field) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> entries, field.Array(kMostButtons));
-  std::vector<std::string> names;
-  for (const JsonView& entry : entries) {
-    LARARIUM_ASSIGN_OR_RETURN(names.emplace_back(), entry.Text(32));
-    if (!IsButton(names.back())) {
-      return entry.Problem("there is no button \"" + names.back() + "\"",
-                           "docs/player.md names them");
-    }
-  }
-  return names;
-}
-
 }  // namespace
 
 Buttons::Buttons() {
@@ -91,29 +80,31 @@ void Buttons::Set(Action action, const std::vector<std::string>& buttons) {
   }
 }
 
-Result<Buttons> ParseButtons(const JsonView& view) {
-  Buttons buttons;
-  if (!view.json().is_object()) {
-    return view.Problem("must be an object", "as {\"menu\": [\"m\", \"pad_start\"]}");
-  }
+void DescribeButtons(Fields& fields, const FieldKey& key, Buttons& buttons) {
+  std::map<std::string, std::vector<std::string>> actions;
   std::vector<std::string> taken;
-  for (const auto& [name, value] : view.json().items()) {
+  const auto describe = [&](const FieldKey& action, std::vector<std::string>& names) {
     const auto* named = std::find_if(std::begin(kActions), std::end(kActions),
-                                     [&name = name](const Named& n) { return n.name == name; });
-    if (named == std::end(kActions)) {
-      return view.Problem("there is no action \"" + name + "\"", "docs/player.md names them");
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(name));
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::string> names, ParseNames(field));
+                                     [&](const Named& n) { return n.name == action.name; });
+    fields.Require(named != std::end(kActions),
+                   "there is no action \"" + std::string(action.name) + "\"",
+                   "docs/player.md names them");
+    fields.List(action, names, kMostButtons, [&](const FieldKey& entry, std::string& name) {
+      fields.Text(entry, name, 32);
+      fields.RequireAt(entry, IsButton(name), "there is no button \"" + name + "\"",
+                       "docs/player.md names them");
+    });
     for (const std::string& button : names) {
-      if (std::find(taken.begin(), taken.end(), button) != taken.end()) {
-        return field.Problem("\"" + button + "\" is another action's too", "give it to one");
-      }
+      fields.RequireAt(action, std::find(taken.begin(), taken.end(), button) == taken.end(),
+                       "\"" + button + "\" is another action's too", "give it to one");
       taken.push_back(button);
     }
-    buttons.Set(named->action, names);
-  }
-  return buttons;
+    if (named != std::end(kActions)) {
+      buttons.Set(named->action, names);
+    }
+  };
+  fields.Entries(key, actions, std::numeric_limits<size_t>::max(),
+                 "must be an object; as {\"menu\": [\"m\", \"pad_start\"]}", describe);
 }
 
 void Choose(Action action, const Offer& offer, Choices& choices) {

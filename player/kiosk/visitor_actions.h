@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "player/kiosk/kiosk_state.h"
-#include "shared/core/json_fwd.h"
-#include "shared/core/status.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::player {
 
@@ -48,8 +47,8 @@ class Buttons {
   std::vector<std::pair<std::string, Action>> actions_;
 };
 
-// Parses the field "buttons" of a device file: an object with the buttons of each named action.
-Result<Buttons> ParseButtons(const JsonView& view);
+// Describes an object with the buttons of each named action, for reading.
+void DescribeButtons(Fields& fields, const FieldKey& key, Buttons& buttons);
 
 // The choices that a show offers.
 struct Offer {

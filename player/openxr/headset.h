@@ -52,7 +52,7 @@ struct Headset {
   show::ViewPart SeenPart() const;
 };
 
-// Parses the field "headset" of a device file.
-Result<Headset> ParseHeadset(const JsonView& view);
+// Describes the field "headset" of a device file, for reading.
+void DescribeFields(Fields& fields, Headset& headset);
 
 }  // namespace lararium::player

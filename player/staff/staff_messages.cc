@@ -3,12 +3,11 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <iterator>
 #include <utility>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/show/show_content.h"
 
 namespace lararium::player {
@@ -21,19 +20,36 @@ constexpr std::pair<std::string_view, Action> kActions[] = {{"restart", Action::
                                                             {"louder", Action::kLouder},
                                                             {"quieter", Action::kQuieter}};
 
-template <typename Choice, size_t n>
-Result<Choice> ParseChoice(const JsonView& view, const std::array<std::string_view, n>& names) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text("value", kMostLanguage));
-  const std::optional<Choice> choice = render::ChoiceOf<Choice>(names, name);
-  if (!choice) {
-    return view.Problem("there is no such value");
+// Describes a command, for reading.
+void DescribeCommand(Fields& fields, StaffCommand& command) {
+  constexpr std::string_view kNoValue = "there is no such value";
+  std::string what;
+  fields.Text("do", what, 32);
+  const auto* found = std::find_if(std::begin(kActions), std::end(kActions),
+                                   [&](const auto& entry) { return entry.first == what; });
+  if (found != std::end(kActions)) {
+    command.action = found->second;
+  } else if (what == "volume") {
+    fields.Number("value", command.volume.emplace(), 0.0, 1.0);
+  } else if (what == "language") {
+    fields.Text("value", command.language.emplace(), kMostLanguage);
+  } else if (what == "captions") {
+    fields.Text("value", command.captions.emplace(), kMostLanguage);
+  } else if (what == "caption_size") {
+    fields.Choice("value", command.caption_size.emplace(), render::kCaptionSizes, kNoValue);
+  } else if (what == "caption_contrast") {
+    fields.Choice("value", command.caption_contrast.emplace(), render::kCaptionContrasts, kNoValue);
+  } else if (what == "descriptions") {
+    fields.Flag("value", command.descriptions.emplace());
+  } else if (what == "reduced_motion") {
+    fields.Flag("value", command.reduced_motion.emplace());
+  } else if (what == "end") {
+    command.end = true;
+  } else if (what == "begin_again") {
+    command.begin_again = true;
+  } else {
+    fields.Require(false, "there is no such thing to do");
   }
-  return *choice;
-}
-
-Result<bool> ParseSwitch(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView value, view.Field("value"));
-  return value.Boolean();
 }
 
 }  // namespace
@@ -60,39 +76,7 @@ std::optional<ReceivedStaffMessage> ReceiveStaffMessage(int link, std::string& b
 }
 
 Result<StaffCommand> ParseStaffCommand(std::string_view text) {
-  constexpr std::string_view kPlace = "command";
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, kPlace));
-  const JsonView view(json, std::string(kPlace));
-  LARARIUM_ASSIGN_OR_RETURN(const std::string what, view.Text("do", 32));
-  StaffCommand command;
-  const auto* found = std::find_if(std::begin(kActions), std::end(kActions),
-                                   [&](const auto& entry) { return entry.first == what; });
-  if (found != std::end(kActions)) {
-    command.action = found->second;
-  } else if (what == "volume") {
-    LARARIUM_ASSIGN_OR_RETURN(command.volume, view.Number("value", 0.0, 1.0));
-  } else if (what == "language") {
-    LARARIUM_ASSIGN_OR_RETURN(command.language, view.Text("value", kMostLanguage));
-  } else if (what == "captions") {
-    LARARIUM_ASSIGN_OR_RETURN(command.captions, view.Text("value", kMostLanguage));
-  } else if (what == "caption_size") {
-    LARARIUM_ASSIGN_OR_RETURN(command.caption_size,
-                              ParseChoice<render::CaptionSize>(view, render::kCaptionSizes));
-  } else if (what == "caption_contrast") {
-    LARARIUM_ASSIGN_OR_RETURN(command.caption_contrast, ParseChoice<render::CaptionContrast>(
-                                                            view, render::kCaptionContrasts));
-  } else if (what == "descriptions") {
-    LARARIUM_ASSIGN_OR_RETURN(command.descriptions, ParseSwitch(view));
-  } else if (what == "reduced_motion") {
-    LARARIUM_ASSIGN_OR_RETURN(command.reduced_motion, ParseSwitch(view));
-  } else if (what == "end") {
-    command.end = true;
-  } else if (what == "begin_again") {
-    command.begin_again = true;
-  } else {
-    return view.Problem("there is no such thing to do");
-  }
-  return command;
+  return ParseFields<StaffCommand>(text, "command", DescribeCommand, UnknownFields::kIgnore);
 }
 
 void Choose(const StaffCommand& command, const Offer& offer, Choices& choices) {

@@ -9,6 +9,7 @@ namespace lararium {
 
 using Json = nlohmann::json;  // Keys are sorted, so that files diff well.
 
+class Fields;
 class JsonView;
 
 }  // namespace lararium

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "shared/core/json_fields.h"
+
 namespace lararium::geometry {
 namespace {
 
@@ -172,6 +174,38 @@ CameraModel CameraModel::DisplayPinhole() const {
   display.cx = 0.5 * (width - 1) - focal * 0.5 * (inner[0] + inner[1]);
   display.cy = 0.5 * (height - 1) - focal * 0.5 * (inner[2] + inner[3]);
   return display;
+}
+
+void DescribePinhole(Fields& fields, CameraModel& camera) {
+  fields.Integer("width", camera.width, 16, 16384);
+  fields.Integer("height", camera.height, 16, 16384);
+  std::array k = {camera.fx, camera.fy, camera.cx, camera.cy};
+  fields.Numbers("K", k);
+  if (fields.reading()) {
+    camera.fx = k[0];
+    camera.fy = k[1];
+    camera.cx = k[2];
+    camera.cy = k[3];
+  }
+}
+
+void DescribeDistortion(Fields& fields, CameraModel& camera) {
+  std::array k = {camera.k1, camera.k2, camera.p1, camera.p2};
+  fields.Numbers("k1_k2_p1_p2", k);
+  if (fields.reading()) {
+    camera.k1 = k[0];
+    camera.k2 = k[1];
+    camera.p1 = k[2];
+    camera.p2 = k[3];
+  }
+}
+
+void DescribeFields(Fields& fields, CameraModel& camera) {
+  DescribePinhole(fields, camera);
+  if (fields.Has("k1_k2_p1_p2", true)) {
+    DescribeDistortion(fields, camera);
+  }
+  fields.Check(camera.Validate().At(fields.where()));
 }
 
 }  // namespace lararium::geometry

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
 namespace lararium::geometry {
@@ -68,5 +69,12 @@ struct CameraModel {
 
   friend bool operator==(const CameraModel&, const CameraModel&) = default;
 };
+
+// Describes the size of the images and "K": fx, fy, cx and cy.
+void DescribePinhole(Fields& fields, CameraModel& camera);
+// Describes "k1_k2_p1_p2".
+void DescribeDistortion(Fields& fields, CameraModel& camera);
+// Describes and checks a camera whose distortion may be missing.
+void DescribeFields(Fields& fields, CameraModel& camera);
 
 }  // namespace lararium::geometry

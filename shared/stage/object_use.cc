@@ -6,10 +6,11 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
-#include <initializer_list>
 #include <limits>
+#include <map>
+#include <span>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/light/lamp.h"
 
 namespace lararium::stage {
@@ -21,6 +22,8 @@ constexpr double kMaxActionSeconds = 600.0;  // Limit of the duration of an acti
 constexpr size_t kMaxNameBytes = 64;
 constexpr size_t kMaxTextBytes = 1 << 20;
 constexpr size_t kMaxOutline = 12;
+constexpr double kMinGainDb = -60.0;
+constexpr double kMaxGainDb = 12.0;
 
 float Radians(double degrees) { return static_cast<float>(glm::radians(degrees)); }
 
@@ -31,610 +34,418 @@ int FindByName(const std::vector<T>& items, std::string_view name) {
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 
-Result<glm::vec3> ReadVector(const JsonView& view, double limit = kMaxLength) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> v, view.Numbers(3));
-  if (std::any_of(v.begin(), v.end(), [limit](double x) { return std::abs(x) > limit; })) {
-    return view.Problem("is out of range");
-  }
-  return glm::vec3(v[0], v[1], v[2]);
+template <typename Vector>
+void DescribeVector(Fields& fields,
+                    const FieldKey& key,
+                    Vector& vector,
+                    double limit = kMaxLength) {
+  const std::span<float> numbers(&vector.x, Vector::length());
+  fields.Numbers(key, numbers);
+  fields.RequireAt(key,
+                   std::all_of(numbers.begin(), numbers.end(),
+                               [limit](float x) { return std::abs(x) <= limit; }),
+                   "is out of range");
 }
 
-Result<glm::vec3> ReadDirection(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const glm::vec3 v, ReadVector(view));
+glm::vec3 DescribeDirection(Fields& fields, const FieldKey& key) {
+  glm::vec3 v(0.0f);
+  DescribeVector(fields, key, v);
   const float length = glm::length(v);
-  if (!(length > 1e-3f)) {
-    return view.Problem("must be a direction, not zero");
-  }
+  fields.RequireAt(key, length > 1e-3f, "must be a direction, not zero");
   return v / length;
 }
 
-Result<glm::vec2> ReadGroundPoint(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> v, view.Numbers(2));
-  if (std::abs(v[0]) > kMaxLength || std::abs(v[1]) > kMaxLength) {
-    return view.Problem("is out of range");
-  }
-  return glm::vec2(v[0], v[1]);
-}
-
-// The number in `field`, or `fallback` if the field is missing.
-Result<double> ReadNumber(
-    const JsonView& view, std::string_view field, double fallback, double min, double max) {
-  return view.Has(field) ? view.Number(field, min, max) : fallback;
-}
-
-Result<std::string> ReadName(const JsonView& view, std::string_view field) {
-  return view.Has(field) ? view.Text(field, kMaxNameBytes) : std::string();
+// Describes the optional "heading" in degrees; returns radians.
+float DescribeHeading(Fields& fields, double heading = 0.0) {
+  fields.Number(Optional("heading"), heading, -kMaxDegrees, kMaxDegrees);
+  return Radians(heading);
 }
 
 // {"at": [x, y, z], "heading": degrees} or {"at": ..., "turn": [about x, y, z]}.
-Result<Pose> ReadPose(const JsonView& view) {
-  Pose pose;
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView at, view.Field("at"));
-  LARARIUM_ASSIGN_OR_RETURN(pose.position, ReadVector(at));
+void DescribePose(Fields& fields, const FieldKey& at, Pose& pose) {
+  DescribeVector(fields, at, pose.position);
   glm::vec3 turn(0.0f);
-  if (view.Has("turn")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("turn"));
-    LARARIUM_ASSIGN_OR_RETURN(turn, ReadVector(field, kMaxDegrees));
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const double heading,
-                            ReadNumber(view, "heading", turn.y, -kMaxDegrees, kMaxDegrees));
-  const auto about = [](double degrees, const glm::vec3& axis) {
-    return glm::angleAxis(Radians(degrees), axis);
-  };
-  pose.rotation = glm::normalize(about(heading, {0, 1, 0}) * about(turn.x, {1, 0, 0}) *
-                                 about(turn.z, {0, 0, 1}));
-  return pose;
+  DescribeVector(fields, Optional("turn"), turn, kMaxDegrees);
+  const float heading = DescribeHeading(fields, turn.y);
+  pose.rotation = glm::normalize(glm::angleAxis(heading, glm::vec3(0, 1, 0)) *
+                                 glm::angleAxis(Radians(turn.x), glm::vec3(1, 0, 0)) *
+                                 glm::angleAxis(Radians(turn.z), glm::vec3(0, 0, 1)));
 }
 
-// Reads one object.json and checks it against its prop. Sections are read in the order in which
-// they refer to one another.
-class UseReader {
- public:
-  UseReader(const JsonView& root, const Prop& prop) : root_(root), prop_(prop) {}
+bool IsConvex(const std::vector<glm::vec2>& outline) {
+  const size_t count = outline.size();
+  if (count == 0) {
+    return true;
+  }
+  bool left = false;
+  bool right = false;
+  for (size_t i = 0; i < count; ++i) {
+    const glm::vec2 a = outline[(i + 1) % count] - outline[i];
+    const glm::vec2 b = outline[(i + 2) % count] - outline[(i + 1) % count];
+    const float cross = a.x * b.y - a.y * b.x;
+    left = left || cross > 0.0f;
+    right = right || cross < 0.0f;
+  }
+  return count >= 3 && left != right;
+}
 
-  Result<ObjectUse> Read() {
-    LARARIUM_RETURN_IF_ERROR(
-        root_.CheckFields({"schema", "states", "parts", "grips", "places", "surfaces", "actions",
-                           "sounds", "footprint", "carry", "capacity", "queue", "lights"}));
-    LARARIUM_RETURN_IF_ERROR(root_.Integer("schema", 1, 1).status());
-    LARARIUM_RETURN_IF_ERROR(ReadStates());
-    LARARIUM_RETURN_IF_ERROR(ForEach("parts", Prop::kMaxParts, &UseReader::ReadPart));
-    LARARIUM_RETURN_IF_ERROR(ForEach("grips", ObjectUse::kMaxGrips, &UseReader::ReadGrip));
-    LARARIUM_RETURN_IF_ERROR(ForEach("lights", ObjectUse::kMaxLights, &UseReader::ReadLight));
-    LARARIUM_RETURN_IF_ERROR(ForEach("places", ObjectUse::kMaxPlaces, &UseReader::ReadPlace));
-    LARARIUM_RETURN_IF_ERROR(ForEach("surfaces", ObjectUse::kMaxSpots, &UseReader::ReadSurface));
-    LARARIUM_RETURN_IF_ERROR(ForEach("actions", ObjectUse::kMaxActions, &UseReader::ReadAction));
-    LARARIUM_RETURN_IF_ERROR(ReadSounds());
-    LARARIUM_RETURN_IF_ERROR(ReadFootprint());
-    LARARIUM_RETURN_IF_ERROR(ReadCarry());
-    LARARIUM_RETURN_IF_ERROR(ReadQueue());
-    return std::move(use_);
+// Describes one object.json, for reading, and checks it against its prop. Sections are described in
+// the order in which they refer to one another.
+class UseDescription {
+ public:
+  UseDescription(Fields& fields, const Prop& prop, ObjectUse& use)
+      : fields_(fields), prop_(prop), use_(use) {}
+
+  void Describe() {
+    fields_.Schema(1);
+    DescribeStates();
+    std::vector<Part> parts;
+    Named("parts", parts, Prop::kMaxParts, &UseDescription::DescribePart);
+    Named("grips", use_.grips, ObjectUse::kMaxGrips, &UseDescription::DescribeGrip);
+    Named("lights", use_.lights, ObjectUse::kMaxLights, &UseDescription::DescribeLight);
+    Named("places", use_.places, ObjectUse::kMaxPlaces, &UseDescription::DescribeStanding);
+    Named("surfaces", use_.surfaces, ObjectUse::kMaxSpots, &UseDescription::DescribeSurface);
+    Named("actions", use_.actions, ObjectUse::kMaxActions, &UseDescription::DescribeAction);
+    fields_.List(Optional("sounds"), use_.sounds, ObjectUse::kMaxSounds,
+                 [this](Fields& /*fields*/, StateSound& sound) { DescribeSound(sound); });
+    fields_.Object(Optional("footprint"), use_.footprint,
+                   [this](Fields& /*fields*/, Footprint& print) { DescribeFootprint(print); });
+    fields_.Object("carry", use_.carry,
+                   [this](Fields& /*fields*/, Carry& carry) { DescribeCarry(carry); });
+    fields_.Integer(Optional("capacity"), use_.capacity, 1, 32);
+    fields_.Object("queue", use_.queue, [this](Fields& fields, ApproachPlace& first) {
+      DescribeStanding(first);
+      DescribeVector(fields, Optional("step"), use_.queue_step);
+    });
   }
 
  private:
-  // Calls `read` for every named entry of a section, in the order of the names.
-  Status ForEach(std::string_view section,
-                 size_t max_count,
-                 Status (UseReader::*read)(const std::string& name, const JsonView& view)) {
-    if (!root_.Has(section)) {
-      return Status();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field(section));
-    if (!view.json().is_object()) {
-      return view.Problem("must be an object of named entries");
-    }
-    if (view.json().size() > max_count) {
-      return view.Problem("has more than the " + std::to_string(max_count) +
-                          " entries that are allowed");
-    }
-    for (const auto& item : view.json().items()) {
-      if (item.key().empty() || item.key().size() > kMaxNameBytes) {
-        return view.Problem("a name must have from 1 to 64 bytes");
-      }
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView entry, view.Field(item.key()));
-      LARARIUM_RETURN_IF_ERROR((this->*read)(item.key(), entry));
-    }
-    return Status();
+  struct Part {
+    std::string name;
+  };
+
+  // Describes the named entries of a section, in the order of the names.
+  template <typename T>
+  void Named(std::string_view section,
+             std::vector<T>& entries,
+             size_t max_count,
+             void (UseDescription::*describe)(T& entry)) {
+    std::map<std::string, T> named;
+    fields_.Entries(Optional(section), named, max_count,
+                    "must be an object of at most " + std::to_string(max_count) + " named entries",
+                    [&](const FieldKey& key, T& entry) {
+                      fields_.Require(!key.name.empty() && key.name.size() <= kMaxNameBytes,
+                                      "a name must have from 1 to 64 bytes");
+                      entry.name = key.name;
+                      fields_.Object(key, entry,
+                                     [&](Fields& /*fields*/, T& one) { (this->*describe)(one); });
+                      entries.push_back(std::move(entry));
+                    });
   }
 
-  Status ReadStates() {
-    if (!root_.Has("states")) {
-      return Status();
+  void DescribeStates() {
+    if (!fields_.Has("states")) {
+      return;
     }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field("states"));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, view.Array(ObjectUse::kMaxStates));
     use_.states.clear();
-    for (const JsonView& item : items) {
-      LARARIUM_ASSIGN_OR_RETURN(std::string name, item.Text(kMaxNameBytes));
-      if (name.empty() || use_.FindState(name) >= 0) {
-        return item.Problem("every state needs a name of its own");
-      }
-      use_.states.push_back(std::move(name));
-    }
-    return use_.states.empty() ? view.Problem("must name at least one state") : Status();
+    std::vector<std::string> names;
+    fields_.List("states", names, ObjectUse::kMaxStates,
+                 [this](const FieldKey& key, std::string& name) {
+                   fields_.Text(key, name, kMaxNameBytes);
+                   fields_.RequireAt(key, !name.empty() && use_.FindState(name) < 0,
+                                     "every state needs a name of its own");
+                   use_.states.push_back(name);
+                 });
+    fields_.RequireAt("states", !use_.states.empty(), "must name at least one state");
   }
 
-  // The states that a list names, as bits; all states if the field is missing.
-  Result<uint32_t> ReadStateSet(const JsonView& view, std::string_view field) {
-    return ReadSet(view, field, "state", [this](std::string_view s) { return use_.FindState(s); });
-  }
-
+  // The things that a list names, as bits; unchanged if the field is missing.
   template <typename Find>
-  Result<uint32_t> ReadSet(const JsonView& view,
-                           std::string_view field,
-                           const std::string& what,
-                           Find find) {
-    if (!view.Has(field)) {
-      return ~0u;
+  void DescribeSet(std::string_view key, const std::string& what, Find find, uint32_t& set) {
+    if (!fields_.Has(key)) {
+      return;
     }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field(field));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(32));
-    uint32_t set = 0;
-    for (const JsonView& item : items) {
-      LARARIUM_ASSIGN_OR_RETURN(const std::string name, item.Text(kMaxNameBytes));
+    set = 0;
+    std::vector<std::string> names;
+    fields_.List(key, names, 32, [&](const FieldKey& entry, std::string& name) {
+      fields_.Text(entry, name, kMaxNameBytes);
       const int index = find(name);
-      if (index < 0) {
-        return item.Problem("there is no " + what + " '" + name + "'",
-                            "name one that this object has");
-      }
-      set |= 1u << index;
-    }
-    return set;
+      fields_.RequireAt(entry, index >= 0, "there is no " + what + " '" + name + "'",
+                        "name one that this object has");
+      set |= index < 0 ? 0u : 1u << index;
+    });
   }
 
-  // Index into Prop::parts; -1 if the field is missing.
-  Result<int> ReadPartIndex(const JsonView& view, std::string_view field) {
-    if (!view.Has(field)) {
-      return -1;
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const std::string name, view.Text(field, kMaxNameBytes));
-    const int part = prop_.FindPart(name);
-    if (part < 0) {
-      return view.Problem("there is no part '" + name + "'", "name a node of the model");
-    }
-    return part;
+  void DescribeStateSet(std::string_view key, uint32_t& set) {
+    DescribeSet(
+        key, "state", [this](std::string_view name) { return use_.FindState(name); }, set);
   }
 
-  Status ReadPart(const std::string& name, const JsonView& view) {
-    const int part = prop_.FindPart(name);
-    if (part < 0) {
-      return view.Problem("the model has no part of this name", "name a node of the model");
+  // An index into Prop::parts; unchanged if the field is missing.
+  void DescribePartIndex(const FieldKey& key, int& part) {
+    if (key.required || fields_.Has(key.name)) {
+      std::string name;
+      fields_.Text(key, name, kMaxNameBytes);
+      part = prop_.FindPart(name);
+      fields_.Require(part >= 0, "there is no part '" + name + "'", "name a node of the model");
     }
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"hinge", "slider", "limits", "rest", "states"}));
-    if (view.Has("states")) {
-      LARARIUM_ASSIGN_OR_RETURN(const uint32_t states, ReadStateSet(view, "states"));
-      use_.shown.push_back({part, states});
-    }
-    if (view.Has("hinge") && view.Has("slider")) {
-      return view.Problem("must be either a hinge or a slider, not both");
-    }
-    if (view.Has("hinge") || view.Has("slider")) {
-      return ReadJoint(part, view);
-    }
-    return Status();
   }
 
-  Status ReadJoint(int part, const JsonView& view) {
-    if (use_.joints.size() == ObjectUse::kMaxJoints) {
-      return view.Problem("an object has at most " + std::to_string(ObjectUse::kMaxJoints) +
-                          " joints");
+  void DescribePart(Part& named) {
+    const int part = prop_.FindPart(named.name);
+    fields_.Require(part >= 0, "the model has no part of this name", "name a node of the model");
+    if (fields_.Has("states")) {
+      use_.shown.push_back({part, 0});
+      DescribeStateSet("states", use_.shown.back().states);
     }
+    const bool turns = fields_.Has("hinge");
+    const bool slides = fields_.Has("slider");
+    fields_.Require(!turns || !slides, "must be either a hinge or a slider, not both");
+    if (turns || slides) {
+      DescribeJoint(part, turns);
+    } else {  // Limits have no effect then.
+      fields_.Has("limits");
+      fields_.Has("rest");
+    }
+  }
+
+  void DescribeJoint(int part, bool turns) {
+    fields_.Require(use_.joints.size() < ObjectUse::kMaxJoints,
+                    "an object has at most " + std::to_string(ObjectUse::kMaxJoints) + " joints");
     ObjectJoint joint;
     joint.part = part;
-    joint.kind = view.Has("hinge") ? ObjectJoint::Kind::kHinge : ObjectJoint::Kind::kSlider;
-    const bool turns = joint.kind == ObjectJoint::Kind::kHinge;
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView axis, view.Field(turns ? "hinge" : "slider"));
-    LARARIUM_ASSIGN_OR_RETURN(joint.axis, ReadDirection(axis));
-    LARARIUM_ASSIGN_OR_RETURN(const auto limits, view.Numbers("limits", 2));
-    LARARIUM_ASSIGN_OR_RETURN(
-        const double rest,
-        ReadNumber(view, "rest", std::clamp(0.0, std::min(limits[0], limits[1]), limits[1]),
-                   -kMaxDegrees, kMaxDegrees));
+    joint.kind = turns ? ObjectJoint::Kind::kHinge : ObjectJoint::Kind::kSlider;
+    joint.axis = DescribeDirection(fields_, turns ? "hinge" : "slider");
+    std::array<double, 2> limits = {};
+    fields_.Numbers("limits", limits);
+    double rest = std::clamp(0.0, std::min(limits[0], limits[1]), limits[1]);
+    fields_.Number(Optional("rest"), rest, -kMaxDegrees, kMaxDegrees);
     const double most = turns ? kMaxDegrees : kMaxLength;
-    if (!(limits[0] <= rest && rest <= limits[1] && limits[0] >= -most && limits[1] <= most)) {
-      return view.Problem("limits must be [least, most] with rest in between");
-    }
+    fields_.Require(
+        limits[0] <= rest && rest <= limits[1] && limits[0] >= -most && limits[1] <= most,
+        "limits must be [least, most] with rest in between");
     const auto value = [turns](double x) { return turns ? Radians(x) : static_cast<float>(x); };
     joint.lower = value(limits[0]);
     joint.upper = value(limits[1]);
     joint.rest = value(rest);
     use_.joints.push_back(joint);
-    return Status();
   }
 
-  Status ReadGrip(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"part", "at", "palm", "fingers", "hand", "pose"}));
-    Grip grip;
-    grip.name = name;
-    LARARIUM_ASSIGN_OR_RETURN(grip.part, ReadPartIndex(view, "part"));
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView at, view.Field("at"));
-    LARARIUM_ASSIGN_OR_RETURN(grip.part_from_hand.position, ReadVector(at));
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView palm_view, view.Field("palm"));
-    LARARIUM_ASSIGN_OR_RETURN(const glm::vec3 palm, ReadDirection(palm_view));
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView fingers_view, view.Field("fingers"));
-    LARARIUM_ASSIGN_OR_RETURN(const glm::vec3 fingers, ReadDirection(fingers_view));
+  void DescribeGrip(Grip& grip) {
+    DescribePartIndex(Optional("part"), grip.part);
+    DescribeVector(fields_, "at", grip.part_from_hand.position);
+    const glm::vec3 palm = DescribeDirection(fields_, "palm");
+    const glm::vec3 fingers = DescribeDirection(fields_, "fingers");
     const glm::vec3 x = glm::cross(fingers, -palm);
-    if (!(glm::length(x) > 0.1f)) {
-      return view.Problem("palm and fingers must point in different directions",
-                          "palm faces what is held, fingers point along it");
-    }
+    fields_.Require(glm::length(x) > 0.1f, "palm and fingers must point in different directions",
+                    "palm faces what is held, fingers point along it");
     const glm::vec3 right = glm::normalize(x);
     const glm::vec3 back = -fingers;
     grip.part_from_hand.rotation =
         glm::normalize(glm::quat_cast(glm::mat3(right, glm::cross(back, right), back)));
-    if (view.Has("hand")) {
-      LARARIUM_ASSIGN_OR_RETURN(const std::string hand, view.Text("hand", kMaxNameBytes));
-      if (hand != "left" && hand != "right" && hand != "either") {
-        return view.Problem("hand must be \"left\", \"right\" or \"either\"");
-      }
-      grip.fits = {hand != "left", hand != "right"};
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const std::string pose, ReadName(view, "pose"));
-    if (!pose.empty()) {
-      const auto named = human::HandPoseNamed(pose);
-      if (!named) {
-        return view.Problem("there is no pose '" + pose + "' of a hand",
-                            "use relaxed, flat, fist, cylinder, pinch, point, ladle or bowl");
-      }
-      grip.hand_pose = *named;
-    }
-    use_.grips.push_back(std::move(grip));
-    return Status();
+    std::string hand = "either";
+    fields_.Text(Optional("hand"), hand, kMaxNameBytes);
+    fields_.Require(hand == "left" || hand == "right" || hand == "either",
+                    "hand must be \"left\", \"right\" or \"either\"");
+    grip.fits = {hand != "left", hand != "right"};
+    std::string pose;
+    fields_.Text(Optional("pose"), pose, kMaxNameBytes);
+    const auto named = human::HandPoseNamed(pose);
+    fields_.Require(pose.empty() || named, "there is no pose '" + pose + "' of a hand",
+                    "use relaxed, flat, fist, cylinder, pinch, point, ladle or bowl");
+    grip.hand_pose = named.value_or(grip.hand_pose);
   }
 
-  Result<ApproachPlace> ReadStanding(const JsonView& view) {
-    ApproachPlace place;
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView at, view.Field("at"));
-    LARARIUM_ASSIGN_OR_RETURN(place.position, ReadGroundPoint(at));
-    LARARIUM_ASSIGN_OR_RETURN(const double heading,
-                              ReadNumber(view, "heading", 0.0, -kMaxDegrees, kMaxDegrees));
-    place.heading = Radians(heading);
-    return place;
+  void DescribeStanding(ApproachPlace& place) {
+    DescribeVector(fields_, "at", place.position);
+    place.heading = DescribeHeading(fields_);
   }
 
-  // Reads "colour": [r, g, b] or "temperature": kelvin.
-  static Result<glm::vec3> ReadColour(const JsonView& view) {
-    if (view.Has("colour") == view.Has("temperature")) {
-      return view.Problem("must have either \"colour\" or \"temperature\"");
+  // Describes "colour": [r, g, b] or "temperature": kelvin.
+  void DescribeColour(glm::vec3& colour) {
+    const bool warm = fields_.Has("temperature");
+    fields_.Require(fields_.Has("colour") != warm,
+                    "must have either \"colour\" or \"temperature\"");
+    if (warm) {
+      double kelvin = 6500.0;
+      fields_.Number("temperature", kelvin, 1667.0, 25000.0);
+      colour = light::ColourOfTemperature(kelvin);
+      return;
     }
-    if (view.Has("temperature")) {
-      LARARIUM_ASSIGN_OR_RETURN(const double kelvin, view.Number("temperature", 1667.0, 25000.0));
-      return light::ColourOfTemperature(kelvin);
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("colour"));
-    LARARIUM_ASSIGN_OR_RETURN(const glm::vec3 colour, ReadVector(field));
+    DescribeVector(fields_, "colour", colour);
     const float luminance = glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-    if (std::min({colour.r, colour.g, colour.b}) < 0.0f || !(luminance > 1e-6f)) {
-      return field.Problem("must be linear red, green and blue of at least 0, not all 0");
-    }
-    return colour / luminance;
+    fields_.RequireAt("colour",
+                      std::min({colour.r, colour.g, colour.b}) >= 0.0f && luminance > 1e-6f,
+                      "must be linear red, green and blue of at least 0, not all 0");
+    colour /= luminance;
   }
 
-  Status ReadLight(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields(
-        {"part", "at", "colour", "temperature", "intensity", "radius", "flicker", "states"}));
-    ObjectLight light;
-    light.name = name;
-    LARARIUM_ASSIGN_OR_RETURN(light.part, ReadPartIndex(view, "part"));
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView at, view.Field("at"));
-    LARARIUM_ASSIGN_OR_RETURN(light.position, ReadVector(at));
-    LARARIUM_ASSIGN_OR_RETURN(light.colour, ReadColour(view));
-    LARARIUM_ASSIGN_OR_RETURN(const double intensity, view.Number("intensity", 0.0, 1e4));
-    LARARIUM_ASSIGN_OR_RETURN(const double radius, view.Number("radius", 1e-3, 10.0));
-    LARARIUM_ASSIGN_OR_RETURN(const double flicker, ReadNumber(view, "flicker", 0.0, 0.0, 1.0));
-    light.intensity = static_cast<float>(intensity);
-    light.radius = static_cast<float>(radius);
-    light.flicker = static_cast<float>(flicker);
-    LARARIUM_ASSIGN_OR_RETURN(light.states, ReadStateSet(view, "states"));
-    use_.lights.push_back(std::move(light));
-    return Status();
-  }
-
-  Status ReadPlace(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"at", "heading"}));
-    LARARIUM_ASSIGN_OR_RETURN(ApproachPlace place, ReadStanding(view));
-    place.name = name;
-    use_.places.push_back(std::move(place));
-    return Status();
+  void DescribeLight(ObjectLight& light) {
+    DescribePartIndex(Optional("part"), light.part);
+    DescribeVector(fields_, "at", light.position);
+    DescribeColour(light.colour);
+    fields_.Number("intensity", light.intensity, 0.0, 1e4);
+    fields_.Number("radius", light.radius, 1e-3, 10.0);
+    fields_.Number(Optional("flicker"), light.flicker, 0.0, 1.0);
+    DescribeStateSet("states", light.states);
   }
 
   int FindPlace(std::string_view name) const { return FindByName(use_.places, name); }
 
-  Status ReadSurface(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"part", "spots"}));
-    Surface surface;
-    surface.name = name;
-    LARARIUM_ASSIGN_OR_RETURN(const int part, ReadPartIndex(view, "part"));
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("spots"));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxSpots));
-    for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"at", "heading", "turn", "place"}));
-      Spot spot;
+  void DescribeSurface(Surface& surface) {
+    int part = -1;
+    DescribePartIndex(Optional("part"), part);
+    fields_.List("spots", surface.spots, ObjectUse::kMaxSpots, [&](Fields& fields, Spot& spot) {
       spot.part = part;
-      LARARIUM_ASSIGN_OR_RETURN(spot.part_from_spot, ReadPose(item));
-      LARARIUM_ASSIGN_OR_RETURN(const std::string place, ReadName(item, "place"));
+      DescribePose(fields, "at", spot.part_from_spot);
+      std::string place;
+      fields.Text(Optional("place"), place, kMaxNameBytes);
       spot.place = FindPlace(place);
-      if (!place.empty() && spot.place < 0) {
-        return item.Problem("there is no place '" + place + "'", "name one that this object has");
-      }
-      surface.spots.push_back(spot);
-    }
+      fields.Require(place.empty() || spot.place >= 0, "there is no place '" + place + "'",
+                     "name one that this object has");
+    });
     spots_ += surface.spots.size();
-    if (surface.spots.empty() || spots_ > ObjectUse::kMaxSpots) {
-      return view.Problem("surfaces have from 1 to " + std::to_string(ObjectUse::kMaxSpots) +
-                          " spots in all");
-    }
-    use_.surfaces.push_back(std::move(surface));
-    return Status();
+    fields_.Require(
+        !surface.spots.empty() && spots_ <= ObjectUse::kMaxSpots,
+        "surfaces have from 1 to " + std::to_string(ObjectUse::kMaxSpots) + " spots in all");
   }
 
-  Result<HandGrips> ReadHands(const JsonView& view) {
-    HandGrips hands = kNoHands;
-    if (!view.Has("hands")) {
-      return hands;
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("hands"));
-    LARARIUM_RETURN_IF_ERROR(field.CheckFields({"left", "right"}));
-    constexpr const char* kNames[] = {"right", "left"};  // Indexed by side.
-    for (size_t hand = 0; hand < 2; ++hand) {
-      if (!field.Has(kNames[hand])) {
-        continue;
+  void DescribeHands(HandGrips& hands) {
+    fields_.Object(Optional("hands"), hands, [this](Fields& fields, HandGrips& grips) {
+      constexpr const char* kNames[] = {"right", "left"};  // Indexed by side.
+      for (size_t hand = 0; hand < 2; ++hand) {
+        if (!fields.Has(kNames[hand])) {
+          continue;
+        }
+        std::string name;
+        fields.Text(kNames[hand], name, kMaxNameBytes);
+        grips[hand] = use_.FindGrip(name);
+        fields.Require(grips[hand] >= 0, "there is no grip '" + name + "'",
+                       "name one that this object has");
+        fields.Require(grips[hand] < 0 || use_.grips[static_cast<size_t>(grips[hand])].fits[hand],
+                       "the grip '" + name + "' is for the other hand");
       }
-      LARARIUM_ASSIGN_OR_RETURN(const std::string name, field.Text(kNames[hand], kMaxNameBytes));
-      hands[hand] = use_.FindGrip(name);
-      if (hands[hand] < 0) {
-        return field.Problem("there is no grip '" + name + "'", "name one that this object has");
-      }
-      if (!use_.grips[static_cast<size_t>(hands[hand])].fits[hand]) {
-        return field.Problem("the grip '" + name + "' is for the other hand");
-      }
-    }
-    return hands;
+    });
   }
 
-  Status ReadAction(const std::string& name, const JsonView& view) {
-    LARARIUM_RETURN_IF_ERROR(
-        view.CheckFields({"from", "to", "held", "places", "hands", "duration", "release", "moves",
-                          "path", "clip", "sound", "seat"}));
-    ObjectAction action;
-    action.name = name;
-    LARARIUM_ASSIGN_OR_RETURN(action.from, ReadStateSet(view, "from"));
-    LARARIUM_ASSIGN_OR_RETURN(const std::string to, ReadName(view, "to"));
-    action.to = to.empty() ? -1 : use_.FindState(to);
-    if (!to.empty() && action.to < 0) {
-      return view.Problem("there is no state '" + to + "'", "name it in \"states\"");
+  void DescribeAction(ObjectAction& action) {
+    DescribeStateSet("from", action.from);
+    std::string to;
+    fields_.Text(Optional("to"), to, kMaxNameBytes);
+    action.to = use_.FindState(to);
+    fields_.Require(to.empty() || action.to >= 0, "there is no state '" + to + "'",
+                    "name it in \"states\"");
+    fields_.Flag(Optional("held"), action.held);
+    DescribeSet(
+        "places", "place", [this](std::string_view p) { return FindPlace(p); }, action.places);
+    if (action.held) {
+      fields_.Require(!fields_.Has("places") && !fields_.Has("seat"),
+                      "an action with a held object cannot have places or a seat");
+    } else {
+      fields_.Require(!use_.places.empty(), "the action needs a place where the actor stands",
+                      "add one to \"places\"");
     }
-    if (view.Has("held")) {
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView held, view.Field("held"));
-      LARARIUM_ASSIGN_OR_RETURN(action.held, held.Boolean());
-    }
-    LARARIUM_ASSIGN_OR_RETURN(
-        action.places,
-        ReadSet(view, "places", "place", [this](std::string_view p) { return FindPlace(p); }));
-    if (action.held ? view.Has("places") || view.Has("seat") : use_.places.empty()) {
-      return view.Problem(action.held ? "an action with a held object cannot have places or a seat"
-                                      : "the action needs a place where the actor stands",
-                          action.held ? "" : "add one to \"places\"");
-    }
-    if (action.places == 0) {
-      return view.Problem("the list \"places\" is empty",
-                          "name a place in it, or remove it to allow every place");
-    }
-    LARARIUM_ASSIGN_OR_RETURN(action.hands, ReadHands(view));
-    LARARIUM_ASSIGN_OR_RETURN(const double duration,
-                              ReadNumber(view, "duration", 1.0, 0.0, kMaxActionSeconds));
-    action.duration = static_cast<float>(duration);
-    LARARIUM_ASSIGN_OR_RETURN(const double release, ReadNumber(view, "release", kMaxActionSeconds,
-                                                               0.0, kMaxActionSeconds));
-    action.release = static_cast<float>(release);
-    LARARIUM_ASSIGN_OR_RETURN(action.clip, ReadName(view, "clip"));
-    LARARIUM_RETURN_IF_ERROR(ReadActionSound(view, action));
-    LARARIUM_RETURN_IF_ERROR(ReadMoves(view, action));
-    LARARIUM_RETURN_IF_ERROR(ReadPath(view, action));
-    if (view.Has("seat")) {
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView seat, view.Field("seat"));
-      LARARIUM_RETURN_IF_ERROR(seat.CheckFields({"at", "heading"}));
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView at, seat.Field("at"));
-      ObjectAction::Seat place;
-      LARARIUM_ASSIGN_OR_RETURN(place.position, ReadVector(at));
-      LARARIUM_ASSIGN_OR_RETURN(const double heading,
-                                ReadNumber(seat, "heading", 0.0, -kMaxDegrees, kMaxDegrees));
-      place.heading = Radians(heading);
-      action.seat = place;
-    }
-    use_.actions.push_back(std::move(action));
-    return Status();
+    fields_.Require(action.places != 0, "the list \"places\" is empty",
+                    "name a place in it, or remove it to allow every place");
+    DescribeHands(action.hands);
+    fields_.Number(Optional("duration"), action.duration, 0.0, kMaxActionSeconds);
+    action.release = static_cast<float>(kMaxActionSeconds);
+    fields_.Number(Optional("release"), action.release, 0.0, kMaxActionSeconds);
+    fields_.Text(Optional("clip"), action.clip, kMaxNameBytes);
+    DescribeActionSound(action.sound);
+    fields_.List(
+        Optional("moves"), action.moves, ObjectUse::kMaxKeys,
+        [&](Fields& /*fields*/, ObjectAction::Move& move) { DescribeMove(action.duration, move); });
+    double last = 0.0;
+    fields_.List(Optional("path"), action.path, ObjectUse::kMaxKeys,
+                 [&](Fields& fields, ObjectAction::Key& key) {
+                   fields.Number("t", last, last, action.duration);
+                   key.time = static_cast<float>(last);
+                   DescribePose(fields, "at", key.pose);
+                 });
+    fields_.Object("seat", action.seat, [](Fields& fields, ObjectAction::Seat& seat) {
+      DescribeVector(fields, "at", seat.position);
+      seat.heading = DescribeHeading(fields);
+    });
+  }
+
+  // Describes "begin" and "end" of a span of time from 0 to `most` seconds.
+  void DescribeTimes(double most, float& begin_out, float& end_out) {
+    double begin = 0.0;
+    double end = most;
+    fields_.Number(Optional("begin"), begin, 0.0, most);
+    fields_.Number(Optional("end"), end, begin, most);
+    begin_out = static_cast<float>(begin);
+    end_out = static_cast<float>(end);
   }
 
   // The field is either the name of a sound or an object.
-  Status ReadActionSound(const JsonView& view, ObjectAction& action) {
-    if (!view.Has("sound")) {
-      return Status();
+  void DescribeActionSound(ActionSound& sound) {
+    if (fields_.IsText("sound")) {
+      fields_.Text("sound", sound.name, kMaxNameBytes);
+      return;
     }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field("sound"));
-    ActionSound& sound = action.sound;
-    if (field.json().is_string()) {
-      LARARIUM_ASSIGN_OR_RETURN(sound.name, ReadName(view, "sound"));
-      return Status();
-    }
-    LARARIUM_RETURN_IF_ERROR(field.CheckFields({"name", "begin", "end", "loop", "gain_db"}));
-    LARARIUM_ASSIGN_OR_RETURN(sound.name, field.Text("name", kMaxNameBytes));
-    LARARIUM_ASSIGN_OR_RETURN(const double begin,
-                              ReadNumber(field, "begin", 0.0, 0.0, kMaxActionSeconds));
-    LARARIUM_ASSIGN_OR_RETURN(
-        const double end, ReadNumber(field, "end", kMaxActionSeconds, begin, kMaxActionSeconds));
-    sound.begin = static_cast<float>(begin);
-    sound.end = static_cast<float>(end);
-    if (field.Has("loop")) {
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView loop, field.Field("loop"));
-      LARARIUM_ASSIGN_OR_RETURN(sound.loops, loop.Boolean());
-    }
-    return ReadGain(field, sound.gain_db);
+    fields_.Object(Optional("sound"), sound, [this](Fields& fields, ActionSound& heard) {
+      fields.Text("name", heard.name, kMaxNameBytes);
+      DescribeTimes(kMaxActionSeconds, heard.begin, heard.end);
+      fields.Flag(Optional("loop"), heard.loops);
+      fields.Number(Optional("gain_db"), heard.gain_db, kMinGainDb, kMaxGainDb);
+    });
   }
 
-  Status ReadGain(const JsonView& view, float& gain_db) {
-    LARARIUM_ASSIGN_OR_RETURN(const double gain, ReadNumber(view, "gain_db", 0.0, -60.0, 12.0));
-    gain_db = static_cast<float>(gain);
-    return Status();
+  void DescribeSound(StateSound& sound) {
+    fields_.Text("name", sound.name, kMaxNameBytes);
+    DescribeStateSet("states", sound.states);
+    DescribeVector(fields_, Optional("at"), sound.position);
+    fields_.Number(Optional("gain_db"), sound.gain_db, kMinGainDb, kMaxGainDb);
   }
 
-  Status ReadSounds() {
-    if (!root_.Has("sounds")) {
-      return Status();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView list, root_.Field("sounds"));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxSounds));
-    for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"name", "states", "at", "gain_db"}));
-      StateSound sound;
-      LARARIUM_ASSIGN_OR_RETURN(sound.name, item.Text("name", kMaxNameBytes));
-      LARARIUM_ASSIGN_OR_RETURN(sound.states, ReadStateSet(item, "states"));
-      if (item.Has("at")) {
-        LARARIUM_ASSIGN_OR_RETURN(const JsonView at, item.Field("at"));
-        LARARIUM_ASSIGN_OR_RETURN(sound.position, ReadVector(at));
-      }
-      LARARIUM_RETURN_IF_ERROR(ReadGain(item, sound.gain_db));
-      use_.sounds.push_back(std::move(sound));
-    }
-    return Status();
-  }
-
-  Status ReadMoves(const JsonView& view, ObjectAction& action) {
-    if (!view.Has("moves")) {
-      return Status();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("moves"));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxKeys));
-    for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"part", "to", "begin", "end"}));
-      ObjectAction::Move move;
-      LARARIUM_RETURN_IF_ERROR(item.Field("part").status());
-      LARARIUM_ASSIGN_OR_RETURN(const int part, ReadPartIndex(item, "part"));
-      const auto joint = std::find_if(use_.joints.begin(), use_.joints.end(),
-                                      [part](const ObjectJoint& j) { return j.part == part; });
-      if (joint == use_.joints.end()) {
-        return item.Problem("this part has no joint", "give it a hinge or a slider in \"parts\"");
-      }
+  void DescribeMove(double duration, ObjectAction::Move& move) {
+    int part = -1;
+    DescribePartIndex("part", part);
+    const auto joint = std::find_if(use_.joints.begin(), use_.joints.end(),
+                                    [part](const ObjectJoint& j) { return j.part == part; });
+    const bool moves = joint != use_.joints.end();
+    fields_.Require(moves, "this part has no joint", "give it a hinge or a slider in \"parts\"");
+    double to = 0.0;
+    fields_.Number("to", to, -kMaxDegrees, kMaxDegrees);
+    if (moves) {
       move.joint = static_cast<int>(joint - use_.joints.begin());
-      LARARIUM_ASSIGN_OR_RETURN(const double to, item.Number("to", -kMaxDegrees, kMaxDegrees));
       move.to = joint->kind == ObjectJoint::Kind::kHinge ? Radians(to) : static_cast<float>(to);
-      if (move.to < joint->lower - 1e-5f || move.to > joint->upper + 1e-5f) {
-        return item.Problem("\"to\" is outside of the joint's limits");
-      }
-      LARARIUM_ASSIGN_OR_RETURN(const double begin,
-                                ReadNumber(item, "begin", 0.0, 0.0, action.duration));
-      LARARIUM_ASSIGN_OR_RETURN(const double end,
-                                ReadNumber(item, "end", action.duration, begin, action.duration));
-      move.begin = static_cast<float>(begin);
-      move.end = static_cast<float>(end);
-      action.moves.push_back(move);
+      fields_.Require(move.to >= joint->lower - 1e-5f && move.to <= joint->upper + 1e-5f,
+                      "\"to\" is outside of the joint's limits");
     }
-    return Status();
+    DescribeTimes(duration, move.begin, move.end);
   }
 
-  Status ReadPath(const JsonView& view, ObjectAction& action) {
-    if (!view.Has("path")) {
-      return Status();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("path"));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(ObjectUse::kMaxKeys));
-    double last = 0.0;
-    for (const JsonView& item : items) {
-      LARARIUM_RETURN_IF_ERROR(item.CheckFields({"t", "at", "turn", "heading"}));
-      LARARIUM_ASSIGN_OR_RETURN(last, item.Number("t", last, action.duration));
-      LARARIUM_ASSIGN_OR_RETURN(const Pose pose, ReadPose(item));
-      action.path.push_back({static_cast<float>(last), pose});
-    }
-    return Status();
+  void DescribeFootprint(Footprint& print) {
+    fields_.List(
+        "outline", print.outline, kMaxOutline,
+        [this](const FieldKey& key, glm::vec2& corner) { DescribeVector(fields_, key, corner); });
+    fields_.RequireAt("outline", IsConvex(print.outline),
+                      "must be empty or the corners of a convex outline, in their order");
+    DescribeStateSet("states", print.states);
   }
 
-  Status ReadFootprint() {
-    if (!root_.Has("footprint")) {
-      return Status();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field("footprint"));
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"outline", "states"}));
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView list, view.Field("outline"));
-    LARARIUM_ASSIGN_OR_RETURN(const auto items, list.Array(kMaxOutline));
-    for (const JsonView& item : items) {
-      LARARIUM_ASSIGN_OR_RETURN(const glm::vec2 corner, ReadGroundPoint(item));
-      use_.footprint.outline.push_back(corner);
-    }
-    if (!IsConvex(use_.footprint.outline)) {
-      return list.Problem("must be empty or the corners of a convex outline, in their order");
-    }
-    LARARIUM_ASSIGN_OR_RETURN(use_.footprint.states, ReadStateSet(view, "states"));
-    has_footprint_ = true;
-    return Status();
-  }
-
-  static bool IsConvex(const std::vector<glm::vec2>& outline) {
-    const size_t count = outline.size();
-    if (count == 0) {
-      return true;
-    }
-    bool left = false;
-    bool right = false;
-    for (size_t i = 0; i < count; ++i) {
-      const glm::vec2 a = outline[(i + 1) % count] - outline[i];
-      const glm::vec2 b = outline[(i + 2) % count] - outline[(i + 1) % count];
-      const float cross = a.x * b.y - a.y * b.x;
-      left = left || cross > 0.0f;
-      right = right || cross < 0.0f;
-    }
-    return count >= 3 && left != right;
-  }
-
-  Status ReadCarry() {
-    if (!root_.Has("carry")) {
-      return Status();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field("carry"));
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"hands", "at", "heading", "turn"}));
-    Carry carry;
-    LARARIUM_ASSIGN_OR_RETURN(carry.hands, ReadHands(view));
+  void DescribeCarry(Carry& carry) {
+    DescribeHands(carry.hands);
     const auto hands =
         std::count_if(carry.hands.begin(), carry.hands.end(), [](int grip) { return grip >= 0; });
-    if (hands == 0) {
-      return view.Problem("at least one hand must hold the object", "name a grip in \"hands\"");
+    fields_.Require(hands > 0, "at least one hand must hold the object",
+                    "name a grip in \"hands\"");
+    fields_.Require(hands < 2 || fields_.Has("at"),
+                    "the position of an object that both hands carry is missing", "add \"at\"");
+    Pose pose;
+    DescribePose(fields_, Optional("at"), pose);
+    if (fields_.Has("at")) {
+      carry.holder_from_object = pose;
     }
-    if (view.Has("at")) {
-      LARARIUM_ASSIGN_OR_RETURN(carry.holder_from_object, ReadPose(view));
-    } else if (hands == 2) {
-      return view.Problem("the position of an object that both hands carry is missing",
-                          "add \"at\"");
-    }
-    use_.carry = carry;
-    return Status();
   }
 
-  Status ReadQueue() {
-    if (root_.Has("capacity")) {
-      LARARIUM_ASSIGN_OR_RETURN(const int64_t capacity, root_.Integer("capacity", 1, 32));
-      use_.capacity = static_cast<int>(capacity);
-    }
-    if (!root_.Has("queue")) {
-      return Status();
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView view, root_.Field("queue"));
-    LARARIUM_RETURN_IF_ERROR(view.CheckFields({"at", "heading", "step"}));
-    LARARIUM_ASSIGN_OR_RETURN(use_.queue, ReadStanding(view));
-    if (view.Has("step")) {
-      LARARIUM_ASSIGN_OR_RETURN(const JsonView step, view.Field("step"));
-      LARARIUM_ASSIGN_OR_RETURN(use_.queue_step, ReadGroundPoint(step));
-    }
-    return Status();
-  }
-
- public:
-  bool has_footprint() const { return has_footprint_; }
-
- private:
-  const JsonView& root_;
+  Fields& fields_;
   const Prop& prop_;
-  ObjectUse use_;
+  ObjectUse& use_;
   size_t spots_ = 0;
-  bool has_footprint_ = false;
 };
 
 PartBounds BoundsOf(const PropPart& part) {
@@ -695,11 +506,13 @@ Result<ObjectUse> ParseObjectUse(std::string_view text,
   if (text.size() > kMaxTextBytes) {
     return Status::Error(where, "is longer than 1 MiB");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const Json json, ParseJson(text, where));
-  const JsonView root(json, where);
-  UseReader reader(root, prop);
-  LARARIUM_ASSIGN_OR_RETURN(ObjectUse use, reader.Read());
-  if (!reader.has_footprint() && !use.carry) {
+  ObjectUse use;
+  bool has_footprint = false;
+  LARARIUM_RETURN_IF_ERROR(ReadFields(text, where, [&](Fields& fields) {
+    UseDescription(fields, prop, use).Describe();
+    has_footprint = fields.Has("footprint");
+  }));
+  if (!has_footprint && !use.carry) {
     glm::vec3 lower;
     glm::vec3 upper;
     ComputeBounds(prop, lower, upper);

@@ -1,8 +1,10 @@
 #include "shared/vision/poses_file.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::vision {
 namespace {
@@ -10,134 +12,69 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr int kMaxSide = 16384;   // pixels
 constexpr int64_t kMaxMaps = 64;  // Maximum number of places in a bundle.
-constexpr double kMaxFileGain = 1e6;
+constexpr float kMaxFileGain = 1e6f;
 constexpr double kRotationError = 1e-2;  // Tolerance for the entries of R R^T - I.
 
-// ------------------------------------------------------------ writing
-
-Json ToJson(const Rigid3& pose) {
-  const Eigen::Matrix<double, 3, 4> m = pose.Matrix3x4();
-  Json rotation = Json::array();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      rotation.push_back(m(row, column));
-    }
+void DescribePose(Fields& fields, Rigid3& pose) {
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> r = pose.rotation.toRotationMatrix();
+  fields.Numbers("R", std::span(r.data(), 9));
+  fields.Numbers("t", std::span(pose.translation.data(), 3));
+  if (fields.reading()) {
+    const double error = (r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    fields.Require(error < kRotationError && r.determinant() >= 0.0, "R is not a rotation matrix");
+    pose = Rigid3::FromMatrix(r, pose.translation);
   }
-  return {{"R", rotation}, {"t", {m(0, 3), m(1, 3), m(2, 3)}}};
 }
 
-void AddDetails(const TrackingDetails& details, Json& json) {
-  json["state"] = Name(details.state);
-  json["reason"] = Name(details.reason);
-  json["map"] = details.map;
-  json["followed"] = details.followed;
-  json["confidence"] = details.confidence;
-  json["gain"] = details.gain;
+void DescribeCamera(Fields& fields, CameraModel& camera) {
+  geometry::DescribePinhole(fields, camera);
+  if (fields.Has("distortion", true)) {
+    fields.Object("distortion", camera, [](Fields& distortion, CameraModel& distorted) {
+      std::string model = "opencv";
+      distortion.Text("model", model);
+      distortion.Require(model == "opencv", "the model must be \"opencv\"");
+      geometry::DescribeDistortion(distortion, distorted);
+    });
+  }
+  fields.Check(camera.Validate().At(fields.where()));
 }
 
-Json ToJson(const PoseRecord& record) {
-  const CameraModel& c = record.camera;
-  Json json = {
-      {"file", record.file},
-      {"width", c.width},
-      {"height", c.height},
-      {"K", {c.fx, c.fy, c.cx, c.cy}},
-      {"distortion", {{"model", "opencv"}, {"k1_k2_p1_p2", {c.k1, c.k2, c.p1, c.p2}}}},
-      {"world_to_camera", record.camera_from_world ? ToJson(*record.camera_from_world) : Json()},
-      {"tracked", record.tracked}};
-  if (record.details) {
-    AddDetails(*record.details, json);
+void DescribeDetails(Fields& fields, TrackingDetails& details) {
+  if (!fields.reading()) {
+    std::string state(Name(details.state));
+    std::string reason(Name(details.reason));
+    fields.Text("state", state);
+    fields.Text("reason", reason);
   }
-  return json;
+  fields.Integer("map", details.map, 0, kMaxMaps - 1);
+  fields.Flag("followed", details.followed);
+  fields.Number("confidence", details.confidence, 0.0, 1.0);
+  fields.Numbers("gain", details.gain);
+  const auto [least, most] = std::minmax_element(details.gain.begin(), details.gain.end());
+  fields.Require(*least > 0.0f && *most < kMaxFileGain, "the gain is not positive");
 }
 
-// ------------------------------------------------------------ reading
-
-Result<Rigid3> ReadPose(const JsonView& view) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> r, view.Numbers("R", 9));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> t, view.Numbers("t", 3));
-  const Eigen::Matrix3d rotation =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
-  const double error =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error < kRotationError) || rotation.determinant() < 0.0) {
-    return view.Problem("R is not a rotation matrix");
+void DescribeRecord(Fields& fields, PoseRecord& record) {
+  fields.Text("file", record.file);
+  DescribeCamera(fields, record.camera);
+  Json pose;  // Null if the pose is not known.
+  fields.Raw(Optional("world_to_camera"), pose);
+  if (!fields.reading() || !pose.is_null()) {
+    fields.Object("world_to_camera", record.camera_from_world, DescribePose);
   }
-  return Rigid3::FromMatrix(rotation, {t[0], t[1], t[2]});
+  bool tracked = record.tracked || fields.reading();
+  fields.Flag(Optional("tracked"), tracked);
+  if (fields.reading()) {
+    record.tracked = tracked && record.camera_from_world.has_value();
+  }
+  if (fields.Has("map", record.details.has_value())) {
+    DescribeDetails(fields, record.details ? *record.details : record.details.emplace());
+  }
 }
 
-Result<CameraModel> ReadCamera(const JsonView& view) {
-  CameraModel camera;
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t width, view.Integer("width", 1, kMaxSide));
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t height, view.Integer("height", 1, kMaxSide));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> k, view.Numbers("K", 4));
-  camera.width = static_cast<int>(width);
-  camera.height = static_cast<int>(height);
-  camera.fx = k[0];
-  camera.fy = k[1];
-  camera.cx = k[2];
-  camera.cy = k[3];
-  if (view.Has("distortion")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView distortion, view.Field("distortion"));
-    LARARIUM_ASSIGN_OR_RETURN(const std::string model, distortion.Text("model"));
-    if (model != "opencv") {
-      return distortion.Problem("the model must be \"opencv\"");
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> d, distortion.Numbers("k1_k2_p1_p2", 4));
-    camera.k1 = d[0];
-    camera.k2 = d[1];
-    camera.p1 = d[2];
-    camera.p2 = d[3];
-  }
-  if (const Status status = camera.Validate(); !status.ok()) {
-    return status.At(view.place());
-  }
-  return camera;
-}
-
-Result<bool> ReadFlag(const JsonView& view, std::string_view key) {
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, view.Field(key));
-  return field.Boolean();
-}
-
-Result<TrackingDetails> ReadDetails(const JsonView& view) {
-  TrackingDetails details;
-  LARARIUM_ASSIGN_OR_RETURN(const int64_t map, view.Integer("map", 0, kMaxMaps - 1));
-  LARARIUM_ASSIGN_OR_RETURN(details.followed, ReadFlag(view, "followed"));
-  LARARIUM_ASSIGN_OR_RETURN(const double confidence, view.Number("confidence", 0.0, 1.0));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> gain, view.Numbers("gain", 3));
-  details.map = static_cast<uint32_t>(map);
-  details.confidence = static_cast<float>(confidence);
-  for (size_t c = 0; c < details.gain.size(); ++c) {
-    if (!(gain[c] > 0.0 && gain[c] < kMaxFileGain)) {
-      return view.Problem("the gain is not positive");
-    }
-    details.gain[c] = static_cast<float>(gain[c]);
-  }
-  return details;
-}
-
-Result<PoseRecord> ReadRecord(const JsonView& view) {
-  PoseRecord record;
-  LARARIUM_ASSIGN_OR_RETURN(record.file, view.Text("file"));
-  LARARIUM_ASSIGN_OR_RETURN(record.camera, ReadCamera(view));
-  if (view.Has("world_to_camera")) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView pose, view.Field("world_to_camera"));
-    if (!pose.json().is_null()) {
-      LARARIUM_ASSIGN_OR_RETURN(record.camera_from_world, ReadPose(pose));
-    }
-  }
-  record.tracked = record.camera_from_world.has_value();
-  if (view.Has("tracked")) {
-    LARARIUM_ASSIGN_OR_RETURN(const bool tracked, ReadFlag(view, "tracked"));
-    record.tracked = record.tracked && tracked;
-  }
-  if (view.Has("map")) {
-    LARARIUM_ASSIGN_OR_RETURN(record.details, ReadDetails(view));
-  }
-  return record;
+void DescribeRecords(Fields& fields, std::vector<PoseRecord>& records) {
+  fields.List("images", records, 1'000'000, DescribeRecord);
 }
 
 }  // namespace
@@ -149,25 +86,14 @@ PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked) {
                           tracked.confidence, tracked.gain}};
 }
 
-Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses) {
-  Json images = Json::array();
-  for (const PoseRecord& record : poses) {
-    images.push_back(ToJson(record));
-  }
-  return SaveJson(path, {{"images", images}});
+Status SavePoses(const std::filesystem::path& path, const std::vector<PoseRecord>& poses) {
+  return SaveJson(path, FormatFields(poses, DescribeRecords));
 }
 
 Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path) {
   LARARIUM_ASSIGN_OR_RETURN(const Json json, LoadJson(path));
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView images, JsonView(json, path.string()).Field("images"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> views, images.Array());
-  std::vector<PoseRecord> poses;
-  poses.reserve(views.size());
-  for (const JsonView& view : views) {
-    LARARIUM_ASSIGN_OR_RETURN(PoseRecord record, ReadRecord(view));
-    poses.push_back(std::move(record));
-  }
-  return poses;
+  return ParseFields<std::vector<PoseRecord>>(JsonView(json, path.string()), DescribeRecords,
+                                              UnknownFields::kIgnore);
 }
 
 }  // namespace lararium::vision

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -38,7 +37,7 @@ struct PoseRecord {
 
 PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked);
 
-Status SavePoses(const std::filesystem::path& path, std::span<const PoseRecord> poses);
+Status SavePoses(const std::filesystem::path& path, const std::vector<PoseRecord>& poses);
 // Reads the details except state and reason.
 Result<std::vector<PoseRecord>> LoadPoses(const std::filesystem::path& path);
 

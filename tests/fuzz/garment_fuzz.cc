@@ -9,6 +9,7 @@
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "shared/core/check.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace lararium;
@@ -16,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (!json.ok()) {
     return 0;
   }
-  const auto pattern = import::ParseGarmentPattern(JsonView(*json, "fuzz"));
+  const auto pattern = ParseFields<import::GarmentPattern>(JsonView(*json, "fuzz"));
   if (pattern.ok()) {
     CHECK(pattern->hem > 0.0f && pattern->hem <= 2.0f);
     CHECK(pattern->ease >= 1.0f && pattern->ease <= 3.0f);

@@ -41,7 +41,7 @@ std::vector<GarmentPattern> Patterns(std::initializer_list<const char*> names) {
   std::vector<GarmentPattern> patterns;
   for (const char* name : names) {
     const Json json = {{"name", name}};
-    patterns.push_back(*ParseGarmentPattern(JsonView(json, name)));
+    patterns.push_back(*ParseFields<GarmentPattern>(JsonView(json, name)));
   }
   return patterns;
 }
@@ -214,7 +214,7 @@ Dressed Preset(const std::string& name) {
   EXPECT_TRUE(body.ok()) << body.status().message();
   std::vector<GarmentPattern> patterns;
   for (const Json& json : recipe->garments) {
-    patterns.push_back(*ParseGarmentPattern(JsonView(json, name)));
+    patterns.push_back(*ParseFields<GarmentPattern>(JsonView(json, name)));
   }
   auto garments = CutGarments(patterns, *body, NoProgress());
   EXPECT_TRUE(garments.ok()) << garments.status().message();

@@ -13,6 +13,7 @@
 #include "editor/import/wardrobe/sheet.h"
 #include "editor/import/wardrobe/weave.h"
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::import {
 namespace {
@@ -210,7 +211,7 @@ TEST(HullRadius, OfASquareReachesItsSidesAndCorners) {
 
 Result<GarmentPattern> Parse(const std::string& text) {
   const Json json = *ParseJson(text, "test");
-  return ParseGarmentPattern(JsonView(json, "garments[0]"));
+  return ParseFields<GarmentPattern>(JsonView(json, "garments[0]"));
 }
 
 TEST(GarmentPattern, ReadsWhatARecipeSays) {

@@ -7,13 +7,14 @@
 #include <string_view>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::player {
 namespace {
 
 Result<Headset> Parse(std::string_view text) {
   const Json json = ParseJson(text, "device.json").value();
-  return ParseHeadset(JsonView(json, "device.json", "headset"));
+  return ParseFields<Headset>(JsonView(json, "device.json", "headset"), UnknownFields::kIgnore);
 }
 
 std::string Problem(std::string_view text) { return Parse(text).status().message(); }

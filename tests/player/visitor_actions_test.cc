@@ -5,15 +5,15 @@
 #include <string>
 #include <string_view>
 
-#include "shared/core/json.h"
 #include "shared/show/show_content.h"
 
 namespace lararium::player {
 namespace {
 
 Result<Buttons> ParseActions(std::string_view text) {
-  const Json json = ParseJson(text, "device.json").value();
-  return ParseButtons(JsonView(json, "device.json", "buttons"));
+  return ParseFields<Buttons>(
+      R"({"buttons": )" + std::string(text) + "}", "device.json",
+      [](Fields& fields, Buttons& buttons) { DescribeButtons(fields, "buttons", buttons); });
 }
 
 TEST(Buttons, OfKeyboardsAndControllersDoTheSame) {

@@ -187,7 +187,7 @@ class CastBuilder {
     for (size_t i = 0; i < recipe_.garments.size(); ++i) {
       const JsonView view(recipe_.garments[i],
                           recipe_.name + ": garments[" + std::to_string(i) + "]");
-      LARARIUM_ASSIGN_OR_RETURN(const GarmentPattern pattern, ParseGarmentPattern(view));
+      LARARIUM_ASSIGN_OR_RETURN(const GarmentPattern pattern, ParseFields<GarmentPattern>(view));
       patterns.push_back(pattern);
     }
     return CutGarments(patterns, body_, progress_);

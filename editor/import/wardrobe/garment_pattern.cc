@@ -1,9 +1,8 @@
 #include "editor/import/wardrobe/garment_pattern.h"
 
-#include <optional>
 #include <utility>
 
-#include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 #include "shared/core/srgb.h"
 
 namespace lararium::import {
@@ -32,19 +31,6 @@ constexpr std::pair<const char*, Belt> kBelts[] = {
     {"none", Belt::kNone}, {"cord", Belt::kCord}, {"leather", Belt::kLeather}};
 
 template <typename Value, size_t kCount>
-Result<Value> OneOf(const JsonView& field, const std::pair<const char*, Value> (&words)[kCount]) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string word, field.Text(100));
-  std::string known;
-  for (const auto& [name, value] : words) {
-    if (word == name) {
-      return value;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  return field.Problem("there is no '" + word.substr(0, 40) + "'", "choose one of: " + known);
-}
-
-template <typename Value, size_t kCount>
 std::vector<std::string> WordsOf(const std::pair<const char*, Value> (&words)[kCount]) {
   std::vector<std::string> names;
   for (const auto& [name, unused] : words) {
@@ -59,14 +45,6 @@ glm::vec3 ToLinear(uint32_t rgb) {
     colour[k] = LinearFromSrgb(static_cast<float>(rgb >> (16 - 8 * k) & 0xffu) / 255.0f);
   }
   return colour;
-}
-
-std::optional<uint32_t> HexColour(const std::string& text) {
-  if (text.size() != 7 || text[0] != '#' ||
-      text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos) {
-    return std::nullopt;
-  }
-  return static_cast<uint32_t>(std::stoul(text.substr(1), nullptr, 16));
 }
 
 // The default of each kind of garment.
@@ -108,55 +86,47 @@ GarmentPattern PlainPattern(GarmentKind kind) {
   return pattern;
 }
 
-// Reads a word, or metres above the floor, as a share of the leg.
-Status ReadLength(const JsonView& garment, GarmentPattern& pattern) {
-  if (!garment.Has("length")) {
-    return Status();
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, garment.Field("length"));
-  if (field.json().is_string()) {
-    LARARIUM_ASSIGN_OR_RETURN(pattern.hem, OneOf(field, kLengths));
-    return Status();
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const double hem, field.Number(0.3, 2.0));
-  pattern.hem = static_cast<float>(hem);
-  return Status();
-}
-
-Status ReadNumber(const JsonView& garment, const char* key, double min, double max, float& value) {
-  if (garment.Has(key)) {
-    LARARIUM_ASSIGN_OR_RETURN(const double number, garment.Number(key, min, max));
-    value = static_cast<float>(number);
-  }
-  return Status();
-}
-
-Status ReadColour(const JsonView& garment, const char* key, glm::vec3& colour) {
-  if (garment.Has(key)) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, garment.Field(key));
-    LARARIUM_ASSIGN_OR_RETURN(colour, ParseDye(field));
-  }
-  return Status();
-}
-
+// Describes one of the words, for reading. `what` and `remedy` are parts of the error about another
+// word.
 template <typename Value, size_t kCount>
-Status ReadWord(const JsonView& garment,
-                const char* key,
-                const std::pair<const char*, Value> (&words)[kCount],
-                Value& value) {
-  if (garment.Has(key)) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, garment.Field(key));
-    LARARIUM_ASSIGN_OR_RETURN(value, OneOf(field, words));
+void DescribeWord(Fields& fields,
+                  const FieldKey& key,
+                  const std::pair<const char*, Value> (&words)[kCount],
+                  Value& value,
+                  const std::string& what = "",
+                  const std::string& remedy = "choose") {
+  if (!key.required && !fields.Has(key.name)) {
+    return;
   }
-  return Status();
+  std::string word;
+  std::string known;
+  fields.Text(key, word, 100);
+  for (const auto& [name, named] : words) {
+    if (word == name) {
+      value = named;
+      return;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  fields.RequireAt(key, false, "there is no " + what + "'" + word.substr(0, 40) + "'",
+                   remedy + " one of: " + known);
 }
 
-Status ReadFlag(const JsonView& garment, const char* key, bool& value) {
-  if (garment.Has(key)) {
-    LARARIUM_ASSIGN_OR_RETURN(const JsonView field, garment.Field(key));
-    LARARIUM_ASSIGN_OR_RETURN(value, field.Boolean());
+// Describes the name of a dye ("madder") or "#rrggbb" as linear RGB, for reading.
+void DescribeDye(Fields& fields, const char* key, glm::vec3& colour) {
+  if (!fields.Has(key)) {
+    return;
   }
-  return Status();
+  std::string text;
+  uint32_t rgb = 0;
+  fields.Text(key, text, 100);
+  if (text.size() == 7 && text[0] == '#' &&
+      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos) {
+    rgb = static_cast<uint32_t>(std::stoul(text.substr(1), nullptr, 16));
+  } else {
+    DescribeWord(fields, key, kDyes, rgb, "dye ", "write #rrggbb or");
+  }
+  colour = ToLinear(rgb);
 }
 
 }  // namespace
@@ -180,46 +150,26 @@ std::string NameOf(GarmentKind kind) {
   return "";
 }
 
-Result<glm::vec3> ParseDye(const JsonView& field) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string text, field.Text(100));
-  if (const std::optional<uint32_t> hex = HexColour(text); hex) {
-    return ToLinear(*hex);
+void DescribeFields(Fields& fields, GarmentPattern& pattern) {
+  DescribeWord(fields, "name", kKinds, pattern.kind);
+  pattern = PlainPattern(pattern.kind);
+  if (fields.IsText("length")) {
+    DescribeWord(fields, "length", kLengths, pattern.hem);
+  } else {
+    fields.Number(Optional("length"), pattern.hem, 0.3, 2.0);
   }
-  std::string known;
-  for (const auto& [name, rgb] : kDyes) {
-    if (text == name) {
-      return ToLinear(rgb);
-    }
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  return field.Problem("there is no dye '" + text.substr(0, 40) + "'",
-                       "write #rrggbb or one of: " + known);
-}
-
-Result<GarmentPattern> ParseGarmentPattern(const JsonView& garment) {
-  LARARIUM_RETURN_IF_ERROR(garment.CheckFields(
-      {"name", "length", "sleeve", "one_shoulder", "ease", "belt", "blouse", "colour",
-       "belt_colour", "stripes", "stripe_colour", "border", "wear", "seed"}));
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView name, garment.Field("name"));
-  LARARIUM_ASSIGN_OR_RETURN(const GarmentKind kind, OneOf(name, kKinds));
-  GarmentPattern pattern = PlainPattern(kind);
-  LARARIUM_RETURN_IF_ERROR(ReadLength(garment, pattern));
-  LARARIUM_RETURN_IF_ERROR(ReadWord(garment, "sleeve", kSleeves, pattern.sleeve));
-  LARARIUM_RETURN_IF_ERROR(ReadWord(garment, "belt", kBelts, pattern.belt));
-  LARARIUM_RETURN_IF_ERROR(ReadWord(garment, "stripes", kStripes, pattern.stripes));
-  LARARIUM_RETURN_IF_ERROR(ReadFlag(garment, "one_shoulder", pattern.one_shoulder));
-  LARARIUM_RETURN_IF_ERROR(ReadFlag(garment, "border", pattern.border));
-  LARARIUM_RETURN_IF_ERROR(ReadNumber(garment, "ease", 1.1, 2.5, pattern.ease));
-  LARARIUM_RETURN_IF_ERROR(ReadNumber(garment, "blouse", 0.0, 0.15, pattern.blouse));
-  LARARIUM_RETURN_IF_ERROR(ReadNumber(garment, "wear", 0.0, 1.0, pattern.wear));
-  LARARIUM_RETURN_IF_ERROR(ReadColour(garment, "colour", pattern.colour));
-  LARARIUM_RETURN_IF_ERROR(ReadColour(garment, "belt_colour", pattern.belt_colour));
-  LARARIUM_RETURN_IF_ERROR(ReadColour(garment, "stripe_colour", pattern.stripe_colour));
-  if (garment.Has("seed")) {
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t seed, garment.Integer("seed", 0, 1'000'000'000));
-    pattern.seed = static_cast<uint64_t>(seed);
-  }
-  return pattern;
+  DescribeWord(fields, Optional("sleeve"), kSleeves, pattern.sleeve);
+  DescribeWord(fields, Optional("belt"), kBelts, pattern.belt);
+  DescribeWord(fields, Optional("stripes"), kStripes, pattern.stripes);
+  fields.Flag(Optional("one_shoulder"), pattern.one_shoulder);
+  fields.Flag(Optional("border"), pattern.border);
+  fields.Number(Optional("ease"), pattern.ease, 1.1, 2.5);
+  fields.Number(Optional("blouse"), pattern.blouse, 0.0, 0.15);
+  fields.Number(Optional("wear"), pattern.wear, 0.0, 1.0);
+  DescribeDye(fields, "colour", pattern.colour);
+  DescribeDye(fields, "belt_colour", pattern.belt_colour);
+  DescribeDye(fields, "stripe_colour", pattern.stripe_colour);
+  fields.Integer(Optional("seed"), pattern.seed, 0, 1'000'000'000);
 }
 
 }  // namespace lararium::import

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "shared/core/json_fwd.h"
-#include "shared/core/status.h"
 
 namespace lararium::import {
 
@@ -50,10 +49,7 @@ std::string NameOf(GarmentKind kind);
 // field.
 std::vector<std::string> GarmentWords(std::string_view field);
 
-// Errors name the field and the accepted values.
-Result<GarmentPattern> ParseGarmentPattern(const JsonView& garment);
-
-// Reads the name of a dye ("madder") or "#rrggbb" as linear RGB.
-Result<glm::vec3> ParseDye(const JsonView& field);
+// Describes a garment, for reading. Errors name the field and the accepted values.
+void DescribeFields(Fields& fields, GarmentPattern& pattern);
 
 }  // namespace lararium::import

@@ -49,7 +49,7 @@ std::string NameOf(const Json& garment) { return GarmentText(garment, "name"); }
 
 // The present colour of a garment, sRGB; the default of its kind where none is set.
 glm::vec3 ColourOf(const Json& garment) {
-  const auto pattern = import::ParseGarmentPattern(JsonView(garment, "garment"));
+  const auto pattern = ParseFields<import::GarmentPattern>(JsonView(garment, "garment"));
   const glm::vec3 linear = pattern.ok() ? pattern->colour : glm::vec3(0.5f);
   return {SrgbFromLinear(linear.x), SrgbFromLinear(linear.y), SrgbFromLinear(linear.z)};
 }
@@ -111,7 +111,7 @@ void WearRow(editor::Workspace& workspace, Json& garment, RecipeChange& change) 
   if (NameOf(garment) == "sandals") {
     return;
   }
-  const auto pattern = import::ParseGarmentPattern(JsonView(garment, "garment"));
+  const auto pattern = ParseFields<import::GarmentPattern>(JsonView(garment, "garment"));
   double wear = pattern.ok() ? pattern->wear : 0.3;
   if (SliderProperty(workspace, Tr("Wear"), wear, 0.0, 1.0, "%.2f")) {
     garment["wear"] = std::round(wear * 100.0) / 100.0;
