@@ -29,8 +29,10 @@ constexpr size_t kMaxWaiting = 256;
 constexpr char kBundle[] = "#bundle";  // 8 bytes with the terminating 0
 constexpr size_t kBundleHead = 16;     // kBundle and the time
 
+// The type of a message is void* up to liblo 0.31, and a pointer to a struct later.
 struct MessageDeleter {
-  void operator()(void* message) const { lo_message_free(message); }
+  using pointer = lo_message;
+  void operator()(lo_message message) const { lo_message_free(message); }
 };
 
 // Checks an address. It must not contain the characters that separate it from its arguments in a
