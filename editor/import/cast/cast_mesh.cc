@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "shared/core/json.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::import {
 namespace {
@@ -114,26 +115,11 @@ class FaceReader {
   size_t next_ = 0;
 };
 
-Result<std::vector<CastMaterial>> ReadMaterials(const JsonView& model) {
-  std::vector<CastMaterial> materials;
-  if (!model.Has("materials")) {
-    return materials;
-  }
-  LARARIUM_ASSIGN_OR_RETURN(const JsonView field, model.Field("materials"));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<JsonView> list, field.Array(1000));
-  for (const JsonView& entry : list) {
-    CastMaterial material;
-    LARARIUM_ASSIGN_OR_RETURN(material.name, entry.Text("DbgName", 200));
-    if (entry.Has("mapDiffuse")) {
-      LARARIUM_ASSIGN_OR_RETURN(material.colour_texture, entry.Text("mapDiffuse", 500));
-    }
-    if (entry.Has("colorDiffuse")) {
-      LARARIUM_ASSIGN_OR_RETURN(const std::vector<double> colour, entry.Numbers("colorDiffuse", 3));
-      material.colour = glm::vec3(colour[0], colour[1], colour[2]);
-    }
-    materials.push_back(std::move(material));
-  }
-  return materials;
+// Describes a material, for reading.
+void DescribeMaterial(Fields& fields, CastMaterial& material) {
+  fields.Text("DbgName", material.name, 200);
+  fields.Text(Optional("mapDiffuse"), material.colour_texture, 500);
+  fields.Numbers(Optional("colorDiffuse"), std::span(&material.colour.x, 3));
 }
 
 // `uvs` is a list of layers; only the first is used.
@@ -224,7 +210,10 @@ Result<CastMesh> ReadCastMesh(const JsonView& model) {
     mesh.positions.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
   }
   LARARIUM_ASSIGN_OR_RETURN(mesh.uvs, ReadUvs(model));
-  LARARIUM_ASSIGN_OR_RETURN(mesh.materials, ReadMaterials(model));
+  const auto describe = [&](Fields& fields) {
+    fields.List(Optional("materials"), mesh.materials, 1000, DescribeMaterial);
+  };
+  LARARIUM_RETURN_IF_ERROR(ReadFields(model, describe, UnknownFields::kIgnore));
   LARARIUM_ASSIGN_OR_RETURN(const JsonView faces, model.Field("faces"));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<uint32_t> records,
                             ReadIndices(model, "faces", size_t{1} << 31, 2 * kMaxNumbers));
