@@ -88,7 +88,8 @@ grep -q '"at":' "$json" && fail "undo left the fire at a point"
 
 # Its name and its rank.
 click 1255 510
-fill 768 454 tavern
+fill 768 395 tavern
+fill 768 428 tavern
 press Return
 saved '"name":"tavern"' "$json" "the place was not renamed"
 [ -e "$project/places/tavern/notes.txt" ] || fail "its files are not under the new name"
