@@ -16,6 +16,7 @@ targets=("$@")
 root=build/debian/arm64
 libraries=$root/usr/lib/aarch64-linux-gnu
 if [[ ! -e $root/.complete ]]; then
+  # shellcheck disable=SC2016  # apt-get expands it
   mirror=${LARARIUM_DEBIAN_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' |
     grep -m 1 '/debian/\?$')}
   # What the build looks for, of this machine's release, because flatc and its headers must be of one version.
@@ -33,8 +34,9 @@ if [[ ! -e $root/.complete ]]; then
   find "$root" -type l -lname '/*' -printf '%p %l\n' | while read -r link target; do
     ln -sfnr "$root$target" "$link"
   done
-  # The only one that names its files by their place in a whole system.
-  sed -i 's|"/usr|"${CMAKE_SYSROOT}/usr|' "$libraries"/cmake/draco/draco-targets*.cmake
+  # Some CMake files name what they find by its place in a whole system.
+  # shellcheck disable=SC2016  # CMake expands it
+  find "$libraries/cmake" -name '*.cmake' -exec sed -i 's|\([";:]\)/usr\([/"]\)|\1${CMAKE_SYSROOT}/usr\2|g' {} +
   touch "$root/.complete"
 fi
 

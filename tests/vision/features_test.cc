@@ -22,12 +22,16 @@ cv::Mat Picture(int width, int height, uint64_t seed) {
   cv::Mat picture(height, width, CV_32F, cv::Scalar(0.5));
   const int blobs = width * height / 400;
   for (int i = 0; i < blobs; ++i) {
-    const cv::Point centre(static_cast<int>(random.Below(width)),
-                           static_cast<int>(random.Below(height)));
-    const cv::Size axes(1 + static_cast<int>(random.Below(10)),
-                        1 + static_cast<int>(random.Below(10)));
-    cv::ellipse(picture, centre, axes, random.Uniform(0.0, 180.0), 0.0, 360.0,
-                cv::Scalar(random.Uniform(0.1, 0.9)), cv::FILLED);
+    // One number is drawn in a statement, because compilers order the arguments of a call
+    // differently.
+    const int y = static_cast<int>(random.Below(height));
+    const int x = static_cast<int>(random.Below(width));
+    const int half_height = 1 + static_cast<int>(random.Below(10));
+    const int half_width = 1 + static_cast<int>(random.Below(10));
+    const double grey_level = random.Uniform(0.1, 0.9);
+    const double turn_deg = random.Uniform(0.0, 180.0);
+    cv::ellipse(picture, cv::Point(x, y), cv::Size(half_width, half_height), turn_deg, 0.0, 360.0,
+                cv::Scalar(grey_level), cv::FILLED);
   }
   cv::GaussianBlur(picture, picture, cv::Size(), 0.8);
   cv::Mat grey;

@@ -363,9 +363,10 @@ TEST_F(TrackerBehindAWall, LooksForNothingBehindTheOccluder) {
     const TrackedFrame with = Follow(*knowing, frame);
     const TrackedFrame without = Follow(*ignorant, frame);
     if (i >= 5) {
-      EXPECT_LE(with.features - with.inliers, 12) << i;  // Four trials, and a few by chance.
+      // There are four trials, and a few patches by chance, which differ between processors.
+      EXPECT_LE(with.features - with.inliers, 24) << i;
       EXPECT_GE(without.features - without.inliers, 60) << i;
-      EXPECT_GE(with.inliers, without.inliers) << i;
+      EXPECT_GE(with.inliers, without.inliers - 3) << i;
     }
   }
 }
