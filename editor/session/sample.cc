@@ -136,7 +136,8 @@ Result<fs::path> OwnSample(const fs::path& shipped, const fs::path& folder, Prog
   for (int number = 1;; ++number) {
     const fs::path own = folder / (number == 1 ? kCopy : kCopy + ("-" + std::to_string(number)));
     const fs::path version_file = own / kVersionFile;
-    const bool complete = Exists(version_file) && Exists(ProjectPaths{SampleProject(own)}.Project());
+    const bool complete =
+        Exists(version_file) && Exists(ProjectPaths{SampleProject(own)}.Project());
     const Result<std::string> copied = ReadText(version_file, kVersionBytes);
     if (complete && (!copied.ok() || *copied != version)) {
       continue;

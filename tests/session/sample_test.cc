@@ -15,8 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProject = "thermopolium/thermopolium.lararium";
-constexpr const char* kScene =
-    "thermopolium/thermopolium.lararium/places/maquette/scene.larscene";
+constexpr const char* kScene = "thermopolium/thermopolium.lararium/places/maquette/scene.larscene";
 constexpr const char* kFilm = "maquette/maquette.lararium/places/maquette/training.mp4";
 
 void Write(const fs::path& file, const std::string& text) {

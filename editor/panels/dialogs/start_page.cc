@@ -35,6 +35,7 @@ constexpr float kCard = 264.0f;
 constexpr float kPad = 10.0f;  // Inside a card.
 constexpr float kGap = 18.0f;  // Between cards.
 constexpr float kNarrowestStep = 170.0f;
+constexpr float kUnderPicture = 2.0f;
 constexpr float kStepRatio = 0.6f;  // Height by width of a step's picture.
 constexpr float kSampleRatio = 9.0f / 16.0f;
 constexpr const char* kSuffix = ".lararium";
@@ -387,15 +388,18 @@ void StartPage::DrawIntroduction() {
     words = std::max(words, WrappedHeight(Tr(step.text), column));
   }
   words += ImGui::GetTextLineHeightWithSpacing();
-  const float height = below ? picture * kStepRatio + ImGui::GetStyle().ItemSpacing.y + words
-                             : std::max(picture * kStepRatio, words);
+  const float height =
+      below ? picture * kStepRatio + Px(kUnderPicture) + 2 * ImGui::GetStyle().ItemSpacing.y + words
+            : std::max(picture * kStepRatio, words);
   for (const IntroductionStep& step : kIntroduction) {
     if (below && &step != &kIntroduction.front()) {
       ImGui::SameLine(0.0f, Px(kGap));
     }
     const Card card = BeginCard(ImVec2(width, height + 2 * Px(kPad)), false);
     DrawPicture(step.picture, OwnPicture(step.picture), ImVec2(picture, picture * kStepRatio));
-    if (!below) {
+    if (below) {
+      ImGui::Dummy(ImVec2(0, Px(kUnderPicture)));
+    } else {
       ImGui::SameLine(0.0f, Px(kGap));
     }
     ImGui::BeginGroup();

@@ -12,9 +12,10 @@ using Facts = TourFacts;
 
 constexpr auto kSteps = std::to_array<TourStep>({
     {TrLater("Learn the place"),
-     TrLater("The editor learns the sample's place from a film of it, a small Roman street kitchen. "
-             "Then it bakes the people, their light and their voices. Train\xe2\x80\xa6 and Bake above "
-             "do the same for a place of your own."),
+     TrLater(
+         "The editor learns the sample's place from a film of it, a small Roman street kitchen. "
+         "Then it bakes the people, their light and their voices. Train\xe2\x80\xa6 and Bake above "
+         "do the same for a place of your own."),
      KeyAction::kNone, [](const Facts&, const Facts& now) { return now.trained && now.picture; }},
     {TrLater("Watch the drama"),
      TrLater("This is what a visitor sees: the camera's image, and in it the people of the drama. "
@@ -22,9 +23,10 @@ constexpr auto kSteps = std::to_array<TourStep>({
      KeyAction::kPlay,
      [](const Facts& before, const Facts& now) { return now.playing != before.playing; }},
     {TrLater("See how the place was learned"),
-     TrLater("Open Place > The training's report\xe2\x80\xa6: which images of the film were located, "
-             "how exactly, and what to film better. Train\xe2\x80\xa6 above learns a place from "
-             "another film."),
+     TrLater(
+         "Open Place > The training's report\xe2\x80\xa6: which images of the film were located, "
+         "how exactly, and what to film better. Train\xe2\x80\xa6 above learns a place from "
+         "another film."),
      KeyAction::kNone, [](const Facts&, const Facts& now) { return now.report; }},
     {TrLater("See what the camera is located by"),
      TrLater("Each image is located in the map that training made, by the points you can show over "
