@@ -91,14 +91,14 @@ install_editor "$out/checkout/build/release"
 cp -r "$scenes" "$out/checkout/scenes"
 open_sample
 wait_for 20 titled "A morning at the thermopolium" || fail "the bare sample did not open"
-place=860x80+236+500  # The floor, below the progress.
+place=500x80+410+380  # The floor, below the progress.
 shows_place() {
   import -window root -crop $place +repage "$out/place.png"
   [ "$(identify -format %k "$out/place.png")" -gt 3000 ]
 }
 wait_for 10 shows_place || fail "the place is not shown at once"
 shot preparing
-progress=600x60+366+300
+progress=260x50+535+245
 goes_on() {
   shot now
   [ "$(moved $progress preparing now)" -gt 20 ]

@@ -98,7 +98,6 @@ kill -0 $pid || fail "the training was stopped without a question"
 press ctrl+o
 click 780 498  # stop it and leave
 wait_for 60 titled "Lararium$" || fail "not back on the start page"
-
 quit
 
 # A damaged list is told of, and does no harm.

@@ -41,7 +41,7 @@ picture film "$out/film.png" -resize "$size^" -gravity north -extent $size \
   "(" "${strip[@]}" -background none -gravity center +smush 6 ")" \
   -gravity south -geometry +0+8 -composite
 
-# Stage: the axes of the stage and the occluders over the picture.
+# Stage: the axes and the floor of the stage over the first picture.
 project=$root/build/demo/thermopolium/pictures.lararium
 trap 'rm -rf "$project"' EXIT
 rm -rf "$project"
@@ -50,19 +50,18 @@ open_window 1250 870 "$project"
 sleep 40  # People are read.
 click 48 210  # Stage
 press F8      # The messages leave the most room above.
-press o
 xdotool mousemove 1250 870
 sleep 4
 import -window root "$out/stage.png"
-picture stage "$out/stage.png" -crop 836x502+248+176 +repage -resize "$size!"
+picture stage "$out/stage.png" -crop 794x476+267+190 +repage -resize "$size!"
 quit
 
 # Play: what a visitor sees.
 "$bin/lararium-player" "$root/build/demo/thermopolium.larshow" --video "$film/handheld.mp4" --loop \
-  --headless --pace fast --frames 1620 --audio none --captions en --record "$out/show.mp4" ||
+  --headless --pace fast --frames 300 --audio none --captions en --record "$out/show.mp4" ||
   fail "the show does not play"
-frame "$out/show.mp4" 29.5 play
+frame "$out/show.mp4" 3 play
 picture play "$out/play.png" -resize "$size^" -gravity south -extent $size
-frame "$out/show.mp4" 48.5 sample
-picture sample "$out/sample.png" -resize 640x360^ -gravity center -extent 640x360
+frame "$out/show.mp4" 8.5 sample
+picture sample "$out/sample.png" -gravity south -extent 640x360
 ls -l "$images"/*.jpg
