@@ -31,8 +31,10 @@ constexpr std::array kTaskNames = {
     TrLater("Refining on the map"),
     TrLater("Speaking"),
     TrLater("Calibrating"),
+    TrLater("Copying the sample"),
+    TrLater("Reading the recording"),
 };
-static_assert(kTaskNames.size() == static_cast<size_t>(TaskKind::kCalibrating) + 1);
+static_assert(kTaskNames.size() == static_cast<size_t>(TaskKind::kFirstImage) + 1);
 
 }  // namespace
 

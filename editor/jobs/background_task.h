@@ -39,6 +39,8 @@ enum class TaskKind {
   kRefining,
   kSpeaking,
   kCalibrating,
+  kCopying,
+  kFirstImage,
 };
 
 // The name of a kind for the interface, in English; see Tr().

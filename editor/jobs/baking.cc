@@ -480,6 +480,10 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
                                     const Progress& progress,
                                     BakeWhat what) {
   std::vector<BakeStep> steps;
+  if (what == BakeWhat::kPeople) {
+    LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, steps));
+    return steps;
+  }
   for (const PlaceDocument& place : document.places) {
     for (const ProbeDocument& probe : place.probes) {
       steps.push_back(LightStep(paths, place, probe));

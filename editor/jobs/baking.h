@@ -28,7 +28,7 @@ struct BakeReport {
   std::vector<std::string> warnings;
 };
 
-enum class BakeWhat { kAll, kAllButPeople };
+enum class BakeWhat { kAll, kAllButPeople, kPeople };
 
 // Generates products that are missing or stale. Stops at the first failure; products that were
 // finished before stay. A probe that cannot be read gives a warning, and uniform light replaces it.

@@ -88,7 +88,7 @@ class CastPictures::Painter {
     const std::lock_guard turn(*baking_);
     ProjectDocument alone;
     alone.cast.push_back(member);
-    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, progress_));
+    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, progress_, BakeWhat::kPeople));
     TrimHeap();
     std::move(report.warnings.begin(), report.warnings.end(), std::back_inserter(warnings));
     return Status();

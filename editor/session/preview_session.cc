@@ -1,6 +1,7 @@
 #include "editor/session/preview_session.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "editor/document/file_stamp.h"
@@ -13,6 +14,25 @@
 #include "editor/text/text.h"
 
 namespace lararium::editor {
+
+namespace {
+
+// The first image of a recording, at most 960 pixels wide.
+Result<cv::Mat> FirstImage(const ProjectPaths& paths, const SourceDocument& recording) {
+  constexpr double kWidest = 960.0;
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<capture::FrameSource> source,
+                            OpenSource(paths, recording));
+  LARARIUM_ASSIGN_OR_RETURN(const std::optional<geometry::Frame> frame, source->Next());
+  if (!frame) {
+    return Status::Error(recording.path, "has no images");
+  }
+  const double scale = std::min(1.0, kWidest / frame->bgr.cols);
+  cv::Mat small;
+  cv::resize(frame->bgr, small, cv::Size(), scale, scale, cv::INTER_AREA);
+  return small;
+}
+
+}  // namespace
 
 PreviewSession::PreviewSession(ProjectSession& project,
                                const MapSession& map,
@@ -177,6 +197,28 @@ Preview::Opener PreviewSession::ViewOpener() {
   };
 }
 
+SourceDocument PreviewSession::FirstRecording() const {
+  const PlaceDocument* place = project_.place();
+  if (place == nullptr || view_source_ == ViewSource::kLive) {
+    return {};
+  }
+  return has_own_recording() ? place->preview : place->training;
+}
+
+std::shared_ptr<const cv::Mat> PreviewSession::first_image() const {
+  const bool present = first_image_.Find(FirstRecording().path) != nullptr;
+  return present ? first_image_.newest() : nullptr;
+}
+
+void PreviewSession::ReadFirstImage() {
+  const SourceDocument recording = FirstRecording();
+  if (picture_ == nullptr && !recording.empty()) {
+    first_image_.Refresh(
+        recording.path, TaskKind::kFirstImage, tasks_,
+        [paths = project_.paths(), recording](Progress&) { return FirstImage(paths, recording); });
+  }
+}
+
 void PreviewSession::PreviewLiveCamera(const std::string& camera) {
   SetViewSource(ViewSource::kRecording);
   live_camera_ = IsCameraNumber(camera) ? camera : project_.paths().Resolve(camera).string();
@@ -325,6 +367,7 @@ void PreviewSession::Update(double seconds) {
   } else {
     Collect();
   }
+  ReadFirstImage();
 }
 
 FrameToPick PreviewSession::frame_to_pick() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "editor/jobs/background_task.h"
+#include "editor/session/cached.h"
 #include "editor/session/cast_session.h"
 #include "editor/session/frame_to_pick.h"
 #include "editor/session/live_camera.h"
@@ -55,6 +56,9 @@ class PreviewSession {
 
   // The newest picture; nullptr before the first.
   const std::shared_ptr<const PreviewPicture>& picture() const { return picture_; }
+  // The first image of the place's recording, bgr and small, for as long as there is no picture:
+  // while the place is not trained, and while the show is being opened. nullptr: not read yet.
+  std::shared_ptr<const cv::Mat> first_image() const;
   // The frame in the camera view as an image for picks.
   FrameToPick frame_to_pick() const;
   // The place as staged, with occluder meshes for drawing; nullptr before the show is open.
@@ -109,6 +113,10 @@ class PreviewSession {
   void Open();
   void Close();
   Preview::Opener ViewOpener();
+  // The recording of first_image().
+  SourceDocument FirstRecording() const;
+  // Reads first_image() where there is no picture.
+  void ReadFirstImage();
   // Whether the preview shows a stage that is about to be replaced, for example because a person
   // was added whom the drama already uses.
   bool StageIsOutdated() const;
@@ -150,6 +158,7 @@ class PreviewSession {
   std::shared_ptr<const std::string> asked_text_;  // The script in the last request.
   bool awaiting_picture_ = false;
   std::shared_ptr<const PreviewPicture> picture_;
+  Cached<std::string, cv::Mat> first_image_;  // The key is the recording's path.
   // Problems that were reported since there was a picture.
   std::set<std::string> told_;
 };

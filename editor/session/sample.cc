@@ -1,44 +1,158 @@
 #include "editor/session/sample.h"
 
+#include <array>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "shared/core/program.h"
+#include "editor/document/project.h"
+#include "shared/bundle/sha256.h"
+#include "shared/core/file.h"
 
 namespace lararium::editor {
 
+namespace {
+
 namespace fs = std::filesystem;
 
-fs::path ShippedSample() {
-  std::error_code error;
-  const fs::path program = ProgramFolder();
-  const fs::path root = program / ".." / ".." / "..";
-  const fs::path sample = (root / "scenes" / "maquette" / "maquette.lararium").lexically_normal();
-  return !program.empty() && fs::exists(sample, error) ? sample : fs::path();
+constexpr const char* kPlaceProject = "maquette/maquette.lararium";
+constexpr const char* kDramaProject = "thermopolium/thermopolium.lararium";
+constexpr const char* kPlace = "maquette";
+constexpr const char* kCopy = "sample";
+constexpr const char* kVersionFile = "copied.from";  // The version of the sample that was copied.
+constexpr size_t kVersionBytes = 64;
+constexpr const char* kStep = "copying the sample";
+
+bool Exists(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
 }
 
-Result<fs::path> OwnSample(const fs::path& shipped, const fs::path& folder) {
-  const fs::path own = folder / shipped.filename();
+// The hash of what the authors of the sample wrote. Training and baking do not change it.
+Result<std::string> VersionOf(const fs::path& sample) {
+  const ProjectPaths paths{SampleProject(sample)};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  std::string all = FormatProject(document).dump();
+  for (const fs::path& file : {paths.Drama(), paths.folder / "lines.csv"}) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
+    all += text;
+  }
+  return bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(all))));
+}
+
+Status CannotCopy(const fs::path& file, const std::error_code& error) {
+  return Status::Error(file.string(), "the sample cannot be copied: " + error.message(),
+                       "make room, or open another project");
+}
+
+struct MissingFile {
+  fs::path from;
+  fs::path to;
+  uint64_t bytes = 0;
+};
+
+// The files below a folder that another folder does not have.
+Result<std::vector<MissingFile>> FindMissing(const fs::path& from, const fs::path& to) {
+  std::vector<MissingFile> files;
   std::error_code error;
-  if (fs::exists(own, error)) {
+  for (auto at = fs::recursive_directory_iterator(from, error);
+       !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+    const fs::path copy = to / at->path().lexically_relative(from);
+    if (at->is_regular_file(error) && !Exists(copy)) {
+      files.push_back({at->path(), copy, at->file_size(error)});
+    }
+  }
+  if (error) {
+    return CannotCopy(from, error);
+  }
+  return files;
+}
+
+// The copy gets its name when it is complete, and can be changed by the user.
+Status CopyFile(const MissingFile& file) {
+  std::error_code error;
+  fs::path part = file.to;
+  part += ".part";
+  fs::create_directories(part.parent_path(), error);
+  if (!error) {
+    fs::copy_file(file.from, part, fs::copy_options::overwrite_existing, error);
+  }
+  if (!error) {
+    fs::permissions(part, fs::perms::owner_write, fs::perm_options::add, error);
+  }
+  if (!error) {
+    fs::rename(part, file.to, error);
+  }
+  return error ? CannotCopy(file.to, error) : Status();
+}
+
+Status CopyMissing(const fs::path& shipped, const fs::path& own, Progress& progress) {
+  std::vector<MissingFile> files;
+  for (const char* project : {kPlaceProject, kDramaProject}) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::vector<MissingFile> missing,
+                              FindMissing(shipped / project, own / project));
+    files.insert(files.end(), missing.begin(), missing.end());
+  }
+  uint64_t bytes = 1;  // Not 0, which cannot divide.
+  for (const MissingFile& file : files) {
+    bytes += file.bytes;
+  }
+  uint64_t copied = 0;
+  for (const MissingFile& file : files) {
+    if (progress.Cancelled()) {
+      return Status::Error(own.string(), "the copying was cancelled");
+    }
+    progress.Report(kStep, static_cast<double>(copied) / static_cast<double>(bytes));
+    LARARIUM_RETURN_IF_ERROR(CopyFile(file));
+    copied += file.bytes;
+  }
+  return Status();
+}
+
+}  // namespace
+
+fs::path SampleProject(const fs::path& sample) { return sample / kDramaProject; }
+
+bool IsTrained(const fs::path& sample) {
+  return Exists(ProjectPaths{SampleProject(sample)}.Scene(kPlace));
+}
+
+fs::path ShippedSample(const fs::path& program) {
+  const fs::path installed = program / "../share/lararium/sample";
+  const fs::path prepared = program / "../../demo";  // The program is in build/PRESET/bin.
+  const fs::path bare = program / "../../../scenes";
+  for (const fs::path& sample : std::array{installed, prepared, bare}) {
+    if (Exists(ProjectPaths{SampleProject(sample)}.Project()) &&
+        (IsTrained(sample) || sample == bare)) {
+      return sample.lexically_normal();
+    }
+  }
+  return {};
+}
+
+Result<fs::path> OwnSample(const fs::path& shipped, const fs::path& folder, Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string version, VersionOf(shipped));
+  for (int number = 1;; ++number) {
+    const fs::path own = folder / (number == 1 ? kCopy : kCopy + ("-" + std::to_string(number)));
+    const fs::path version_file = own / kVersionFile;
+    const bool complete =
+        Exists(version_file) && Exists(ProjectPaths{SampleProject(own)}.Project());
+    const Result<std::string> copied = ReadText(version_file, kVersionBytes);
+    if (complete && (!copied.ok() || *copied != version)) {
+      continue;
+    }
+    if (!complete || (IsTrained(shipped) && !IsTrained(own))) {
+      LARARIUM_RETURN_IF_ERROR(CopyMissing(shipped, own, progress));
+      LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(version_file, std::string_view(version)));
+    }
     return own;
   }
-  // The copy gets its name when it is complete, so that an interrupted one is not used.
-  const fs::path part = folder / (shipped.filename().string() + ".part");
-  const auto failed = [&](const char* what) {
-    return Status::Error(own.string(), std::string(what) + ": " + error.message(),
-                         "make room, or open " + shipped.string() + " itself");
-  };
-  fs::create_directories(folder, error);
-  fs::remove_all(part, error);
-  fs::copy(shipped, part, fs::copy_options::recursive, error);
-  if (error) {
-    return failed("the sample cannot be copied");
-  }
-  fs::rename(part, own, error);
-  if (error) {
-    return failed("the copy of the sample cannot be renamed");
-  }
-  return own;
+}
+
+bool IsOwnSample(const fs::path& project, const fs::path& folder) {
+  const fs::path below = project.lexically_relative(NormalFolder(folder));
+  return !below.empty() && below.begin()->string().starts_with(kCopy);
 }
 
 }  // namespace lararium::editor

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "editor/jobs/baking.h"
+
 namespace lararium::editor {
 
 Result<std::unique_ptr<Workspace>> Workspace::Open(ProjectPaths paths, Log& log) {
@@ -29,6 +31,7 @@ Workspace::Workspace(std::unique_ptr<MessageLog> messages,
       OrderPictures();
     }
   });
+  people_wait_ = PeopleToBake(project_->paths(), project_->document()).empty();
   OrderPictures();
 }
 
@@ -36,12 +39,20 @@ bool Workspace::AtLongWork() const {
   return tasks_.Running(TaskKind::kTraining) || tasks_.Running(TaskKind::kExporting);
 }
 
-// Pictures of objects wait for the preview's first picture and for the dry run: each needs tens of
-// megabytes, and both processor cores while shaders are compiled.
+bool Workspace::ShowsPreview() const {
+  return !map_.stale() && !tasks_.Running(TaskKind::kOpening) && preview_.ready();
+}
+
+// Pictures wait for the preview's first picture, those of objects for the dry run too: each needs
+// tens of megabytes, and both processor cores while shaders are compiled. People who are not baked
+// do not wait, because ordering their pictures bakes them.
 void Workspace::OrderPictures() {
-  cast_.pictures().SetCast(project_->document().cast);
-  if (!map_.stale() && !tasks_.Running(TaskKind::kOpening) && !tasks_.Running(TaskKind::kDryRun) &&
-      preview_.ready()) {
+  const bool shows = ShowsPreview();
+  people_wait_ &= !shows;
+  if (!people_wait_) {
+    cast_.pictures().SetCast(project_->document().cast);
+  }
+  if (shows && !tasks_.Running(TaskKind::kDryRun)) {
     cast_.pictures().SetObjects(project_->document().objects);
   }
 }

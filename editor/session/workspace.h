@@ -65,6 +65,8 @@ class Workspace {
 
   // Orders pictures of the cast and the objects.
   void OrderPictures();
+  // Whether the camera view shows a picture, or none is expected.
+  bool ShowsPreview() const;
 
   std::unique_ptr<MessageLog> messages_;
   std::unique_ptr<ProjectSession> project_;
@@ -79,6 +81,8 @@ class Workspace {
   PreviewSession preview_;
   JobRunner jobs_;
   double since_files_checked_ = 0.0;  // Seconds.
+  // All people are baked, so that their pictures can wait for the preview's first picture.
+  bool people_wait_ = false;
   // The last member: its threads must end before the other members are destroyed.
   TaskList tasks_;
 };

@@ -343,7 +343,7 @@ void Layout::DrainActions(const Workspace& workspace) {
     } else if (std::holds_alternative<panels::StopWorkAndLeave>(action)) {
       stops_work_ = true;
     } else if (std::holds_alternative<panels::StartTour>(action)) {
-      tour_.Begin(panels::FactsOf(workspace, selection_, options_));
+      tour_.Begin(panels::FactsOf(workspace, selection_, options_, dialogs_));
     } else if (const auto* tab = std::get_if<panels::OpenTab>(&action)) {
       bottom_ = tab->tab;
     } else if (const auto* script = std::get_if<panels::GoToScriptLine>(&action)) {
@@ -414,7 +414,7 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
   AskBeforeLeaving(workspace);
   input_.keyboard.End(Region::kToolbar);
   ImGui::End();
-  panels::DrawTourCard(workspace, selection_, options_, input_, tour_);
+  panels::DrawTourCard(workspace, selection_, options_, dialogs_, input_, tour_);
   input_.keys.clear();
   menus_ = panels::KeysBelongToMenus();
 }

@@ -1,5 +1,7 @@
 #include "editor/window/window_content.h"
 
+#include <imgui.h>
+
 #include <chrono>
 #include <utility>
 
@@ -10,7 +12,9 @@
 #include "editor/panels/widgets/keyboard_focus.h"
 #include "editor/session/project_picture.h"
 #include "editor/session/sample.h"
+#include "editor/session/task_text.h"
 #include "editor/text/text.h"
+#include "shared/core/program.h"
 
 namespace lararium::editor {
 
@@ -60,7 +64,7 @@ WindowContent::WindowContent(std::unique_ptr<Workspace> workspace,
       settings_(settings),
       panels_(panels),
       recent_(StateFolder() / "recent.json"),
-      sample_(ShippedSample()) {
+      shipped_(ShippedSample(ProgramFolder())) {
   if (const Status status = recent_.Reload(); !status.ok()) {
     start_.SetProblem(status.message());
   }
@@ -105,6 +109,7 @@ void WindowContent::Leave() {
   KeepPicture();
   layout_.reset();
   workspace_.reset();
+  tour_ = plays_ = false;
   start_ = {};
   if (const Status status = recent_.Reload(); !status.ok()) {
     start_.SetProblem(status.message());
@@ -161,9 +166,14 @@ Status WindowContent::MakeNew(const panels::NewProject& made) {
 }
 
 void WindowContent::Follow(const StartChoice& choice) {
+  if (choice.kind == StartChoice::Kind::kNothing) {
+    return;
+  }
+  copying_.reset();
   Status problem;
   switch (choice.kind) {
     case StartChoice::Kind::kNothing:
+    case StartChoice::Kind::kStopCopying:
       return;
     case StartChoice::Kind::kQuit:
       quit_ = true;
@@ -174,15 +184,9 @@ void WindowContent::Follow(const StartChoice& choice) {
     case StartChoice::Kind::kNew:
       problem = MakeNew(choice.made);
       break;
-    case StartChoice::Kind::kSample: {
-      const Result<std::filesystem::path> own = OwnSample(sample_, DataFolder());
-      problem = own.status();
-      if (own.ok()) {
-        Open(*own);
-        tour_ = workspace_ != nullptr;
-      }
-      break;
-    }
+    case StartChoice::Kind::kSample:
+      CopySample();
+      return;
   }
   if (!problem.ok()) {
     start_.SetProblem(problem.message());
@@ -249,7 +253,50 @@ void WindowContent::DropOnStart(const panels::DroppedFile& dropped) {
   }
 }
 
+void WindowContent::CopySample() {
+  own_sample_ = std::make_shared<std::filesystem::path>();
+  copying_ = std::make_unique<BackgroundTask>(
+      TaskKind::kCopying, [own = own_sample_, shipped = shipped_](Progress& progress) {
+        LARARIUM_ASSIGN_OR_RETURN(*own, OwnSample(shipped, DataFolder(), progress));
+        return Status();
+      });
+}
+
+void WindowContent::OpenCopiedSample() {
+  const Status copied = *copying_->outcome();
+  copying_.reset();
+  if (!copied.ok()) {
+    start_.SetProblem(copied.message());
+    return;
+  }
+  Open(SampleProject(*own_sample_));
+  tour_ = plays_ = workspace_ != nullptr;
+  if (workspace_ != nullptr && !IsTrained(*own_sample_)) {
+    workspace_->messages().Tell(
+        Message::Level::kInfo,
+        Tr("The sample is not prepared yet: its place is trained now, then its people and voices "
+           "are baked. That takes some minutes, once."));
+    workspace_->training().Train();
+  }
+}
+
+void WindowContent::BeginSample() {
+  const bool shown = workspace_->preview().picture() != nullptr;
+  const bool acted = !keys_.empty() || ImGui::IsAnyMouseDown();
+  if (tour_ && (shown || acted || workspace_->tasks().Running(TaskKind::kTraining))) {
+    layout_->BeginTour();
+    tour_ = false;
+  }
+  if (plays_ && (shown || acted)) {
+    workspace_->playback().SetPlaying(!acted);
+    plays_ = false;
+  }
+}
+
 void WindowContent::Update(double seconds) {
+  if (copying_ != nullptr && copying_->outcome()) {
+    OpenCopiedSample();
+  }
   if (workspace_ == nullptr) {
     return;
   }
@@ -263,7 +310,8 @@ Status WindowContent::Show() {
   const Settings before = settings_;
   TakeDrop();
   if (workspace_ == nullptr) {
-    const StartChoice choice = start_.Show(recent_, keys_, !sample_.empty(), settings_);
+    const StartChoice choice =
+        start_.Show(recent_, keys_, !shipped_.empty(), copying_.get(), settings_);
     keys_.clear();
     Follow(choice);
   } else {
@@ -284,9 +332,7 @@ Status WindowContent::DrawProject() {
   if (layout_ == nullptr) {
     LARARIUM_ASSIGN_OR_RETURN(layout_, Layout::Create());
   }
-  if (std::exchange(tour_, false)) {
-    layout_->BeginTour();
-  }
+  BeginSample();
   if (!film_.empty()) {
     layout_->BeginFilming(std::exchange(film_, ""));
   }

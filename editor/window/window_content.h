@@ -36,7 +36,7 @@ class WindowContent {
 
   std::string Title() const;
   // Whether something changes without input, so that a redraw is due soon.
-  bool Busy() const { return workspace_ != nullptr && workspace_->Busy(); }
+  bool Busy() const { return copying_ != nullptr || (workspace_ != nullptr && workspace_->Busy()); }
   void AddKey(const panels::KeyPress& press) { keys_.push_back(press); }
   // Sets the character that the last added key types.
   void AddCharacter(char32_t character);
@@ -69,6 +69,12 @@ class WindowContent {
   void Open(const std::filesystem::path& project);
   Status MakeNew(const panels::NewProject& made);
   void Follow(const panels::StartChoice& choice);
+  // Copies the sample in the background, and opens the copy.
+  void CopySample();
+  void OpenCopiedSample();
+  // Starts what the sample does by itself: its first picture plays, unless the user did something
+  // before, and the tour begins. Where the place is not trained, training begins with the tour.
+  void BeginSample();
   void KeepPicture();
   void TakeDrop();
   void DropOnStart(const panels::DroppedFile& dropped);
@@ -77,7 +83,9 @@ class WindowContent {
   Settings settings_;
   PanelSizes panels_;
   RecentProjects recent_;
-  std::filesystem::path sample_;  // Folder of the shipped sample; empty: not installed.
+  std::filesystem::path shipped_;  // Folder of the shipped sample; empty: not installed.
+  std::shared_ptr<std::filesystem::path> own_sample_;  // The result of copying_.
+  std::unique_ptr<BackgroundTask> copying_;            // nullptr: the sample is not being copied.
   panels::StartPage start_;
   std::vector<panels::KeyPress> keys_;
   std::unique_ptr<Workspace> workspace_;  // nullptr: the start page is shown.
@@ -87,7 +95,8 @@ class WindowContent {
   bool has_dropped_ = false;    // True until dropped_ was taken or told about.
   std::filesystem::path next_;  // The project to open when the present one is left.
   std::string film_;            // Place to film, opened with the project's first frame.
-  bool tour_ = false;           // Starts the tour with the project's first frame.
+  bool tour_ = false;           // The tour of the sample has to begin.
+  bool plays_ = false;          // The sample has to begin playing.
   bool quit_ = false;
 };
 

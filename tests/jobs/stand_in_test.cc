@@ -7,14 +7,17 @@
 
 #include "editor/document/project.h"
 #include "editor/jobs/baking.h"
+#include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::editor {
 namespace {
 
 using testing::Contains;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 float HeightOf(const human::Human& human) {
@@ -62,6 +65,17 @@ TEST_F(StandInTest, BakingAllButPeopleLeavesThemToBeBaked) {
   ASSERT_TRUE(report.ok()) << report.message();
   EXPECT_THAT(report->baked, Not(Contains(HasSubstr("ada"))));
   EXPECT_THAT(PeopleToBake(paths_, document_), ElementsAre("ada", "ben"));
+}
+
+TEST_F(StandInTest, BakingOneAloneLeavesTheLinesOfOthers) {
+  ASSERT_TRUE(WriteFileAtomically(paths_.folder / "lines.csv",
+                                  std::string_view("id,speaker,notes,en\nhail,ben,,Hail!\n"))
+                  .ok());
+  document_.cast.resize(1);
+  const auto report = Bake(paths_, document_, progress_, BakeWhat::kPeople);
+  ASSERT_TRUE(report.ok()) << report.message();
+  EXPECT_THAT(report->baked, Each(HasSubstr("ada")));
+  EXPECT_THAT(PeopleToBake(paths_, document_), IsEmpty());
 }
 
 TEST_F(StandInTest, PeopleAreToBeBakedUntilTheirLightIs) {

@@ -18,6 +18,7 @@ std::vector<TourFacts> DoneStepByStep() {
   };
   then([](TourFacts& f) { f.trained = f.picture = true; });
   then([](TourFacts& f) { f.playing = true; });
+  then([](TourFacts& f) { f.report = true; });
   then([](TourFacts& f) { f.matches = true; });
   then([](TourFacts& f) { f.around = true; });
   then([](TourFacts& f) { f.stage = "moved", f.dirty = true; });
@@ -68,6 +69,20 @@ TEST(Tour, WhatWasEditedBeforeAStepDoesNotCountForIt) {
   now.stage = "moved now";
   tour.Update(now);
   EXPECT_STREQ(tour.step()->title, "Undo");
+}
+
+TEST(Tour, ADramaThatPlaysAlreadyIsToBePaused) {
+  Tour tour;
+  TourFacts now;
+  now.trained = now.picture = now.playing = true;
+  tour.Begin(now);
+  tour.Update(now);
+  EXPECT_STREQ(tour.step()->title, "Watch the drama");
+  tour.Update(now);
+  EXPECT_STREQ(tour.step()->title, "Watch the drama");
+  now.playing = false;
+  tour.Update(now);
+  EXPECT_STREQ(tour.step()->title, "See how the place was learned");
 }
 
 TEST(Tour, CanBeSkippedThroughAndEnded) {

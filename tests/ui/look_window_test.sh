@@ -35,14 +35,14 @@ start_editor() {
 
 start_editor
 shot dark
-click 207 443  # Light
+click 202 465  # Light
 wait_for 5 chosen '"theme":"light"' || fail "light colours were not chosen"
 shot light
 [ "$(brightness dark)" -lt 25 ] || fail "dark is bright: $(brightness dark)"
 [ "$(brightness light)" -gt 75 ] || fail "light is dark: $(brightness light)"
 
 small=$(button light 150 97 80)
-click 322 475  # 200 %
+click 322 523  # 200 %
 wait_for 5 chosen '"scale":2' || fail "the size was not chosen"
 sleep 1
 xdotool mousemove 1300 860 sleep 1

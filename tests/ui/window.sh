@@ -43,6 +43,23 @@ start_clean() {
   pid=0
 }
 
+# install_editor FOLDER: uses the editor as it is when it is installed there, with share/ beside its
+# bin/ and without the checkout's cast library.
+install_editor() {
+  local built
+  built=$(dirname "$editor")
+  mkdir -p "$1/bin" "$1/share"
+  cp "$editor" "$1/bin/"
+  cp -r "$built/../share/." "$1/share/"
+  unset LARARIUM_CAST_LIBRARY
+  export HOME=$out/home XDG_DATA_HOME=$out/data
+  mkdir -p "$HOME"
+  editor=$1/bin/$(basename "$editor")
+}
+
+# install_sample SAMPLE: beside the installed editor.
+install_sample() { ln -s "$1" "$(dirname "$editor")/../share/lararium/sample"; }
+
 fail() {
   echo "FAILED: $*"
   import -window root "$out/failure.png"

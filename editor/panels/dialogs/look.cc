@@ -10,6 +10,7 @@
 
 #include "editor/panels/widgets/palette.h"
 #include "editor/panels/widgets/text.h"
+#include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
 
 namespace lararium::panels {
@@ -34,12 +35,14 @@ const char* LanguageName(const std::string& language) {
 }  // namespace
 
 void DrawLook(editor::Settings& settings) {
+  DimText(Tr("Colours"));
   const char* const themes[] = {ThemeName(kThemes[0]), ThemeName(kThemes[1])};
   int theme = settings.theme == kThemes[1] ? 1 : 0;
   if (Segmented("theme", themes, theme)) {
     settings.theme = kThemes[static_cast<size_t>(theme)];
   }
-  ImGui::Dummy(ImVec2(0, 0));
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  DimText(Tr("Size"));
   std::array<std::string, editor::kScales.size()> names;
   std::array<const char*, editor::kScales.size()> labels = {};
   for (size_t i = 0; i < names.size(); ++i) {
@@ -51,7 +54,8 @@ void DrawLook(editor::Settings& settings) {
   if (Segmented("scale", labels, scale)) {
     settings.scale = editor::kScales[static_cast<size_t>(scale)];
   }
-  ImGui::Dummy(ImVec2(0, 0));
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  DimText(Tr("Language"));
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::BeginCombo("##language", LanguageName(settings.language))) {
     for (const char* language : editor::kLanguages) {

@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "editor/document/project.h"
@@ -16,6 +17,10 @@
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
 #include "editor/session/project_picture.h"
+#include "editor/session/sample.h"
+#include "editor/session/task_text.h"
+#include "shared/core/program.h"
+#include "shared/image/decode.h"
 
 namespace lararium::panels {
 
@@ -29,6 +34,45 @@ constexpr float kActions = 240.0f;
 constexpr float kCard = 264.0f;
 constexpr float kPad = 10.0f;  // Inside a card.
 constexpr float kGap = 18.0f;  // Between cards.
+constexpr float kNarrowestStep = 170.0f;
+constexpr float kUnderPicture = 2.0f;
+constexpr float kStepRatio = 0.6f;  // Height by width of a step's picture.
+constexpr float kSampleRatio = 9.0f / 16.0f;
+constexpr const char* kSampleTitle = TrLater("A morning at the thermopolium");
+
+struct IntroductionStep {
+  const char* picture;
+  const char* title;
+  const char* text;
+};
+constexpr std::array<IntroductionStep, 3> kIntroduction = {{
+    {"film", TrLater("1  Film"),
+     TrLater("Walk sideways around a place with a camera for half a minute. The editor learns the "
+             "place from the film.")},
+    {"stage", TrLater("2  Stage"),
+     TrLater("Pick where the floor is and how long something is. Then place people, things and "
+             "light, and write what happens.")},
+    {"play", TrLater("3  Play"),
+     TrLater("Export one file. Visitors see the people at the place itself, on a screen or through "
+             "a headset.")},
+}};
+
+float WrappedHeight(const char* text, float width) {
+  return ImGui::CalcTextSize(text, nullptr, false, width).y;
+}
+
+// The height of a project's card: its picture, two lines and a row of buttons.
+float CardHeight(float width) {
+  return 2 * Px(kPad) + (width - 2 * Px(kPad)) * kSampleRatio +
+         2 * ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing() + Px(2);
+}
+
+// Dim text in lines of the given width.
+void WrappedHint(const char* text, float width) {
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+  Hint(text);
+  ImGui::PopTextWrapPos();
+}
 
 // The path with "~" for the user's home.
 std::string FolderText(const fs::path& folder) {
@@ -177,23 +221,36 @@ void StartPage::DrawActions(const editor::RecentProjects& recent,
     choice.kind = StartChoice::Kind::kSample;
   }
   ImGui::EndDisabled();
-  Tooltip(has_sample ? Tr("Your own copy of a small place with two people, and a tour "
-                          "of it: change whatever you like.")
+  Tooltip(has_sample ? Tr("Your own copy of a street kitchen in Pompeii with five people, "
+                          "and a tour of it: change whatever you like.")
                      : Tr("The sample was not installed with this program."));
   ImGui::Dummy(ImVec2(0, Px(20)));
   DrawLook(settings);
 }
 
-void StartPage::DrawPicture(const editor::RecentProject& project,
-                            const Face& face,
-                            const ImVec2& size) {
+const std::shared_ptr<const cv::Mat>& StartPage::OwnPicture(const std::string& name) {
+  const auto [entry, added] = own_pictures_.try_emplace(name);
+  if (added) {
+    const fs::path folder = ProgramFolder().parent_path() / "share/lararium/start";
+    auto picture = image::ReadImage(folder / (name + ".jpg"), image::Channels::kBgr);
+    if (picture.ok()) {
+      entry->second = std::make_shared<const cv::Mat>(*std::move(picture));
+    }
+  }
+  return entry->second;
+}
+
+void StartPage::DrawPicture(const std::string& key,
+                            const std::shared_ptr<const cv::Mat>& picture,
+                            const ImVec2& size,
+                            bool faded) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const ImVec2 to(from.x + size.x, from.y + size.y);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (face.picture != nullptr) {
-    const auto [first, last] = Cover(*face.picture, size);
-    draw.AddImageRounded(pictures_.Show(project.folder.string(), face.picture), from, to, first,
-                         last, IM_COL32(255, 255, 255, face.exists ? 255 : 90),
+  if (picture != nullptr) {
+    const auto [first, last] = Cover(*picture, size);
+    draw.AddImageRounded(pictures_.Show(key, picture), from, to, first, last,
+                         IM_COL32(255, 255, 255, faded ? 90 : 255),
                          ImGui::GetStyle().FrameRounding);
   } else {
     draw.AddRectFilled(from, to, Packed(Colours().frame), ImGui::GetStyle().FrameRounding);
@@ -205,35 +262,44 @@ void StartPage::DrawPicture(const editor::RecentProject& project,
   ImGui::Dummy(size);
 }
 
+StartPage::Card StartPage::BeginCard(const ImVec2& size, bool possible) {
+  Card card{ImGui::GetCursorScreenPos(), size};
+  const ImVec2 to(card.from.x + size.x, card.from.y + size.y);
+  if (possible) {
+    card.clicked = ImGui::InvisibleButton("open", size);
+    ImGui::SetItemAllowOverlap();  // The buttons of the card lie over it.
+    card.hovered = ImGui::IsItemHovered();
+  }
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      card.from, to, Packed(card.hovered ? Colours().hover : Colours().panel), Px(6));
+  ImGui::SetCursorScreenPos(ImVec2(card.from.x + Px(kPad), card.from.y + Px(kPad)));
+  ImGui::BeginGroup();
+  return card;
+}
+
+void StartPage::EndCard(const Card& card) {
+  ImGui::EndGroup();
+  ImGui::SetCursorScreenPos(card.from);
+  ImGui::Dummy(card.size);
+}
+
 void StartPage::DrawCard(editor::RecentProjects& recent,
                          const editor::RecentProject& project,
                          float width,
                          StartChoice& choice) {
   const Face& face = faces_[project.folder];
   const float inner = width - 2 * Px(kPad);
-  const float picture = inner * 9.0f / 16.0f;
-  const float height = 2 * Px(kPad) + picture + 2 * ImGui::GetTextLineHeightWithSpacing() +
-                       ImGui::GetFrameHeightWithSpacing() + Px(2);
   ImGui::PushID(project.folder.c_str());
-  const ImVec2 from = ImGui::GetCursorScreenPos();
-  const ImVec2 to(from.x + width, from.y + height);
-  ImGui::BeginDisabled(!face.exists);
-  const bool clicked = ImGui::InvisibleButton("open", ImVec2(width, height));
-  ImGui::EndDisabled();
-  ImGui::SetItemAllowOverlap();  // The buttons of the card lie over it.
-  const bool hovered = face.exists && ImGui::IsItemHovered();
-  Tooltip(project.folder);
-  ImGui::GetWindowDrawList()->AddRectFilled(
-      from, to, Packed(hovered ? Colours().hover : Colours().panel), Px(6));
-  ImGui::SetCursorScreenPos(ImVec2(from.x + Px(kPad), from.y + Px(kPad)));
-  ImGui::BeginGroup();
-  DrawPicture(project, face, ImVec2(inner, picture));
+  const Card card = BeginCard(ImVec2(width, CardHeight(width)), face.exists);
+  DrawPicture(project.folder.string(), face.picture, ImVec2(inner, inner * kSampleRatio),
+              !face.exists);
   if (face.exists) {
     Heading(Elided(project.title, inner).c_str());
   } else {
     DimText(Elided(project.title, inner));
   }
   DimText(ElidedFront(FolderText(project.folder), inner));
+  Tooltip(project.folder);
   if (face.exists) {
     DimText(DateText(project.opened));
     ImGui::SameLine(inner - ImGui::CalcTextSize(Tr("Forget")).x - Px(8));
@@ -247,50 +313,147 @@ void StartPage::DrawCard(editor::RecentProjects& recent,
     forget = ImGui::SmallButton(Tr("Forget"));
     ImGui::SameLine();
     ImGui::TextColored(Colours().warning, "%s", Tr("not there"));
-  } else if (hovered || HasKeyboard(Tr("Forget"))) {
+  } else if (card.hovered || HasKeyboard(Tr("Forget"))) {
     forget = ImGui::SmallButton(Tr("Forget"));
     Tooltip(Tr("Takes it off this list. The project itself stays."));
   } else {
     ImGui::NewLine();
   }
-  ImGui::EndGroup();
-  ImGui::SetCursorScreenPos(from);
-  ImGui::Dummy(ImVec2(width, height));
+  EndCard(card);
   ImGui::PopID();
   if (forget) {
     const fs::path folder = project.folder;  // The list changes below.
     problem_ = recent.Forget(folder).message();
-  } else if (clicked) {
+  } else if (card.clicked) {
     choice.kind = StartChoice::Kind::kOpen;
     choice.project = project.folder;
   }
 }
 
-void StartPage::DrawRecent(editor::RecentProjects& recent, StartChoice& choice) {
+void StartPage::DrawSampleCard(float width, StartChoice& choice) {
+  const float inner = width - 2 * Px(kPad);
+  ImGui::PushID("sample");
+  const Card card = BeginCard(ImVec2(width, CardHeight(width)), true);
+  DrawPicture("sample", OwnPicture("sample"), ImVec2(inner, inner * kSampleRatio));
+  Heading(Elided(Tr(kSampleTitle), inner).c_str());
+  DimText(Elided(Tr("The sample, with a tour"), inner));
+  EndCard(card);
+  ImGui::PopID();
+  if (card.clicked) {
+    choice.kind = StartChoice::Kind::kSample;
+  }
+}
+
+void StartPage::DrawSample(StartChoice& choice) {
+  Heading(Tr("Look at a finished one first"));
+  ImGui::Dummy(ImVec2(0, Px(2)));
+  const float room = ImGui::GetContentRegionAvail().x;
+  const char* text =
+      Tr("A street kitchen in Pompeii: five people, who speak Latin, and twenty-three things that "
+         "they "
+         "use. Opens your own copy, so change whatever you like. A tour leads through it.");
+  const bool beside = room >= Px(3 * kNarrowestStep);
+  const float inner = room - 2 * Px(kPad);
+  const float picture = beside ? 0.5f * inner : inner;
+  const float column = beside ? inner - picture - Px(kGap) : inner;
+  const float words = ImGui::GetTextLineHeightWithSpacing() + WrappedHeight(text, column) + Px(12) +
+                      ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  const float height = beside ? std::max(picture * kSampleRatio, words)
+                              : picture * kSampleRatio + words + ImGui::GetStyle().ItemSpacing.y;
+  ImGui::PushID("sample");
+  const Card card = BeginCard(ImVec2(room, height + 2 * Px(kPad)), true);
+  DrawPicture("sample", OwnPicture("sample"), ImVec2(picture, picture * kSampleRatio));
+  if (beside) {
+    ImGui::SameLine(0.0f, Px(kGap));
+  }
+  ImGui::BeginGroup();
+  Heading(Elided(Tr(kSampleTitle), column).c_str());
+  WrappedHint(text, column);
+  ImGui::Dummy(ImVec2(0, Px(4)));
+  ImGui::PushStyleColor(ImGuiCol_Button, Colours().chosen);
+  const bool pressed = ImGui::Button(Label(Tr("Open the sample"), "button").c_str());
+  ImGui::PopStyleColor();
+  ImGui::EndGroup();
+  EndCard(card);
+  ImGui::PopID();
+  if (card.clicked || pressed) {
+    choice.kind = StartChoice::Kind::kSample;
+  }
+}
+
+void StartPage::DrawIntroduction() {
+  Heading(Tr("What one does here"));
+  ImGui::Dummy(ImVec2(0, Px(2)));
+  const float room = ImGui::GetContentRegionAvail().x;
+  const auto count = static_cast<float>(kIntroduction.size());
+  // The text lies below the picture where three steps are beside each other, else at its right.
+  const bool below = room >= count * Px(kNarrowestStep) + (count - 1) * Px(kGap);
+  const float width = below ? (room - (count - 1) * Px(kGap)) / count : room;
+  const float inner = width - 2 * Px(kPad);
+  const float picture = below ? inner : std::min(Px(kNarrowestStep), 0.45f * inner);
+  const float column = below ? inner : inner - picture - Px(kGap);
+  float words = 0.0f;
+  for (const IntroductionStep& step : kIntroduction) {
+    words = std::max(words, WrappedHeight(Tr(step.text), column));
+  }
+  words += ImGui::GetTextLineHeightWithSpacing();
+  const float height =
+      below ? picture * kStepRatio + Px(kUnderPicture) + 2 * ImGui::GetStyle().ItemSpacing.y + words
+            : std::max(picture * kStepRatio, words);
+  for (const IntroductionStep& step : kIntroduction) {
+    if (below && &step != &kIntroduction.front()) {
+      ImGui::SameLine(0.0f, Px(kGap));
+    }
+    const Card card = BeginCard(ImVec2(width, height + 2 * Px(kPad)), false);
+    DrawPicture(step.picture, OwnPicture(step.picture), ImVec2(picture, picture * kStepRatio));
+    if (below) {
+      ImGui::Dummy(ImVec2(0, Px(kUnderPicture)));
+    } else {
+      ImGui::SameLine(0.0f, Px(kGap));
+    }
+    ImGui::BeginGroup();
+    Heading(Tr(step.title));
+    WrappedHint(Tr(step.text), column);
+    ImGui::EndGroup();
+    EndCard(card);
+  }
+}
+
+void StartPage::DrawCopying(const editor::BackgroundTask& copying, StartChoice& choice) {
+  const editor::BackgroundTask::State state = copying.state();
+  ImGui::TextUnformatted(editor::TaskText(copying.kind(), state).c_str());
+  ImGui::ProgressBar(static_cast<float>(state.fraction), ImVec2(Px(320), Px(6)), "");
+  if (ImGui::Button(Tr("Cancel"))) {
+    choice.kind = StartChoice::Kind::kStopCopying;
+  }
+  ImGui::Dummy(ImVec2(0, Px(8)));
+}
+
+void StartPage::DrawRecent(editor::RecentProjects& recent, bool has_sample, StartChoice& choice) {
   Heading(Tr("Recent projects"));
   ImGui::Dummy(ImVec2(0, Px(2)));
-  if (recent.entries().empty()) {
-    Hint(
-        Tr("None yet. Film a place for half a minute and begin with New from video, or look "
-           "around in the sample first."));
-    return;
-  }
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(8), Px(4)));
   const float room = ImGui::GetContentRegionAvail().x;
   const int columns = std::max(1, static_cast<int>((room + Px(kGap)) / Px(kCard + kGap)));
   const float width = std::min(
       room, (room - static_cast<float>(columns - 1) * Px(kGap)) / static_cast<float>(columns));
   // Copied, because cards change the list.
   const std::vector<editor::RecentProject> entries = recent.entries();
-  for (size_t i = 0; i < entries.size(); ++i) {
+  const bool own_sample = std::any_of(entries.begin(), entries.end(), [](const auto& project) {
+    return editor::IsOwnSample(project.folder, editor::DataFolder());
+  });
+  const size_t cards = entries.size() + (has_sample && !own_sample ? 1 : 0);
+  for (size_t i = 0; i < cards; ++i) {
     if (i % static_cast<size_t>(columns) != 0) {
       ImGui::SameLine(0.0f, Px(kGap));
     } else if (i > 0) {
       ImGui::Dummy(ImVec2(0, Px(kGap) - 2 * ImGui::GetStyle().ItemSpacing.y));
     }
-    DrawCard(recent, entries[i], width, choice);
+    if (i < entries.size()) {
+      DrawCard(recent, entries[i], width, choice);
+    } else {
+      DrawSampleCard(width, choice);
+    }
   }
-  ImGui::PopStyleVar();
 }
 
 const char* StartPage::TitleOf(Open dialog) {
@@ -356,6 +519,7 @@ void StartPage::DrawDialog(editor::RecentProjects& recent,
 StartChoice StartPage::Show(editor::RecentProjects& recent,
                             std::span<const KeyPress> keys,
                             bool has_sample,
+                            const editor::BackgroundTask* copying,
                             editor::Settings& settings) {
   StartChoice choice;
   HandleKeys(recent, keys, choice);
@@ -382,7 +546,21 @@ StartChoice StartPage::Show(editor::RecentProjects& recent,
     ImGui::PopStyleColor();
     ImGui::Dummy(ImVec2(0, Px(8)));
   }
-  DrawRecent(recent, choice);
+  if (copying != nullptr) {
+    DrawCopying(*copying, choice);
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(Px(8), Px(4)));
+  const ImVec2 between(0, Px(16));
+  if (!recent.entries().empty()) {
+    DrawRecent(recent, has_sample, choice);
+    ImGui::Dummy(between);
+  }
+  DrawIntroduction();
+  if (recent.entries().empty() && has_sample) {
+    ImGui::Dummy(between);
+    DrawSample(choice);
+  }
+  ImGui::PopStyleVar();
   ImGui::EndChild();
   DrawDialog(recent, keys, choice);
   ImGui::End();

@@ -1,7 +1,9 @@
 #pragma once
 
-// The page that is shown while no project is open: recent projects, and buttons to open or make
-// others.
+// The page that is shown while no project is open: recent projects, the sample, what one does with
+// the editor, and buttons to open or make projects.
+
+#include <imgui.h>
 
 #include <filesystem>
 #include <map>
@@ -10,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "editor/jobs/background_task.h"
 #include "editor/panels/dialogs/new_project_dialog.h"
 #include "editor/panels/viewport/picture_textures.h"
 #include "editor/panels/widgets/keys.h"
@@ -20,7 +23,7 @@ namespace lararium::panels {
 
 // The user's choice on the start page.
 struct StartChoice {
-  enum class Kind { kNothing, kOpen, kNew, kSample, kQuit };
+  enum class Kind { kNothing, kOpen, kNew, kSample, kStopCopying, kQuit };
   Kind kind = Kind::kNothing;
   std::filesystem::path project;  // The project to open.
   NewProject made;                // The project to make.
@@ -28,11 +31,13 @@ struct StartChoice {
 
 class StartPage {
  public:
-  // Fills the window. keys: those since the last frame. has_sample: the sample exists. Removing and
-  // locating projects changes recent at once; settings can change too.
+  // Fills the window. keys: those since the last frame. has_sample: the sample exists. copying: the
+  // task that copies it; nullptr: none. Removing and locating projects changes recent at once;
+  // settings can change too.
   StartChoice Show(editor::RecentProjects& recent,
                    std::span<const KeyPress> keys,
                    bool has_sample,
+                   const editor::BackgroundTask* copying,
                    editor::Settings& settings);
 
   // Opens the dialog for a new project; recording: see NewProjectDialog::Open().
@@ -53,6 +58,13 @@ class StartPage {
     bool exists = false;
     std::shared_ptr<const cv::Mat> picture;
   };
+  // The rectangle of a card on the screen, and what the pointer does to it.
+  struct Card {
+    ImVec2 from;
+    ImVec2 size;
+    bool hovered = false;
+    bool clicked = false;
+  };
 
   void Look(const editor::RecentProjects& recent);
   void HandleKeys(const editor::RecentProjects& recent,
@@ -63,18 +75,34 @@ class StartPage {
                    bool has_sample,
                    editor::Settings& settings,
                    StartChoice& choice);
-  void DrawRecent(editor::RecentProjects& recent, StartChoice& choice);
+  void DrawCopying(const editor::BackgroundTask& copying, StartChoice& choice);
+  void DrawRecent(editor::RecentProjects& recent, bool has_sample, StartChoice& choice);
+  // The sample as a card among the projects, and as wide as the page.
+  void DrawSampleCard(float width, StartChoice& choice);
+  void DrawSample(StartChoice& choice);
+  // Film, stage, play: what one does, in three pictures.
+  void DrawIntroduction();
+  // Begins a card. Its content is drawn over it, and EndCard() moves the cursor behind it.
+  static Card BeginCard(const ImVec2& size, bool possible);
+  static void EndCard(const Card& card);
   void DrawCard(editor::RecentProjects& recent,
                 const editor::RecentProject& project,
                 float width,
                 StartChoice& choice);
-  void DrawPicture(const editor::RecentProject& project, const Face& face, const ImVec2& size);
+  // key: identifies the picture.
+  void DrawPicture(const std::string& key,
+                   const std::shared_ptr<const cv::Mat>& picture,
+                   const ImVec2& size,
+                   bool faded = false);
+  // A picture of this page by its name, read at the first call; nullptr: it is not installed.
+  const std::shared_ptr<const cv::Mat>& OwnPicture(const std::string& name);
   void DrawDialog(editor::RecentProjects& recent,
                   std::span<const KeyPress> keys,
                   StartChoice& choice);
   void ProjectDialog(editor::RecentProjects& recent, StartChoice& choice);
 
   std::map<std::filesystem::path, Face> faces_;
+  std::map<std::string, std::shared_ptr<const cv::Mat>> own_pictures_;
   double looked_ = -1.0;  // Time of the last look, seconds of ImGui's clock.
   PictureTextures pictures_;
   Open dialog_ = Open::kNothing;

@@ -11,16 +11,23 @@ namespace {
 using Facts = TourFacts;
 
 constexpr auto kSteps = std::to_array<TourStep>({
-    {TrLater("Train the place"),
+    {TrLater("Learn the place"),
      TrLater(
-         "The sample comes with a video of a small Roman street kitchen. Choose Train\xe2\x80\xa6 "
-         "above, then Train: the editor learns the place from the video. It takes a minute or "
-         "so; the bar below shows how far it is."),
+         "The editor learns the sample's place from a film of it, a small Roman street kitchen. "
+         "Then it bakes the people, their light and their voices. Train\xe2\x80\xa6 and Bake above "
+         "do the same for a place of your own."),
      KeyAction::kNone, [](const Facts&, const Facts& now) { return now.trained && now.picture; }},
-    {TrLater("Play"),
+    {TrLater("Watch the drama"),
      TrLater("This is what a visitor sees: the camera's image, and in it the people of the drama. "
-             "Play it."),
-     KeyAction::kPlay, [](const Facts&, const Facts& now) { return now.playing; }},
+             "Pause it, or play it again."),
+     KeyAction::kPlay,
+     [](const Facts& before, const Facts& now) { return now.playing != before.playing; }},
+    {TrLater("See how the place was learned"),
+     TrLater(
+         "Open Place > The training's report\xe2\x80\xa6: which images of the film were located, "
+         "how exactly, and what to film better. Train\xe2\x80\xa6 above learns a place from "
+         "another film."),
+     KeyAction::kNone, [](const Facts&, const Facts& now) { return now.report; }},
     {TrLater("See what the camera is located by"),
      TrLater("Each image is located in the map that training made, by the points you can show over "
              "it."),
@@ -31,7 +38,8 @@ constexpr auto kSteps = std::to_array<TourStep>({
      KeyAction::kAroundView, [](const Facts&, const Facts& now) { return now.around; }},
     {TrLater("Move the stage"),
      TrLater("Select Stage at the left and drag one of the arrows: everything that is staged moves "
-             "along."),
+             "along. Its origin, its direction and its metres were picked in images of the film; "
+             "Picks above shows them."),
      KeyAction::kMove,
      [](const Facts& before, const Facts& now) { return now.stage != before.stage; }},
     {TrLater("Undo"), TrLater("Nothing is lost: every edit can be undone, in its order."),

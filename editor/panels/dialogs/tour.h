@@ -17,6 +17,7 @@ struct TourFacts {
   bool trained = false;
   bool picture = false;  // The camera view has a picture.
   bool playing = false;
+  bool report = false;   // The training's report is open.
   bool around = false;   // The scene view is open.
   bool matches = false;  // Matches are shown over the picture.
   bool person = false;   // A person is selected.

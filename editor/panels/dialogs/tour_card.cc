@@ -34,11 +34,13 @@ void DrawStep(const TourStep& step) {
 
 TourFacts FactsOf(const editor::Workspace& workspace,
                   const Selection& selection,
-                  const ViewOptions& options) {
+                  const ViewOptions& options,
+                  const Dialogs& dialogs) {
   TourFacts facts;
   facts.trained = workspace.map().loaded().database != nullptr;
   facts.picture = workspace.preview().picture() != nullptr;
   facts.playing = workspace.playback().playing();
+  facts.report = dialogs.shown == Dialog::kTrainingReport;
   facts.around = options.view == ViewKind::kAround;
   facts.matches = options.show_matches;
   facts.person = selection.kind == Selection::Kind::kActor;
@@ -63,12 +65,13 @@ TourFacts FactsOf(const editor::Workspace& workspace,
 void DrawTourCard(const editor::Workspace& workspace,
                   const Selection& selection,
                   const ViewOptions& options,
+                  const Dialogs& dialogs,
                   Input& input,
                   Tour& tour) {
   if (tour.step() == nullptr) {
     return;
   }
-  const TourFacts facts = FactsOf(workspace, selection, options);
+  const TourFacts facts = FactsOf(workspace, selection, options, dialogs);
   tour.Update(facts);
   // Placed over the end of the timeline's tracks, where it hides neither picture nor map nor the
   // beginnings of lists. The user can move it.

@@ -20,6 +20,7 @@
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
+#include "editor/session/task_text.h"
 
 namespace lararium::panels {
 
@@ -379,7 +380,17 @@ void DrawTransport(editor::Workspace& workspace, ViewOptions& options, OnionSett
   DrawOnionMore(onion);
 }
 
-void DrawEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2& size) {
+// The task that the first picture waits for; nullptr: none.
+const editor::BackgroundTask* AwaitedTask(const editor::Workspace& workspace) {
+  const editor::BackgroundTask* training = workspace.tasks().Find(editor::TaskKind::kTraining);
+  return training != nullptr ? training : workspace.tasks().Find(editor::TaskKind::kOpening);
+}
+
+// What is being done, or what to do, until there is a picture.
+std::string EmptyText(const editor::Workspace& workspace) {
+  if (const editor::BackgroundTask* task = AwaitedTask(workspace)) {
+    return editor::TaskText(task->kind(), task->state());
+  }
   const bool live = workspace.preview().view_source() == editor::PreviewSession::ViewSource::kLive;
   const char* text =
       live ? Tr("Opening the camera\xe2\x80\xa6") : Tr("Opening the recording\xe2\x80\xa6");
@@ -391,12 +402,41 @@ void DrawEmpty(editor::Workspace& workspace, const ImVec2& origin, const ImVec2&
              !workspace.messages().entries().empty()) {
     text = Tr("No picture. The messages below say why.");
   }
-  const float wrap = size.x - Px(24);
-  const ImVec2 extent = ImGui::CalcTextSize(text, nullptr, false, wrap);
-  ImGui::GetWindowDrawList()->AddText(
-      ImGui::GetFont(), ImGui::GetFontSize(),
-      ImVec2(origin.x + 0.5f * (size.x - extent.x), origin.y + 0.5f * (size.y - extent.y)),
-      Packed(Colours().dim), text, nullptr, wrap);
+  return text;
+}
+
+// Draws the recording's first image, where it is known, and over it the text with the progress.
+void DrawEmpty(const editor::Workspace& workspace,
+               PictureTextures& pictures,
+               const ImVec2& origin,
+               const ImVec2& size) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (const std::shared_ptr<const cv::Mat> image = workspace.preview().first_image()) {
+    const Rect rect = Fit(origin, size, image->cols, image->rows);
+    draw.AddImage(pictures.Show("first image", image), rect.origin,
+                  ImVec2(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y));
+  }
+  const std::string text = EmptyText(workspace);
+  const editor::BackgroundTask* task = AwaitedTask(workspace);
+  const float wrap = size.x - Px(64);
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const float bar = task != nullptr ? Px(14) : 0.0f;  // The height includes the gap above the bar.
+  const ImVec2 from(origin.x + 0.5f * (size.x - extent.x),
+                    origin.y + 0.5f * (size.y - extent.y - bar));
+  const ImVec2 to(from.x + extent.x, from.y + extent.y);
+  draw.AddRectFilled(ImVec2(from.x - Px(16), from.y - Px(12)),
+                     ImVec2(to.x + Px(16), to.y + bar + Px(12)),
+                     Packed(OverPicture().window, 0.85f), Px(6));
+  draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, Packed(OverPicture().text),
+               text.c_str(), nullptr, wrap);
+  if (task != nullptr) {
+    const float top = to.y + Px(8);
+    const auto done = static_cast<float>(task->state().fraction);
+    draw.AddRectFilled(ImVec2(from.x, top), ImVec2(to.x, top + Px(6)), Packed(OverPicture().frame),
+                       Px(3));
+    draw.AddRectFilled(ImVec2(from.x, top), ImVec2(from.x + done * extent.x, top + Px(6)),
+                       Packed(OverPicture().accent), Px(3));
+  }
 }
 
 }  // namespace
@@ -453,7 +493,7 @@ void CameraView::Show(editor::Workspace& workspace,
   AskForOnionSkin(workspace, options.show_onion, onion_.skin);
   const std::shared_ptr<const editor::PreviewPicture>& picture = workspace.preview().picture();
   if (picture == nullptr || workspace.project().place() == nullptr) {
-    DrawEmpty(workspace, origin, size);
+    DrawEmpty(workspace, pictures, origin, size);
   } else {
     if (picture.get() != uploaded_) {
       texture_.Upload(picture->bgr);
