@@ -37,9 +37,10 @@ press space
 done_after 2 "pausing"
 click 107 13  # Place
 click 159 88  # The training's report
-done_after 3 "the report"
+sleep 1
 shot report
-press Escape
+press Escape  # The dialog dims the card.
+done_after 3 "the report"
 press t
 done_after 4 "matches"
 press t
