@@ -45,21 +45,18 @@ stands() {
   shot after
   [ "$(moved $people before after)" -lt 20 ]
 }
-open_sample() {
-  open_window 1300 880
-  sleep 2
-  click 250 377
-}
 seconds() { date +%s.%N; }
 
 install_editor "$out/installed"
 install_sample "$sample"
 shipped() { find -L "$sample" -type f -printf '%p %s %T@\n' | sort | sha256sum; }
 before=$(shipped)
+shows_pictures() {
+  shot start
+  [ "$(identify -format %k "$out/start.png")" -gt 5000 ]
+}
 open_window 1300 880
-sleep 2
-shot start
-[ "$(identify -format %k "$out/start.png")" -gt 5000 ] || fail "the start page shows no pictures"
+wait_for 10 shows_pictures || fail "the start page shows no pictures"
 clicked=$(seconds)
 click 250 377
 wait_for 60 titled "A morning at the thermopolium" || fail "the sample did not open"
@@ -89,7 +86,9 @@ editor=$built
 rm -rf "$out/data"
 install_editor "$out/checkout/build/release"
 cp -r "$scenes" "$out/checkout/scenes"
-open_sample
+open_window 1300 880
+wait_for 10 shows_pictures || fail "the start page shows no pictures in a checkout"
+click 250 377
 wait_for 20 titled "A morning at the thermopolium" || fail "the bare sample did not open"
 place=500x80+410+380  # The floor, below the progress.
 shows_place() {
