@@ -47,7 +47,7 @@ sleep 1
 click 860 150
 sleep 1
 titled "Lararium$" || fail "a project that is not there was opened"
-click 766 281
+click 760 273
 import -window root "$out/locate.png"
 fill 760 448 "$out/moved.lararium"
 import -window root "$out/located.png"
@@ -55,7 +55,7 @@ click 941 508
 wait_for 5 lists "third.lararium moved.lararium first.lararium" || fail "not located: $(listed)"
 
 # One that is gone is forgotten.
-click 1145 281
+click 1132 273
 wait_for 5 lists "third.lararium moved.lararium" || fail "not forgotten: $(listed)"
 sleep 2.5
 import -window root "$out/forgotten.png"

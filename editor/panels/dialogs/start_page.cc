@@ -382,7 +382,7 @@ void StartPage::DrawSample(StartChoice& choice) {
 }
 
 void StartPage::DrawIntroduction() {
-  Heading(Tr("What one does here"));
+  Heading(Tr("How it works"));
   ImGui::Dummy(ImVec2(0, Px(2)));
   const float room = ImGui::GetContentRegionAvail().x;
   const auto count = static_cast<float>(kIntroduction.size());
