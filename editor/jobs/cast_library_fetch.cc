@@ -25,7 +25,7 @@ fs::path Script() {
   const fs::path script = fs::path("scripts") / "fetch_cast_library.sh";
   const fs::path installed = ProgramFolder().parent_path() / "share" / "lararium" / script;
   return IsThere(installed) ? installed
-                           : ProgramFolder().parent_path().parent_path().parent_path() / script;
+                            : ProgramFolder().parent_path().parent_path().parent_path() / script;
 }
 
 }  // namespace
