@@ -38,6 +38,14 @@ pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 # Lua as Debian builds it for C++: its errors are C++ exceptions, which unwind our
 # frames; the C build would jump over their destructors.
 pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_LIBRARIES PkgConfig::lua)
+check_cxx_source_compiles("#include <lua.hpp>
+  int main() { lua_close(luaL_newstate()); }" LARARIUM_LUA_HAS_NAMES_OF_C)
+unset(CMAKE_REQUIRED_LIBRARIES)
+if(NOT LARARIUM_LUA_HAS_NAMES_OF_C)  # See shared/drama/lua_api.h.
+  set_property(TARGET PkgConfig::lua APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS LARARIUM_LUA_NAMES_OF_CXX)
+endif()
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(lo REQUIRED IMPORTED_TARGET liblo)
 pkg_check_modules(pugixml REQUIRED IMPORTED_TARGET pugixml)

@@ -4,8 +4,7 @@
 // arguments that several sets need. Arguments and results of each function are documented at its
 // definition. Internal to shared/drama.
 
-#include <lua.hpp>
-
+#include "shared/drama/lua_api.h"
 #include "shared/drama/script_runtime.h"
 
 namespace lararium::drama {

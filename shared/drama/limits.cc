@@ -2,7 +2,8 @@
 
 #include <bit>
 #include <cstdlib>
-#include <lua.hpp>
+
+#include "shared/drama/lua_api.h"
 
 namespace lararium::drama {
 namespace {

@@ -4,11 +4,11 @@
 // lua_pcall() and lua_resume() catch, so destructors run.
 
 #include <cstdint>
-#include <lua.hpp>
 #include <string_view>
 
 #include "shared/core/ease.h"
 #include "shared/drama/limits.h"
+#include "shared/drama/lua_api.h"
 
 namespace lararium::drama {
 

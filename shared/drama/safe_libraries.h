@@ -4,9 +4,8 @@
 // addresses, break a limit or differ between runs are replaced by our own; the rest behaves as in
 // the Lua 5.4 reference manual.
 
-#include <lua.hpp>
-
 #include "shared/core/random.h"
+#include "shared/drama/lua_api.h"
 
 namespace lararium::drama {
 

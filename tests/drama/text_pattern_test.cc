@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <lua.hpp>
 #include <string>
 
 #include "shared/core/random.h"
+#include "shared/drama/lua_api.h"
 
 namespace lararium::drama {
 namespace {
