@@ -31,10 +31,14 @@ Eigen::Matrix3d MapFromPoster() {
 // and wraps around at the end.
 void DrawBlob(Random& random, cv::Mat& image, int repeats) {
   const int period = image.cols / repeats;
-  const cv::Point centre(static_cast<int>(random.Below(period)),
-                         static_cast<int>(random.Below(image.rows)));
-  const cv::Size axes(2 + static_cast<int>(random.Below(16)),
-                      2 + static_cast<int>(random.Below(16)));
+  // One number is drawn in a statement, because compilers order the arguments of a call
+  // differently.
+  const int y = static_cast<int>(random.Below(image.rows));
+  const int x = static_cast<int>(random.Below(period));
+  const cv::Point centre(x, y);
+  const int half_height = 2 + static_cast<int>(random.Below(16));
+  const int half_width = 2 + static_cast<int>(random.Below(16));
+  const cv::Size axes(half_width, half_height);
   const double angle = random.Uniform(0.0, 180.0);
   const cv::Scalar grey(random.Uniform(20.0, 235.0));
   for (int i = 0; i < repeats; ++i) {
