@@ -15,8 +15,10 @@ begin_test "$0" "$@"
 copy=$out/data/lararium/sample
 built=$editor
 
-people=340x90+500+345  # Where people stand, below the progress and above captions.
-wall=250x60+660+95    # The painted wall above them, beside the badge.
+# Regions of the picture: people stand below the progress and above captions; the painted wall is
+# above them, beside the badge.
+people=340x90+500+345
+wall=250x60+660+95
 # moved REGION A B: the pixels of the region by which two screenshots differ.
 moved() {
   convert "$out/$2.png" -crop "$1" +repage "$out/before_part.png"

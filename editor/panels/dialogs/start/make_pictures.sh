@@ -1,5 +1,5 @@
 #!/bin/bash
-# Makes the start page's pictures anew, from what ./demo left in build/demo:
+# Makes the start page's pictures from what ./demo left in build/demo:
 #
 #   make_pictures.sh BIN [OUTPUT_FOLDER]     BIN: build/release/bin; otherwise beside this script
 #
