@@ -49,10 +49,10 @@ make_root() {
   chroot "$root" useradd --create-home --shell /bin/bash "$user"
   echo "$user ALL=(ALL) NOPASSWD: ALL" > "$root/etc/sudoers.d/$user"
   cp /etc/hosts /etc/resolv.conf "$root/etc/"
-  # Where npm fetches from is a setting of the machine.
-  for settings in /etc/npmrc "$HOME/.npmrc"; do
-    [[ -e $settings ]] && cp "$settings" "$root/home/$user/.npmrc"
-  done
+  # Where npm fetches from, and whom it trusts there, are settings of the machine.
+  cat /etc/npmrc "$HOME/.npmrc" 2> /dev/null > "$root/home/$user/.npmrc" || true
+  cp -r /usr/local/share/ca-certificates "$root/usr/local/share/"
+  chroot "$root" update-ca-certificates > /dev/null
   touch "$root/.complete"
 }
 
@@ -60,7 +60,7 @@ make_root() {
 # their own.
 run_in() {
   # shellcheck disable=SC2016  # expanded by the inner shell
-  unshare --mount --pid --fork bash -euo pipefail -c '
+  unshare --mount --pid --fork --kill-child bash -euo pipefail -c '
     root=$1
     shift
     mount --make-rprivate /
