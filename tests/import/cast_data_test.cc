@@ -48,7 +48,7 @@ class CastPresets : public testing::TestWithParam<std::string> {
   }
 };
 
-const human::SkinnedMesh& Mesh(const human::Human& human, const std::string& name) {
+const human::SkinnedMesh& Mesh(const human::Human& human, std::string_view name) {
   for (const human::SkinnedMesh& mesh : human.meshes) {
     if (mesh.name == name) {
       return mesh;

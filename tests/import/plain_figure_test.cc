@@ -32,14 +32,14 @@ const std::vector<human::Clip>& FigureClips() {
   return clips;
 }
 
-const human::Clip& ClipNamed(const std::string& name) {
+const human::Clip& ClipNamed(std::string_view name) {
   const auto found = std::find_if(FigureClips().begin(), FigureClips().end(),
                                   [&](const human::Clip& clip) { return clip.name == name; });
   CHECK(found != FigureClips().end());
   return *found;
 }
 
-const human::SkinnedMesh& PartNamed(const std::string& name) {
+const human::SkinnedMesh& PartNamed(std::string_view name) {
   const auto found = std::find_if(Figure().meshes.begin(), Figure().meshes.end(),
                                   [&](const auto& mesh) { return mesh.name == name; });
   CHECK(found != Figure().meshes.end());

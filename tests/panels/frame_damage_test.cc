@@ -48,7 +48,7 @@ class Frames {
     ImDrawData data;
     data.DisplaySize = ImVec2(200, 100);
     data.FramebufferScale = ImVec2(1, 1);
-    data.CmdLists = pointers_.data();
+    SetLists(pointers_, data.CmdLists);
     data.CmdListsCount = static_cast<int>(pointers_.size());
     const auto rects = damage.Next(data);
     return {rects.begin(), rects.end()};
@@ -57,6 +57,13 @@ class Frames {
   FrameDamage damage;
 
  private:
+  // Dear ImGui has a pointer here before version 1.90, a vector since.
+  static void SetLists(std::vector<ImDrawList*>& from, ImDrawList**& lists) { lists = from.data(); }
+  static void SetLists(std::vector<ImDrawList*>& from, ImVector<ImDrawList*>& lists) {
+    lists.resize(static_cast<int>(from.size()));
+    std::copy(from.begin(), from.end(), lists.begin());
+  }
+
   ImDrawListSharedData shared_;
   std::vector<std::unique_ptr<ImDrawList>> lists_;
   std::vector<ImDrawList*> pointers_;
