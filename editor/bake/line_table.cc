@@ -556,9 +556,8 @@ PoImport ImportPo(const PoFile& po, const std::string& language, LineTable& tabl
 Result<LineTable> LoadLines(const std::filesystem::path& folder) {
   const std::filesystem::path csv = folder / "lines.csv";
   const std::filesystem::path json = folder / "lines.json";
-  std::error_code ignored;
-  const bool has_csv = std::filesystem::exists(csv, ignored);
-  const bool has_json = std::filesystem::exists(json, ignored);
+  const bool has_csv = FileExists(csv);
+  const bool has_json = FileExists(json);
   if (has_csv && has_json) {
     return Status::Error(json.string(), "lines.csv exists too", "keep one of them");
   }
@@ -572,9 +571,8 @@ Result<LineTable> LoadLines(const std::filesystem::path& folder) {
 
 Status SaveLines(const std::filesystem::path& folder, const LineTable& table) {
   LARARIUM_RETURN_IF_ERROR(ParseLinesCsv(FormatLinesCsv(table), folder.string()).status());
-  std::error_code ignored;
   const std::filesystem::path json = folder / "lines.json";
-  if (std::filesystem::exists(json, ignored)) {
+  if (FileExists(json)) {
     return WriteFileAtomically(json, FormatLinesJson(table));
   }
   return WriteFileAtomically(folder / "lines.csv", FormatLinesCsv(table));

@@ -5,6 +5,7 @@
 #include "editor/bake/speech_sound.h"
 #include "editor/bake/speech_visemes.h"
 #include "editor/bake/speech_words.h"
+#include "shared/core/file.h"
 
 namespace lararium::bake {
 namespace {
@@ -62,8 +63,7 @@ Result<std::optional<std::filesystem::path>> FindRecording(const std::filesystem
   std::optional<std::filesystem::path> found;
   for (const char* extension : {".wav", ".flac", ".ogg", ".opus"}) {
     const std::filesystem::path file = folder / (id + extension);
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
+    if (!FileExists(file)) {
       continue;
     }
     if (found) {

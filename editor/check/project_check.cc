@@ -42,8 +42,7 @@ std::vector<Sentence> CheckProbes(const ProjectPaths& paths,
   std::vector<Sentence> problems;
   for (const ProbeDocument& probe : place.probes) {
     const std::filesystem::path file = paths.Resolve(probe.file);
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
+    if (!FileExists(file)) {
       continue;  // FindMissingFiles() reports it.
     }
     const Result<bake::ProbeImage> image = bake::ReadProbeImage(file);

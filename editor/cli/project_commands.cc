@@ -187,8 +187,7 @@ class PlaceWorker {
   }
 
   Status List(const PlaceDocument& place, CommandResult& result) const {
-    std::error_code ignored;
-    const bool trained = std::filesystem::exists(paths_.Scene(place.name), ignored);
+    const bool trained = FileExists(paths_.Scene(place.name));
     const std::string title = place.title.empty() ? "" : " (" + place.title + ")";
     result.text += place.name + title + ": " + (trained ? "trained from " : "not trained; ") +
                    DescribeSource(place.training);

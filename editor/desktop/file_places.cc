@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -43,11 +42,6 @@ std::string Unescaped(const std::string& text) {
 std::string FileText(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-fs::path Variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr && value[0] == '/' ? value : "";
 }
 
 }  // namespace
@@ -99,10 +93,7 @@ std::vector<FilePlace> MountedMedia(std::string_view mountinfo) {
   return places;
 }
 
-std::vector<FilePlace> FindFilePlaces() {
-  const fs::path home = Variable("HOME");
-  fs::path config = Variable("XDG_CONFIG_HOME");
-  config = config.empty() ? home / ".config" : config;
+std::vector<FilePlace> FindFilePlaces(const fs::path& home, const fs::path& config) {
   std::vector<FilePlace> places = {{FilePlace::Kind::kHome, home}};
   for (const std::vector<FilePlace>& more : {UserPlaces(FileText(config / "user-dirs.dirs"), home),
                                              MountedMedia(FileText("/proc/self/mountinfo"))}) {

@@ -25,7 +25,9 @@ std::vector<FilePlace> UserPlaces(std::string_view user_dirs, const std::filesys
 // Mounted sticks, cards and disks: what /proc/self/mountinfo has below /media, /run/media and /mnt.
 std::vector<FilePlace> MountedMedia(std::string_view mountinfo);
 
-// The home, then both of the above as they are now, without folders that do not exist.
-std::vector<FilePlace> FindFilePlaces();
+// The home, then both of the above as they are now, without folders that do not exist. config: the
+// folder of the settings of all programs, which has user-dirs.dirs.
+std::vector<FilePlace> FindFilePlaces(const std::filesystem::path& home,
+                                      const std::filesystem::path& config);
 
 }  // namespace lararium::editor

@@ -327,8 +327,7 @@ Status Journal::NoteScript(const drama::TextEdit& edit) {
 
 Result<std::optional<JournalContent>> LoadJournal(const std::filesystem::path& file,
                                                   const bake::LineTable* lines) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
+  if (!FileExists(file)) {
     return std::optional<JournalContent>();
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxBytes));

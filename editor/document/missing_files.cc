@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/text/text.h"
+#include "shared/core/file.h"
 
 namespace lararium::editor {
 
@@ -70,11 +71,6 @@ void ForEachFile(Document& document, const See& see) {
   }
 }
 
-bool IsThere(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
-
 // Removes the common end of two paths; what remains are the folders before and after the move.
 std::pair<fs::path, fs::path> MovedFolders(fs::path from, fs::path to) {
   if (from.filename() != to.filename()) {
@@ -92,7 +88,7 @@ fs::path MovedTo(const fs::path& moved, FileKind kind) {
   if (kind == FileKind::kSound) {
     return SoundFileIn(moved.parent_path(), moved.filename().string());
   }
-  return IsThere(moved) ? moved : fs::path();
+  return FileExists(moved) ? moved : fs::path();
 }
 
 }  // namespace
@@ -118,7 +114,7 @@ std::vector<MissingFile> MissingFiles(const ProjectPaths& paths,
                             const std::string& remedy) {
     const bool known = std::any_of(missing.begin(), missing.end(),
                                    [&](const MissingFile& file) { return file.path == path; });
-    if (!path.empty() && !known && !IsThere(paths.Resolve(path))) {
+    if (!path.empty() && !known && !FileExists(paths.Resolve(path))) {
       missing.push_back({path, kind, role.role, role.shown, remedy});
     }
   });
@@ -171,7 +167,7 @@ void RelocateFolder(const std::string& from, const std::string& to, ProjectDocum
 std::vector<Status> FindMissingFiles(const ProjectPaths& paths, const ProjectDocument& document) {
   std::vector<Status> missing;
   const auto expect = [&](const fs::path& file, const std::string& remedy) {
-    if (!IsThere(file)) {
+    if (!FileExists(file)) {
       missing.push_back(Status::Error(file.string(), "was not found", remedy));
     }
   };

@@ -3,6 +3,7 @@
 // Finding named entries of a document, and checking the names of new ones.
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "editor/document/document_fields.h"
@@ -24,14 +25,18 @@ std::string NamesOf(const std::vector<Entry>& entries) {
   return names;
 }
 
+// A pointer to an entry of a vector, which may be const.
+template <typename Entries>
+using EntryPointer = decltype(std::declval<Entries&>().data());
+
 // Finds the entry with a name. Otherwise the error says that place has no such entry, and lists
 // those that exist. has_no: for example "has no occluder".
-template <typename Entry>
-Result<Entry*> FindNamed(std::vector<Entry>& entries,
-                         const std::string& name,
-                         const std::string& where,
-                         const std::string& has_no) {
-  for (Entry& entry : entries) {
+template <typename Entries>
+Result<EntryPointer<Entries>> FindNamed(Entries& entries,
+                                        const std::string& name,
+                                        const std::string& where,
+                                        const std::string& has_no) {
+  for (auto& entry : entries) {
     if (entry.name == name) {
       return &entry;
     }
@@ -42,13 +47,13 @@ Result<Entry*> FindNamed(std::vector<Entry>& entries,
 }
 
 // The same for places and people, which are also found by their titles.
-template <typename Entry>
-Result<Entry*> FindTitled(std::vector<Entry>& entries,
-                          const std::string& name,
-                          const std::string& where,
-                          const std::string& has_no) {
-  Result<Entry*> found = FindNamed(entries, name, where, has_no);
-  for (Entry& entry : entries) {
+template <typename Entries>
+Result<EntryPointer<Entries>> FindTitled(Entries& entries,
+                                         const std::string& name,
+                                         const std::string& where,
+                                         const std::string& has_no) {
+  Result<EntryPointer<Entries>> found = FindNamed(entries, name, where, has_no);
+  for (auto& entry : entries) {
     if (!found.ok() && entry.title == name) {
       return &entry;
     }

@@ -8,6 +8,7 @@
 
 #include "editor/document/missing_files.h"
 #include "editor/document/picked_images.h"
+#include "shared/core/file.h"
 
 namespace lararium::editor {
 
@@ -55,7 +56,7 @@ Status AddMissing(const fs::path& folder, const fs::path& other) {
     std::error_code ignored;
     if (at->is_directory(ignored)) {
       fs::create_directories(there, ignored);
-    } else if (!fs::exists(there, ignored)) {
+    } else if (!FileExists(there)) {
       fs::create_hard_link(at->path(), there, ignored);
       if (ignored) {
         fs::copy_file(at->path(), there, error);

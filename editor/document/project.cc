@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/document/document_fields.h"
+#include "editor/document/named_entries.h"
 #include "editor/document/place_recordings.h"
 #include "editor/train/april_tags.h"
 #include "shared/core/file.h"
@@ -304,8 +305,7 @@ Json FormatProject(const ProjectDocument& document) {
 }
 
 Result<ProjectDocument> LoadProject(const ProjectPaths& paths) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(paths.Project(), ignored)) {
+  if (!FileExists(paths.Project())) {
     return Status::Error(paths.folder.string(), "is not a project: it has no project.json",
                          "make one with: lararium-editor new " + paths.folder.string());
   }
@@ -341,15 +341,10 @@ Result<std::string> ChoosePlace(const ProjectPaths& paths,
                                 const ProjectDocument& document,
                                 const std::string& name) {
   if (!name.empty()) {
-    if (document.FindPlace(name) != nullptr) {
-      return name;
-    }
-    const auto titled = std::find_if(document.places.begin(), document.places.end(),
-                                     [&](const auto& place) { return place.title == name; });
-    if (titled == document.places.end()) {
-      return Status::Error(paths.Project().string(), "has no place \"" + name + "\"");
-    }
-    return titled->name;
+    LARARIUM_ASSIGN_OR_RETURN(
+        const PlaceDocument* place,
+        FindTitled(document.places, name, paths.Project().string(), "has no place"));
+    return place->name;
   }
   if (document.places.size() != 1) {
     return Status::Error(paths.Project().string(),

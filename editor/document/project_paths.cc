@@ -18,6 +18,11 @@ std::string ProjectPaths::Shorten(const std::filesystem::path& file) const {
   return (inside ? relative : absolute).generic_string();
 }
 
+bool IsProject(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(ProjectPaths{folder}.Project(), ignored);
+}
+
 fs::path NormalFolder(const fs::path& folder) {
   std::error_code error;
   fs::path normal = fs::weakly_canonical(fs::absolute(folder, error), error);

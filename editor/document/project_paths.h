@@ -47,6 +47,9 @@ struct ProjectPaths {
   std::string Shorten(const std::filesystem::path& file) const;
 };
 
+// Whether a folder has a project.
+bool IsProject(const std::filesystem::path& folder);
+
 // The canonical path of a folder, so that each folder has one name.
 std::filesystem::path NormalFolder(const std::filesystem::path& folder);
 

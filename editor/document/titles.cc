@@ -28,18 +28,15 @@ struct Letters {
 const std::string* InAscii(uint32_t character) {
   static const std::vector<Letters> kLetters = {
       {0xC0,  // Latin, from À to ſ.
-       "A A A A Ae A AE C E E E E I I I I D N O O O O Oe . O U U U Ue Y Th ss a a a a ae a ae c e "
-       "e "
-       "e e i i i i d n o o o o oe . o u u u ue y th y A a A a A a C c C c C c C c D d D d E e E e "
-       "E e E e E e G g G g G g G g H h H h I i I i I i I i I i IJ ij J j K k k L l L l L l L l L "
-       "l "
-       "N n N n N n n N n O o O o O o OE oe R r R r R r S s S s S s S s T t T t T t U u U u U u U "
-       "u "
-       "U u U u W w Y y Y Z z Z z Z z s"},
+       R"(A A A A Ae A AE C E E E E I I I I D N O O O O Oe . O U U U Ue Y Th ss
+          a a a a ae a ae c e e e e i i i i d n o o o o oe . o u u u ue y th y
+          A a A a A a C c C c C c C c D d D d E e E e E e E e E e G g G g G g G g H h H h
+          I i I i I i I i I i IJ ij J j K k k L l L l L l L l L l N n N n N n n N n
+          O o O o O o OE oe R r R r R r S s S s S s S s T t T t T t
+          U u U u U u U u U u U u W w Y y Y Z z Z z Z z s)"},
       {0x386,  // Greek, from Ά to ώ.
-       "A . E E I . O . Y O i A B G D E Z E Th I K L M N X O P R . S T Y Ph Ch Ps O I Y a e e i y "
-       "a "
-       "b g d e z e th i k l m n x o p r s s t y ph ch ps o i y o y o"}};
+       R"(A . E E I . O . Y O i A B G D E Z E Th I K L M N X O P R . S T Y Ph Ch Ps O I Y
+          a e e i y a b g d e z e th i k l m n x o p r s s t y ph ch ps o i y o y o)"}};
   for (const Letters& letters : kLetters) {
     if (character >= letters.first && character - letters.first < letters.ascii.size()) {
       return &letters.ascii[character - letters.first];

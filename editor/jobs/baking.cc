@@ -72,9 +72,8 @@ Result<std::string> HashOf(std::string_view settings,
 }
 
 bool UpToDate(const std::filesystem::path& product, const std::string& hash) {
-  std::error_code ignored;
   const Result<std::string> known = ReadText(HashFile(product), 1024);
-  return std::filesystem::exists(product, ignored) && known.ok() && *known == hash;
+  return FileExists(product) && known.ok() && *known == hash;
 }
 
 // Writes the product before its hash: after a crash in between it is only baked again.
@@ -89,11 +88,6 @@ Status WriteProduct(const std::filesystem::path& product,
   }
   LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(product, bytes));
   return WriteFileAtomically(HashFile(product), std::string_view(hash));
-}
-
-bool Exists(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
 }
 
 // The relative duration of steps.
@@ -404,7 +398,7 @@ BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& obj
                 {}};
   step.cost = kCostOfObject;
   const std::filesystem::path use = import::UseFileBeside(file);
-  if (use != file && Exists(use)) {
+  if (use != file && FileExists(use)) {
     step.sources.push_back(use);
   }
   step.make = [file](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
@@ -628,7 +622,7 @@ Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& path
   std::vector<light::PlacedProbe> probes;
   for (const ProbeDocument& probe : place.probes) {
     const std::filesystem::path file = LightFile(paths, place, probe);
-    if (!Exists(file)) {
+    if (!FileExists(file)) {
       probes.push_back({geometry::ToGlm(probe.position), probe.hour, even});
       continue;
     }
@@ -648,7 +642,7 @@ Result<std::vector<light::GlossyMap>> LoadBakedReflections(const ProjectPaths& p
   for (const ProbeDocument& probe : place.probes) {
     const std::filesystem::path file = GlossyFile(paths, place, probe);
     light::GlossyMap& map = maps.emplace_back();
-    if (Exists(file)) {
+    if (FileExists(file)) {
       LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
       LARARIUM_ASSIGN_OR_RETURN(map, light::ParseGlossyMap(bytes, file.string()));
     }
@@ -660,7 +654,7 @@ Result<geometry::TriangleMesh> LoadBakedMesh(const ProjectPaths& paths,
                                              const PlaceDocument& place,
                                              const OccluderDocument& occluder) {
   const std::filesystem::path file = MeshFile(paths, place, occluder);
-  if (!Exists(file)) {
+  if (!FileExists(file)) {
     return NotBaked(file);
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
@@ -676,7 +670,7 @@ std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocume
 
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member) {
   const std::filesystem::path file = BakedHumanFile(paths, member);
-  if (!Exists(file)) {
+  if (!FileExists(file)) {
     return NotBaked(file);
   }
   return human::LoadHuman(file);
@@ -686,7 +680,7 @@ Result<show::CastMember> ShareBakedHuman(const ProjectPaths& paths,
                                          const CastDocument& member,
                                          float finest) {
   const std::filesystem::path file = BakedHumanFile(paths, member);
-  if (!Exists(file)) {
+  if (!FileExists(file)) {
     return NotBaked(file);
   }
   LARARIUM_ASSIGN_OR_RETURN(show::CastMember person, SharePerson(file, finest));
@@ -702,7 +696,7 @@ Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& 
 
 Result<stage::Prop> LoadBakedProp(const ProjectPaths& paths, const ObjectDocument& object) {
   const std::filesystem::path file = paths.Prop(object.name);
-  if (!Exists(file)) {
+  if (!FileExists(file)) {
     return NotBaked(file);
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));

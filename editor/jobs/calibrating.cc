@@ -187,8 +187,7 @@ Json CalibrationJson(const Calibration& calibration) {
 
 Status SaveDeviceField(const std::filesystem::path& file, const char* field, const Json& value) {
   Json device = {{"schema", 1}};
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) {
+  if (FileExists(file)) {
     LARARIUM_ASSIGN_OR_RETURN(device, LoadJson(file));
     const JsonView view(device, file.string());
     LARARIUM_ASSIGN_OR_RETURN(const int64_t schema, view.Integer("schema", 1, 1'000'000));

@@ -5,6 +5,7 @@
 
 #include "editor/document/user_folders.h"
 #include "editor/jobs/run_program.h"
+#include "shared/core/file.h"
 #include "shared/core/program.h"
 
 namespace lararium::editor {
@@ -13,19 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool IsThere(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
 fs::path FetchedLibrary() { return DataFolder() / "cast-library"; }
 
 // Installed beside the programs, or in the checkout that has the build tree.
 fs::path Script() {
   const fs::path script = fs::path("scripts") / "fetch_cast_library.sh";
   const fs::path installed = ProgramFolder().parent_path() / "share" / "lararium" / script;
-  return IsThere(installed) ? installed
-                            : ProgramFolder().parent_path().parent_path().parent_path() / script;
+  return FileExists(installed) ? installed
+                               : ProgramFolder().parent_path().parent_path().parent_path() / script;
 }
 
 }  // namespace
@@ -35,12 +31,12 @@ std::optional<fs::path> FindCastLibrary() {
       chosen != nullptr && *chosen != 0) {
     return fs::path(chosen);
   }
-  if (IsThere(FetchedLibrary())) {
+  if (FileExists(FetchedLibrary())) {
     return FetchedLibrary();
   }
   fs::path folder = ProgramFolder();
   for (int up = 0; up < 4 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
-    if (IsThere(folder / "cast-library")) {
+    if (FileExists(folder / "cast-library")) {
       return folder / "cast-library";
     }
   }

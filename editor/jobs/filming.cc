@@ -8,6 +8,7 @@
 #include "editor/text/text.h"
 #include "editor/train/corner_tracker.h"
 #include "shared/capture/video_writer.h"
+#include "shared/core/file.h"
 
 namespace lararium::editor {
 
@@ -178,10 +179,9 @@ Result<Filmed> Film(capture::FrameSource& camera,
 }
 
 std::filesystem::path NewFilmFile(const std::filesystem::path& folder) {
-  std::error_code ignored;
   for (int number = 1;; ++number) {
     std::filesystem::path file = folder / ("film-" + std::to_string(number) + ".mp4");
-    if (!std::filesystem::exists(file, ignored)) {
+    if (!FileExists(file)) {
       return file;
     }
   }

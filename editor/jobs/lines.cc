@@ -35,8 +35,7 @@ Status CheckLanguages(const std::vector<std::string>& wanted,
 }
 
 Result<human::VisemeTrack> LoadVisemes(const SpokenLine& spoken) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(spoken.visemes, ignored)) {
+  if (!FileExists(spoken.visemes)) {
     return Status::Error(spoken.visemes.string(), "was not baked yet", "bake the project");
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(spoken.visemes));
@@ -49,8 +48,7 @@ Result<std::vector<stage::CaptionCue>> LoadPlacedCaptions(const std::filesystem:
   std::vector<stage::CaptionCue> cues;
   for (const char* extension : {".srt", ".vtt"}) {
     const std::filesystem::path file = folder / (stem + extension);
-    std::error_code ignored;
-    if (!cues.empty() || !std::filesystem::exists(file, ignored)) {
+    if (!cues.empty() || !FileExists(file)) {
       continue;
     }
     LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));

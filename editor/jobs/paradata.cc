@@ -186,8 +186,7 @@ std::filesystem::path ParadataFile(const ProjectPaths& paths) {
 }
 
 Result<stage::Paradata> LoadParadata(const ProjectPaths& paths) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(ParadataFile(paths), ignored)) {
+  if (!FileExists(ParadataFile(paths))) {
     return stage::Paradata();
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(ParadataFile(paths), 16 << 20));

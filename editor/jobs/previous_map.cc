@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "editor/jobs/training_report.h"
+#include "shared/core/file.h"
 
 namespace lararium::editor {
 
@@ -45,8 +46,7 @@ Status Exchange(const fs::path& file, const fs::path& other) {
 
 // Writes a report for a map whose report was deleted. It contains only what the project knows.
 Status MakeReport(const fs::path& file, const PlaceDocument& place) {
-  std::error_code ignored;
-  if (fs::exists(file, ignored)) {
+  if (FileExists(file)) {
     return Status();
   }
   TrainingReport report;
@@ -67,8 +67,7 @@ MapFiles PreviousMap(const ProjectPaths& paths, const std::string& place) {
 Status KeepPreviousMap(const ProjectPaths& paths, const PlaceDocument& place) {
   const MapFiles map = CurrentMap(paths, place.name);
   const MapFiles former = PreviousMap(paths, place.name);
-  std::error_code ignored;
-  if (!fs::exists(map.scene, ignored)) {
+  if (!FileExists(map.scene)) {
     return Status();
   }
   LARARIUM_RETURN_IF_ERROR(MakeReport(map.report, place));
@@ -78,8 +77,7 @@ Status KeepPreviousMap(const ProjectPaths& paths, const PlaceDocument& place) {
 
 bool HasPreviousMap(const ProjectPaths& paths, const std::string& place) {
   const MapFiles former = PreviousMap(paths, place);
-  std::error_code ignored;
-  return fs::exists(former.scene, ignored) && fs::exists(former.report, ignored);
+  return FileExists(former.scene) && FileExists(former.report);
 }
 
 Result<PlaceRecordings> RestorePreviousMap(const ProjectPaths& paths, const PlaceDocument& place) {

@@ -106,8 +106,7 @@ std::vector<SoundFile> FindSounds(const ProjectPaths& paths) {
 Result<std::vector<audio::SoundData>> LoadSounds(const ProjectPaths& paths) {
   std::vector<audio::SoundData> sounds;
   for (const SoundFile& sound : FindSounds(paths)) {
-    std::error_code ignored;
-    if (sound.built_in && !std::filesystem::exists(sound.file, ignored)) {
+    if (sound.built_in && !FileExists(sound.file)) {
       continue;
     }
     LARARIUM_ASSIGN_OR_RETURN(auto bytes, ReadBytes(sound.file, audio::SoundReader::kMaxBytes));

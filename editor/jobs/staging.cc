@@ -214,8 +214,7 @@ Result<stage::Place> StagePlace(const ProjectPaths& paths,
 Result<stage::Place> StageObstacles(const ProjectPaths& paths, const PlaceDocument& place) {
   const bool any_drawn = std::any_of(place.occluders.begin(), place.occluders.end(),
                                      [](const OccluderDocument& o) { return o.drawn(); });
-  std::error_code ignored;
-  if (!any_drawn || !std::filesystem::exists(paths.Scene(place.name), ignored)) {
+  if (!any_drawn || !FileExists(paths.Scene(place.name))) {
     return StagePlace(paths, place, {}, {});
   }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
@@ -348,8 +347,7 @@ Result<StagedMap> LoadStagedMap(const ProjectPaths& paths, const PlaceDocument& 
 
 Result<vision::SceneDatabase> LoadMap(const ProjectPaths& paths, const std::string& place) {
   const std::filesystem::path file = paths.Scene(place);
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
+  if (!FileExists(file)) {
     return Status::Error(file.string(), "was not found", "train the place \"" + place + "\"");
   }
   return vision::LoadSceneDatabase(file);

@@ -8,6 +8,7 @@
 #include "editor/jobs/picked_frames.h"
 #include "editor/jobs/previous_map.h"
 #include "editor/text/text.h"
+#include "shared/core/file.h"
 
 namespace lararium::editor {
 
@@ -152,8 +153,7 @@ void MapSession::Read() {
     return;  // Update() tries again.
   }
   const std::filesystem::path file = project_.paths().Scene(project_.place_name());
-  std::error_code ignored;
-  if (project_.place() == nullptr || !std::filesystem::exists(file, ignored)) {
+  if (project_.place() == nullptr || !FileExists(file)) {
     stale_ = false;
     return;
   }

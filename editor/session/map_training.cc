@@ -7,6 +7,7 @@
 #include "editor/jobs/previous_map.h"
 #include "editor/jobs/training.h"
 #include "editor/text/text.h"
+#include "shared/core/file.h"
 
 namespace lararium::editor {
 
@@ -69,9 +70,8 @@ void MapTraining::Train() {
 void MapTraining::TrainFrom(const std::string& name,
                             const std::string& title,
                             const SessionDocument& recording) {
-  std::error_code ignored;
-  const bool has_map = project_.document().FindPlace(name) != nullptr &&
-                       std::filesystem::exists(project_.paths().Scene(name), ignored);
+  const bool has_map =
+      project_.document().FindPlace(name) != nullptr && FileExists(project_.paths().Scene(name));
   if (!has_map) {
     project_.Edit(Sentence("train %s", {title}), [&](ProjectDocument& document) {
       PlaceDocument* place = document.FindPlace(name);

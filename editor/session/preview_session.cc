@@ -211,8 +211,11 @@ std::shared_ptr<const cv::Mat> PreviewSession::first_image() const {
 }
 
 void PreviewSession::ReadFirstImage() {
+  if (picture_ != nullptr) {
+    return;
+  }
   const SourceDocument recording = FirstRecording();
-  if (picture_ == nullptr && !recording.empty()) {
+  if (!recording.empty()) {
     first_image_.Refresh(
         recording.path, TaskKind::kFirstImage, tasks_,
         [paths = project_.paths(), recording](Progress&) { return FirstImage(paths, recording); });

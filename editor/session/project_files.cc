@@ -48,9 +48,7 @@ ProjectFiles::ProjectFiles(ProjectPaths paths,
 }
 
 Status ProjectFiles::Save(Script script, Document document) {
-  std::error_code ignored;
-  if (script_.content == nullptr || *script != *script_.content ||
-      !std::filesystem::exists(script_.path, ignored)) {
+  if (script_.content == nullptr || *script != *script_.content || !FileExists(script_.path)) {
     LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(script_.path, *script));
     script_.NoteWritten(std::move(script));
   }
@@ -89,8 +87,7 @@ void ProjectFiles::DetectChanges(const Script& script, const ProjectDocument& do
 // in it, must be kept.
 template <typename Content>
 void ProjectFiles::ReportUnreadable(File<Content>& file, const std::string& problem) {
-  std::error_code ignored;
-  if (std::filesystem::exists(file.path, ignored)) {
+  if (FileExists(file.path)) {
     file.damage = problem;
   } else {
     messages_.Tell(Message::Level::kWarning,

@@ -15,9 +15,8 @@ Result<std::unique_ptr<ProjectSession>> ProjectSession::Open(ProjectPaths paths,
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
   // A project without its drama can be opened: a message reports the missing file, and saving makes
   // it.
-  std::error_code ignored;
   std::string script;
-  if (std::filesystem::exists(paths.Drama(), ignored)) {
+  if (FileExists(paths.Drama())) {
     LARARIUM_ASSIGN_OR_RETURN(script, ReadText(paths.Drama(), drama::TimelineText::kMaxBytes));
   }
   Result<bake::LineTable> lines = bake::LoadLines(paths.folder);

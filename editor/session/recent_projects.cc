@@ -44,11 +44,6 @@ Result<std::vector<RecentProject>> Load(const fs::path& file) {
 
 }  // namespace
 
-bool RecentProject::Exists() const {
-  std::error_code ignored;
-  return fs::exists(ProjectPaths{folder}.Project(), ignored);
-}
-
 Status RecentProjects::Reload() {
   entries_.clear();
   std::error_code error;

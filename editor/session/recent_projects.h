@@ -16,9 +16,6 @@ struct RecentProject {
   std::filesystem::path folder;  // An absolute path.
   std::string title;
   int64_t opened = 0;  // Seconds since 1970, UTC.
-
-  // Whether the folder still has a project.
-  bool Exists() const;
 };
 
 class RecentProjects {

@@ -24,11 +24,6 @@ constexpr const char* kVersionFile = "copied.from";  // The version of the sampl
 constexpr size_t kVersionBytes = 64;
 constexpr const char* kStep = "copying the sample";
 
-bool Exists(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
-
 // The hash of what the authors of the sample wrote. Training and baking do not change it.
 Result<std::string> VersionOf(const fs::path& sample) {
   const ProjectPaths paths{SampleProject(sample)};
@@ -59,7 +54,7 @@ Result<std::vector<MissingFile>> FindMissing(const fs::path& from, const fs::pat
   for (auto at = fs::recursive_directory_iterator(from, error);
        !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
     const fs::path copy = to / at->path().lexically_relative(from);
-    if (at->is_regular_file(error) && !Exists(copy)) {
+    if (at->is_regular_file(error) && !FileExists(copy)) {
       files.push_back({at->path(), copy, at->file_size(error)});
     }
   }
@@ -115,7 +110,7 @@ Status CopyMissing(const fs::path& shipped, const fs::path& own, Progress& progr
 fs::path SampleProject(const fs::path& sample) { return sample / kDramaProject; }
 
 bool IsTrained(const fs::path& sample) {
-  return Exists(ProjectPaths{SampleProject(sample)}.Scene(kPlace));
+  return FileExists(ProjectPaths{SampleProject(sample)}.Scene(kPlace));
 }
 
 fs::path ShippedSample(const fs::path& program) {
@@ -123,7 +118,7 @@ fs::path ShippedSample(const fs::path& program) {
   const fs::path prepared = program / "../../demo";  // The program is in build/PRESET/bin.
   const fs::path bare = program / "../../../scenes";
   for (const fs::path& sample : std::array{installed, prepared, bare}) {
-    if (Exists(ProjectPaths{SampleProject(sample)}.Project()) &&
+    if (FileExists(ProjectPaths{SampleProject(sample)}.Project()) &&
         (IsTrained(sample) || sample == bare)) {
       return sample.lexically_normal();
     }
@@ -137,7 +132,7 @@ Result<fs::path> OwnSample(const fs::path& shipped, const fs::path& folder, Prog
     const fs::path own = folder / (number == 1 ? kCopy : kCopy + ("-" + std::to_string(number)));
     const fs::path version_file = own / kVersionFile;
     const bool complete =
-        Exists(version_file) && Exists(ProjectPaths{SampleProject(own)}.Project());
+        FileExists(version_file) && FileExists(ProjectPaths{SampleProject(own)}.Project());
     const Result<std::string> copied = ReadText(version_file, kVersionBytes);
     if (complete && (!copied.ok() || *copied != version)) {
       continue;

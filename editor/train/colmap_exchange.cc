@@ -167,8 +167,7 @@ cv::Mat Resample(const cv::Mat& image, const CameraModel& from, const CameraMode
 }
 
 Result<cv::Mat> ReadImage(const fs::path& file, const ColmapCamera& camera) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+  if (!FileExists(file)) {
     return Status::Error(file.string(), "does not exist",
                          "name the folder of the model's images with --images");
   }
@@ -520,7 +519,7 @@ Status ExportColmap(const vision::SceneDatabase& database,
   const ColmapModel model = ColmapFromDatabase(database);
   LARARIUM_RETURN_IF_ERROR(model.Validate());
   std::error_code ignored;
-  if (fs::exists(folder, ignored) && !fs::is_empty(folder, ignored)) {
+  if (FileExists(folder) && !fs::is_empty(folder, ignored)) {
     return Status::Error(folder.string(), "exists already",
                          "name a new folder, or remove this one");
   }
@@ -560,8 +559,8 @@ Result<ColmapFolders> FindColmapFolders(const fs::path& model, const fs::path& i
   std::error_code ignored;
   ColmapFolders folders;
   for (const fs::path& candidate : {model, model / "sparse" / "0", model / "sparse"}) {
-    if (folders.model.empty() && (fs::exists(candidate / "cameras.bin", ignored) ||
-                                  fs::exists(candidate / "cameras.txt", ignored))) {
+    if (folders.model.empty() &&
+        (FileExists(candidate / "cameras.bin") || FileExists(candidate / "cameras.txt"))) {
       folders.model = candidate;
     }
   }

@@ -298,12 +298,11 @@ Result<ColmapModel> LoadColmapModel(const std::filesystem::path& folder) {
   const auto file = [&](std::string_view stem, ColmapFormat format) {
     return folder / (std::string(stem) + (format == ColmapFormat::kText ? ".txt" : ".bin"));
   };
-  std::error_code ignored;
   ColmapFormat format = ColmapFormat::kBinary;
-  if (!std::filesystem::exists(file("cameras", format), ignored)) {
+  if (!FileExists(file("cameras", format))) {
     format = ColmapFormat::kText;
   }
-  if (!std::filesystem::exists(file("cameras", format), ignored)) {
+  if (!FileExists(file("cameras", format))) {
     return Status::Error(folder.string(), "has no cameras.bin or cameras.txt",
                          "name the folder of a COLMAP model, such as sparse/0");
   }

@@ -43,8 +43,7 @@ void DescribeState(Fields& fields, KioskState& state) {
 
 Result<KioskState> LoadKioskState(const std::filesystem::path& folder) {
   const std::filesystem::path path = StateFile(folder);
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
+  if (!FileExists(path)) {
     return KioskState();
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(path, kMaxBytes));

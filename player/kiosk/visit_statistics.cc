@@ -123,8 +123,7 @@ std::string Today() {
 
 VisitStatistics LoadVisitStatistics(const std::filesystem::path& folder, Log& log) {
   const std::filesystem::path path = StatisticsFile(folder);
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
+  if (!FileExists(path)) {
     return {};
   }
   const Result<std::string> text = ReadText(path, kMaxBytes);

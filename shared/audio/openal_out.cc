@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "shared/audio/sound_graph.h"
+#include "shared/core/file.h"
 
 namespace lararium::audio {
 namespace {
@@ -35,8 +36,7 @@ bool MayHaveDevice() {
   }
   const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
   return std::getenv("PULSE_SERVER") != nullptr || std::getenv("ALSOFT_DRIVERS") != nullptr ||
-         (runtime != nullptr &&
-          std::filesystem::exists(std::filesystem::path(runtime) / "pulse/native", ignored));
+         (runtime != nullptr && FileExists(std::filesystem::path(runtime) / "pulse/native"));
 }
 
 class DeviceOut : public AudioOut {

@@ -5,6 +5,7 @@
 
 #include "shared/capture/camera_setup.h"
 #include "shared/capture/camera_source.h"
+#include "shared/core/file.h"
 
 namespace lararium::capture {
 namespace {
@@ -12,8 +13,7 @@ namespace {
 constexpr int kMostDevices = 256;  // number of device numbers in Linux
 
 std::optional<Result<std::unique_ptr<VideoDevice>>> OpenIfThere(int number) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(VideoDeviceFile(number), ignored)) {
+  if (!FileExists(VideoDeviceFile(number))) {
     return std::nullopt;
   }
   return OpenVideoDevice("camera " + std::to_string(number), number);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "shared/core/status.h"
@@ -47,9 +48,12 @@ std::string NumberedFrameName(int64_t index);
 // truncated file is an error.
 Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file);
 
-// Opens all images (png, jpg, jpeg, bmp, tif, tiff) of a folder in the order of their names, in
-// which numbers count by value (2 before 10). All must have the same size. Pixels stay as stored:
-// EXIF orientation is ignored. 30 frames per second.
+// The suffixes of images in a folder, with the dot, in lower case.
+std::span<const char* const> ImageExtensions();
+
+// Opens all images of a folder in the order of their names, in which numbers count by value (2
+// before 10). All must have the same size. Pixels stay as stored: EXIF orientation is ignored. 30
+// frames per second.
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder);
 
 // Requested settings of a camera. Settings that the camera refuses are errors, except the rate: the

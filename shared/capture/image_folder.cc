@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <vector>
 
 #include "shared/capture/frame_source.h"
@@ -53,9 +54,8 @@ bool NaturalLess(std::string_view a, std::string_view b) {
 
 bool IsImageName(const std::filesystem::path& name) {
   const std::string extension = LowerCase(name.extension().string());
-  static constexpr std::array<std::string_view, 7> kExtensions = {".png", ".jpg",  ".jpeg", ".bmp",
-                                                                  ".tif", ".tiff", ".webp"};
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  const std::span<const char* const> known = ImageExtensions();
+  return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 class ImageFolder final : public FrameSource {
@@ -138,6 +138,12 @@ Result<std::vector<std::string>> ListImages(const std::filesystem::path& folder)
 }
 
 }  // namespace
+
+std::span<const char* const> ImageExtensions() {
+  static constexpr std::array kExtensions = {".png", ".jpg",  ".jpeg", ".bmp",
+                                             ".tif", ".tiff", ".webp"};
+  return kExtensions;
+}
 
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder) {
   LARARIUM_ASSIGN_OR_RETURN(std::vector<std::string> names, ListImages(folder));

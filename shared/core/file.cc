@@ -99,6 +99,11 @@ Status WriteAll(const std::filesystem::path& path,
 
 }  // namespace
 
+bool FileExists(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
 Result<std::vector<std::byte>> ReadBytes(const std::filesystem::path& path, uint64_t max_bytes) {
   std::vector<std::byte> content;
   LARARIUM_RETURN_IF_ERROR(ReadInto(path, max_bytes, content));

@@ -14,6 +14,9 @@
 
 namespace lararium {
 
+// Whether there is a file or a folder. One that cannot be looked at counts as missing.
+bool FileExists(const std::filesystem::path& path);
+
 // Default size limit of ReadBytes and ReadText.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 30;
 

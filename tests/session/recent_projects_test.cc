@@ -8,6 +8,7 @@
 #include <string>
 
 #include "editor/document/project.h"
+#include "editor/document/project_paths.h"
 #include "editor/document/user_folders.h"
 #include "editor/session/project_picture.h"
 #include "shared/core/file.h"
@@ -60,11 +61,11 @@ TEST_F(RecentProjectsTest, WindowsDoNotOverwriteOneAnother) {
 TEST_F(RecentProjectsTest, OneThatIsLocatedTakesTheOldPlaceInTheList) {
   EXPECT_TRUE(recent_.NoteOpened({Folder("moved"), "M", 10}).ok());
   EXPECT_TRUE(recent_.NoteOpened({Folder("b"), "B", 20}).ok());
-  EXPECT_FALSE(recent_.entries().back().Exists());
+  EXPECT_FALSE(IsProject(recent_.entries().back().folder));
   ASSERT_TRUE(CreateProject({Folder("found")}, "M").ok());
   EXPECT_TRUE(recent_.Move(Folder("moved"), Folder("found")).ok());
   EXPECT_THAT(Listed(), testing::ElementsAre("b", "found"));
-  EXPECT_TRUE(recent_.entries().back().Exists());
+  EXPECT_TRUE(IsProject(recent_.entries().back().folder));
 }
 
 TEST_F(RecentProjectsTest, TheOldestAreForgotten) {

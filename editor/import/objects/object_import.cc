@@ -56,9 +56,7 @@ Result<std::string> UseInExtras(const std::filesystem::path& file) {
 
 Result<std::string> FindUse(const std::filesystem::path& file) {
   const std::filesystem::path beside = UseFileBeside(file);
-  std::error_code ignored;
-  return std::filesystem::exists(beside, ignored) ? ReadText(beside, kMaxUseBytes)
-                                                  : UseInExtras(file);
+  return FileExists(beside) ? ReadText(beside, kMaxUseBytes) : UseInExtras(file);
 }
 
 // The joint with the largest weight at the first vertex of a mesh; parts of objects are rigid.

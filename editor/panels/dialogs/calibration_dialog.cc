@@ -389,9 +389,8 @@ void CalibrationDialog::DrawSearch(PictureTextures& pictures) {
 
 void CalibrationDialog::Use(const editor::ProjectPaths& paths, DialogFields& fields) {
   geometry::CameraModel camera = task_->result().camera;
-  std::error_code ignored;
   const std::filesystem::path file = paths.Resolve(fields.file);
-  if (!fields.file.empty() && std::filesystem::exists(file, ignored)) {
+  if (!fields.file.empty() && FileExists(file)) {
     const auto source = fields.images ? capture::OpenImageFolder(file) : capture::OpenVideo(file);
     const auto fitting = source.ok() ? camera.ForImages((*source)->width(), (*source)->height())
                                      : Result<geometry::CameraModel>(source.status());

@@ -23,6 +23,7 @@
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
+#include "shared/core/file.h"
 
 namespace lararium::panels {
 
@@ -39,8 +40,7 @@ bool DialogDone(Dialogs& dialogs, const char* action, const DialogProblem& probl
 }
 
 bool Exists(const editor::ProjectPaths& paths, const std::string& file) {
-  std::error_code ignored;
-  return !file.empty() && std::filesystem::exists(paths.Resolve(file), ignored);
+  return !file.empty() && FileExists(paths.Resolve(file));
 }
 
 // Parses "600, 600, 320, 240"; empty where there are not 4 or 8 numbers.

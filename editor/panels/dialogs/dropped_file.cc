@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/document/project_paths.h"
 #include "editor/panels/widgets/file_kinds.h"
 #include "shared/core/lower_case.h"
 #include "shared/core/utf8.h"
@@ -28,7 +29,7 @@ DroppedFile ClassifyDrop(std::span<const fs::path> paths) {
   if (paths.size() > 1 || !IsUtf8(first.string())) {
     return {Kind::kOther, first};
   }
-  if (first.filename() == "project.json" && IsProject(first.parent_path())) {
+  if (first.filename() == "project.json" && editor::IsProject(first.parent_path())) {
     return {Kind::kProject, first.parent_path()};
   }
   if (LowerCase(first.extension().string()) == ".vrm" && Fits(first, FileType::kModel)) {

@@ -14,6 +14,7 @@
 #include "editor/panels/widgets/widgets.h"
 #include "editor/session/task_text.h"
 #include "shared/bundle/signature.h"
+#include "shared/core/file.h"
 
 namespace lararium::panels {
 
@@ -125,7 +126,6 @@ void DrawFields(editor::Workspace& workspace, DialogFields& fields) {
 }
 
 DialogProblem ExportProblem(const editor::Workspace& workspace, const DialogFields& fields) {
-  std::error_code ignored;
   if (workspace.project().document().places.empty()) {
     return Missing(Tr("A show needs a place: train one first."));
   }
@@ -133,8 +133,7 @@ DialogProblem ExportProblem(const editor::Workspace& workspace, const DialogFiel
     return Wrong(Tr("The name ends in .larshow."));
   }
   const bool has_key =
-      fields.key.empty() ||
-      std::filesystem::exists(workspace.project().paths().Resolve(fields.key), ignored);
+      fields.key.empty() || FileExists(workspace.project().paths().Resolve(fields.key));
   return has_key ? DialogProblem() : Wrong(Tr("Choose a key that exists, or none."));
 }
 

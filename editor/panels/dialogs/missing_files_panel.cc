@@ -9,6 +9,7 @@
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
+#include "shared/core/file.h"
 
 namespace lararium::panels {
 
@@ -48,7 +49,7 @@ DialogProblem LocateProblem(const editor::ProjectPaths& paths,
   if (typed.empty() || typed == was) {
     return Missing(Tr("Choose a file."));
   }
-  if (!std::filesystem::exists(file, ignored)) {
+  if (!FileExists(file)) {
     return Wrong(Tr("Choose a file that exists."));
   }
   if (folder != (kind == editor::FileKind::kImages)) {

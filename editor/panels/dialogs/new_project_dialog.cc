@@ -8,6 +8,7 @@
 #include "editor/document/user_folders.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/widgets.h"
+#include "shared/core/file.h"
 
 namespace lararium::panels {
 
@@ -19,8 +20,7 @@ constexpr const char* kProjectSuffix = ".lararium";
 
 // Whether the folder has a project of that name.
 bool IsTaken(const fs::path& parent, const std::string& name) {
-  std::error_code ignored;
-  return fs::exists(parent / (name + kProjectSuffix), ignored);
+  return FileExists(parent / (name + kProjectSuffix));
 }
 
 }  // namespace

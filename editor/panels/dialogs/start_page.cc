@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "editor/document/project.h"
+#include "editor/document/project_paths.h"
 #include "editor/document/user_folders.h"
 #include "editor/panels/dialogs/dialogs.h"
 #include "editor/panels/dialogs/key_list.h"
@@ -84,7 +85,7 @@ std::string FolderText(const fs::path& folder) {
 // The folder for new projects: that of the project that was opened last.
 fs::path UsualFolder(const editor::RecentProjects& recent) {
   for (const editor::RecentProject& project : recent.entries()) {
-    if (project.Exists()) {
+    if (editor::IsProject(project.folder)) {
       return project.folder.parent_path();
     }
   }
@@ -96,7 +97,7 @@ DialogProblem FolderProblem(const fs::path& folder) {
   if (!fs::is_directory(folder, ignored)) {
     return Wrong(Tr("Choose a folder that exists."));
   }
-  return IsProject(folder)
+  return editor::IsProject(folder)
              ? DialogProblem()
              : Missing(Tr("There is no project.json in this folder: choose one called "
                           "NAME.lararium."));
@@ -137,7 +138,7 @@ void StartPage::Look(const editor::RecentProjects& recent) {
   looked_ = ImGui::GetTime();
   for (const editor::RecentProject& project : recent.entries()) {
     Face& face = faces_[project.folder];
-    face.exists = project.Exists();
+    face.exists = editor::IsProject(project.folder);
     if (face.picture == nullptr) {
       if (std::optional<cv::Mat> picture = editor::LoadProjectPicture(project.folder)) {
         face.picture = std::make_shared<const cv::Mat>(std::move(*picture));
@@ -350,8 +351,7 @@ void StartPage::DrawSample(StartChoice& choice) {
   const float room = ImGui::GetContentRegionAvail().x;
   const char* text =
       Tr("A street kitchen in Pompeii: five people, who speak Latin, and twenty-three things that "
-         "they "
-         "use. Opens your own copy, so change whatever you like. A tour leads through it.");
+         "they use. Opens your own copy, so change whatever you like. A tour leads through it.");
   const bool beside = room >= Px(3 * kNarrowestStep);
   const float inner = room - 2 * Px(kPad);
   const float picture = beside ? 0.5f * inner : inner;

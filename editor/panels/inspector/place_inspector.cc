@@ -22,6 +22,7 @@
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
+#include "shared/core/file.h"
 #include "shared/geometry/glm_convert.h"
 
 namespace lararium::panels {
@@ -49,7 +50,7 @@ DialogProblem LookedAtProblem(const editor::ProjectPaths& paths, const DialogFie
   if (fields.file.empty()) {
     return Missing(Tr("Choose a recording."));
   }
-  if (!std::filesystem::exists(file, ignored)) {
+  if (!FileExists(file)) {
     return Wrong(Tr("Choose a recording that exists."));
   }
   const bool folder = std::filesystem::is_directory(file, ignored);

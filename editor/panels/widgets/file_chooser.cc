@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
+#include "editor/document/project_paths.h"
 #include "editor/document/user_folders.h"
 #include "editor/panels/widgets/icons.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
 #include "shared/core/check.h"
+#include "shared/core/file.h"
 
 namespace lararium::panels {
 
@@ -113,7 +116,10 @@ void FileChooser::Ask(ImGuiID field, FileType type, const fs::path& path) {
 
 void FileChooser::OpenList() {
   asked_->list = true;
-  list_.places = editor::FindFilePlaces();
+  list_.places = editor::FindFilePlaces(editor::HomeFolder(), editor::ConfigFolder().parent_path());
+  list_.recent.clear();
+  std::copy_if(recent_.begin(), recent_.end(), std::back_inserter(list_.recent),
+               [](const auto& project) { return editor::IsProject(project.folder); });
   Enter(list_.folder);
 }
 
@@ -243,14 +249,12 @@ void FileChooser::DrawPlaces() {
   for (const editor::FilePlace& place : list_.places) {
     row(Icon::kProject, PlaceLabel(place), place.folder);
   }
-  if (std::any_of(recent_.begin(), recent_.end(), [](const auto& one) { return one.Exists(); })) {
+  if (!list_.recent.empty()) {
     ImGui::Dummy(ImVec2(0, Px(4)));
     DimText(Tr("Recent projects"));
-    for (const editor::RecentProject& project : recent_) {
-      if (project.Exists()) {
-        row(Icon::kProject, project.title, project.folder);
-      }
-    }
+  }
+  for (const editor::RecentProject& project : list_.recent) {
+    row(Icon::kProject, project.title, project.folder);
   }
 }
 
@@ -372,7 +376,6 @@ void FileChooser::DrawFilter() {
 }
 
 DialogProblem FileChooser::ListProblem() const {
-  std::error_code ignored;
   const fs::path target = Target();
   if (!list_.problem.empty()) {
     return Wrong(Text(Tr("This folder cannot be read: %s"), list_.problem.c_str()));
@@ -380,7 +383,7 @@ DialogProblem FileChooser::ListProblem() const {
   if (spec().kind == RequestKind::kSave) {
     return list_.name.empty() ? Missing(Tr("It needs a name.")) : DialogProblem();
   }
-  if (!fs::exists(target, ignored)) {
+  if (!FileExists(target)) {
     return Wrong(Tr("It is not there."));
   }
   if (target == list_.folder && Enters(target)) {
@@ -393,7 +396,8 @@ DialogProblem FileChooser::ListProblem() const {
 // Whether a folder is opened in the list instead of being taken.
 bool FileChooser::Enters(const fs::path& target) const {
   std::error_code ignored;
-  const bool wanted = spec().folder() && (asked_->type != FileType::kProject || IsProject(target));
+  const bool wanted =
+      spec().folder() && (asked_->type != FileType::kProject || editor::IsProject(target));
   return !wanted && fs::is_directory(target, ignored);
 }
 

@@ -6,6 +6,7 @@
 #include "editor/document/missing_files.h"
 #include "editor/document/project_paths.h"
 #include "editor/panels/widgets/text.h"
+#include "shared/capture/frame_source.h"
 #include "shared/core/lower_case.h"
 
 namespace lararium::panels {
@@ -13,8 +14,6 @@ namespace lararium::panels {
 namespace {
 
 constexpr std::array<const char*, 5> kVideos = {".mp4", ".mov", ".mkv", ".avi", ".webm"};
-constexpr std::array<const char*, 7> kImages = {".png", ".jpg",  ".jpeg", ".bmp",
-                                                ".tif", ".tiff", ".webp"};
 constexpr std::array<const char*, 6> kMeshes = {".glb", ".gltf", ".fbx", ".dae", ".obj", ".ply"};
 constexpr std::array<const char*, 8> kModels = {".glb", ".gltf", ".vrm", ".fbx",
                                                 ".dae", ".obj",  ".ply", ".x"};
@@ -32,7 +31,8 @@ using Kind = editor::FileRequest::Kind;
 const std::array<FileTypeSpec, 13>& Specs() {
   static const std::array<FileTypeSpec, 13> specs = {{
       {TrLater("Choose a video"), TrLater("Videos"), kVideos},
-      {TrLater("Choose a folder of images"), TrLater("Images"), kImages, Kind::kFolder},
+      {TrLater("Choose a folder of images"), TrLater("Images"), capture::ImageExtensions(),
+       Kind::kFolder},
       {TrLater("Choose a model"), TrLater("Models"), kMeshes},
       {TrLater("Choose a model"), TrLater("Models"), kModels},
       {TrLater("Choose a figure"), TrLater("Figures and recipes"), kFigures},
@@ -65,9 +65,9 @@ bool Fits(const std::filesystem::path& file, FileType type) {
     return HoldsImages(file);
   }
   if (spec.folder()) {
-    return type == FileType::kProject ? IsProject(file)
+    return type == FileType::kProject ? editor::IsProject(file)
                                       : std::filesystem::is_directory(file, ignored) &&
-                                            !IsProject(file) && !HoldsImages(file);
+                                            !editor::IsProject(file) && !HoldsImages(file);
   }
   return std::filesystem::is_regular_file(file, ignored) && HasExtension(file, spec.extensions);
 }
@@ -76,16 +76,11 @@ bool HoldsImages(const std::filesystem::path& folder) {
   std::error_code error;
   for (auto at = std::filesystem::directory_iterator(folder, error);
        !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
-    if (HasExtension(at->path(), kImages)) {
+    if (HasExtension(at->path(), capture::ImageExtensions())) {
       return true;
     }
   }
   return false;
-}
-
-bool IsProject(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(editor::ProjectPaths{folder}.Project(), ignored);
 }
 
 }  // namespace lararium::panels

@@ -45,7 +45,4 @@ bool Fits(const std::filesystem::path& file, FileType type);
 // Whether the folder exists and has an image, not counting its own folders.
 bool HoldsImages(const std::filesystem::path& folder);
 
-// Whether the folder is a project.
-bool IsProject(const std::filesystem::path& folder);
-
 }  // namespace lararium::panels

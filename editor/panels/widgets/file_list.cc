@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 
+#include "editor/document/project_paths.h"
 #include "editor/panels/widgets/file_kinds.h"
 #include "editor/panels/widgets/text.h"
 #include "shared/core/lower_case.h"
@@ -34,7 +35,7 @@ std::vector<FileEntry> ListFolder(const fs::path& folder,
                           (!extensions.empty() && !HasExtension(entry.name, extensions)))) {
       continue;
     }
-    entry.project = entry.folder && IsProject(at->path());
+    entry.project = entry.folder && editor::IsProject(at->path());
     entry.bytes = entry.folder ? 0 : static_cast<uint64_t>(found.st_size);
     entry.changed = found.st_mtime;
     entries.push_back(std::move(entry));

@@ -9,6 +9,7 @@
 
 #include "editor/panels/widgets/icons.h"
 #include "editor/panels/widgets/wrapped_text.h"
+#include "shared/core/file.h"
 
 namespace lararium::panels {
 
@@ -30,8 +31,7 @@ ImFont* LoadFont(const char* name, float size) {
                                     0x2026, 0x2026, 0x2190, 0x2193, 0};
   for (const char* folder : kFontFolders) {
     const std::filesystem::path file = std::filesystem::path(folder) / name;
-    std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) {
+    if (FileExists(file)) {
       ImFontConfig config;
       // A value of 3 looks no better at these sizes, and needs half as much memory again.
       config.OversampleH = 2;
