@@ -1,5 +1,7 @@
 #include "player/app/camera_choice.h"
 
+#include <algorithm>
+
 #include "player/app/device_file.h"
 
 namespace lararium::player {
@@ -7,19 +9,14 @@ namespace {
 
 using geometry::CameraModel;
 
-Result<CameraChoice> ChooseTrained(std::span<const TrainedCamera> trained, int width, int height) {
-  Status problem;
-  for (const TrainedCamera& candidate : trained) {
-    const std::string origin = "the bundle's place \"" + candidate.place + "\"";
-    const Result<CameraModel> camera = candidate.camera.ForImages(width, height);
-    if (camera.ok()) {
-      return CameraChoice{*camera, origin};
-    }
-    if (problem.ok()) {
-      problem = camera.status().At(origin);
-    }
-  }
-  return problem;
+CameraChoice GuessFrom(std::span<const TrainedCamera> trained, int width, int height) {
+  const auto fits =
+      std::find_if(trained.begin(), trained.end(), [&](const TrainedCamera& candidate) {
+        return candidate.camera.ForImages(width, height).ok();
+      });
+  const TrainedCamera& similar = fits == trained.end() ? trained.front() : *fits;
+  return {similar.camera.GuessForImages(width, height),
+          "the bundle's place \"" + similar.place + "\", to begin with", false};
 }
 
 }  // namespace
@@ -34,7 +31,7 @@ Result<CameraChoice> ChooseCamera(const CameraOptions& options,
     LARARIUM_ASSIGN_OR_RETURN(device, LoadDevice(options.device));
   }
   if (!by_option && !device.camera) {
-    return ChooseTrained(trained, width, height);
+    return GuessFrom(trained, width, height);
   }
   const std::string origin = by_option ? "--intrinsics" : options.device.string();
   Result<CameraModel> camera = by_option

@@ -1,7 +1,7 @@
 #pragma once
 
 // Chooses the camera calibration of the player: from the option --intrinsics, else from the device
-// file, else from the bundle.
+// file. Otherwise the tracker estimates it, and begins with the camera of the bundle.
 
 #include <span>
 #include <string>
@@ -21,11 +21,12 @@ struct TrainedCamera {
 struct CameraChoice {
   geometry::CameraModel camera;  // scaled to the size of the source's images
   std::string origin;            // source of the calibration, for the log
+  bool known = true;             // Otherwise it is a guess.
 };
 
-// trained: the cameras of all places, at least one; the first that fits is used for all places.
-// width and height: size of the source's images. A calibration for another size is scaled if the
-// aspect ratio agrees; otherwise it does not fit, which is an error.
+// trained: the cameras of all places, at least one; the first that fits is the guess. width and
+// height: size of the source's images. A given calibration for another size is scaled if the aspect
+// ratio agrees; otherwise it does not fit, which is an error.
 Result<CameraChoice> ChooseCamera(const CameraOptions& options,
                                   std::span<const TrainedCamera> trained,
                                   int width,

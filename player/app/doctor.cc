@@ -88,7 +88,8 @@ Result<std::unique_ptr<vision::PoseSource>> TrackerOf(const CameraOptions& camer
   }
   LARARIUM_ASSIGN_OR_RETURN(const CameraChoice choice,
                             ChooseCamera(camera, trained, probe.width, probe.height));
-  return vision::CreateTracker(show::Maps(content.places), choice.camera, {});
+  return vision::CreateTracker(show::Maps(content.places), choice.camera,
+                               {.known_camera = choice.known});
 }
 
 CameraProbe ProbeCamera(const DoctorOptions& options,

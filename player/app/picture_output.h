@@ -23,7 +23,7 @@
 namespace lararium::player {
 
 struct PictureLayout {
-  geometry::CameraModel camera;    // Calibration for the images of the source.
+  geometry::CameraModel camera;    // Calibration for the images of the source, or a guess.
   std::optional<Headset> headset;  // nullopt: the show is not shown on a headset
   show::ViewPart part;             // The part of the camera's view that is drawn.
   PictureSize size;

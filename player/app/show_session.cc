@@ -116,7 +116,9 @@ Status ShowSession::Prepare() {
     quality_.Adapt(source_->frames_per_second());
   }
   LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content, LoadInChosenLanguages());
-  LARARIUM_ASSIGN_OR_RETURN(const PictureLayout layout, ChooseView(content));
+  LARARIUM_ASSIGN_OR_RETURN(const CameraChoice camera, ChooseCamera(content));
+  LARARIUM_ASSIGN_OR_RETURN(const PictureLayout layout,
+                            ChooseLayout(options_.display, device_.headset, camera.camera));
   maker_.SetPicture(layout.size, layout.part, layout.headset && layout.headset->runtime_shows_room);
   if (!options_.visitor.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(drama::VisitorLog visitor, drama::VisitorLog::Load(options_.visitor));
@@ -124,7 +126,7 @@ Status ShowSession::Prepare() {
   }
   // Drivers and the drama both need time to start, so they are prepared in parallel.
   std::future<Status> prepared = std::async(std::launch::async, [&]() -> Status {
-    LARARIUM_RETURN_IF_ERROR(CreateTracker(content, layout.camera));
+    LARARIUM_RETURN_IF_ERROR(CreateTracker(content, camera));
     LARARIUM_ASSIGN_OR_RETURN(show_, maker_.Make(content));
     return Status();
   });
@@ -171,29 +173,27 @@ float ShowSession::FinestDetail() const {
   return show::FinestDetail(quality_.quality(), size ? size->width : source_->width());
 }
 
-Result<PictureLayout> ShowSession::ChooseView(const show::ShowContent& content) const {
+Result<CameraChoice> ShowSession::ChooseCamera(const show::ShowContent& content) const {
   std::vector<TrainedCamera> trained;
   for (const show::ShowPlace& place : content.places) {
     trained.push_back({place.stage.name, place.map->camera});
   }
   LARARIUM_ASSIGN_OR_RETURN(
       const CameraChoice choice,
-      ChooseCamera(options_.camera, trained, source_->width(), source_->height()));
-  LARARIUM_ASSIGN_OR_RETURN(const PictureLayout layout,
-                            ChooseLayout(options_.display, device_.headset, choice.camera));
+      player::ChooseCamera(options_.camera, trained, source_->width(), source_->height()));
   log_.info("camera intrinsics from {}", choice.origin);
-  return layout;
+  return choice;
 }
 
-Status ShowSession::CreateTracker(const show::ShowContent& content,
-                                  const geometry::CameraModel& camera) {
+Status ShowSession::CreateTracker(const show::ShowContent& content, const CameraChoice& camera) {
   vision::TrackerOptions tracking;
+  tracking.known_camera = camera.known;
   tracking.seed = options_.seed;
   tracking.threads = options_.threads;
   tracking.background =
       lock_step() ? vision::BackgroundWork::kJoined : vision::BackgroundWork::kFree;
-  LARARIUM_ASSIGN_OR_RETURN(poses_,
-                            vision::CreateTracker(show::Maps(content.places), camera, tracking));
+  LARARIUM_ASSIGN_OR_RETURN(
+      poses_, vision::CreateTracker(show::Maps(content.places), camera.camera, tracking));
   show::SetOccluders(content.places, *poses_);
   poses_ = vision::Smooth(std::move(poses_), show::Maps(content.places), options_.smoothing);
   return Status();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "player/app/camera_choice.h"
 #include "player/app/device_file.h"
 #include "player/app/options.h"
 #include "player/app/osc.h"
@@ -54,8 +55,8 @@ class ShowSession {
  private:
   // Preparing.
   Result<show::ShowContent> LoadInChosenLanguages();
-  Result<PictureLayout> ChooseView(const show::ShowContent& content) const;
-  Status CreateTracker(const show::ShowContent& content, const geometry::CameraModel& camera);
+  Result<CameraChoice> ChooseCamera(const show::ShowContent& content) const;
+  Status CreateTracker(const show::ShowContent& content, const CameraChoice& camera);
   Status PrepareDrawing(const show::ShowContent& content, const PictureLayout& layout);
   void OpenSound();
 

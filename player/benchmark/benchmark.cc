@@ -52,21 +52,6 @@ std::vector<std::vector<Eigen::Vector3d>> Landmarks(const Maps& maps) {
   return landmarks;
 }
 
-// Adapts the map's camera to images of any size and proportions.
-CameraModel CameraLike(const CameraModel& trained, int width, int height) {
-  if (const Result<CameraModel> same = trained.ForImages(width, height); same.ok()) {
-    return *same;
-  }
-  CameraModel camera;
-  camera.width = width;
-  camera.height = height;
-  camera.fx = camera.fy =
-      trained.Focal() * std::max(width, height) / std::max(trained.width, trained.height);
-  camera.cx = 0.5 * (width - 1);
-  camera.cy = 0.5 * (height - 1);
-  return camera;
-}
-
 // Scales and crops the middle of an image to a size.
 cv::Mat CutTo(const cv::Mat& image, const cv::Size& size) {
   const double scale = std::min(image.cols / static_cast<double>(size.width),
@@ -195,7 +180,7 @@ Status BenchmarkRun::ShowForeign(const std::filesystem::path& path, ForeignRepor
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenForeign(path));
   LARARIUM_ASSIGN_OR_RETURN(
       const auto tracker,
-      MakeTracker(CameraLike(maps_.front()->camera, source->width(), source->height())));
+      MakeTracker(maps_.front()->camera.GuessForImages(source->width(), source->height())));
   while (!Enough(report.frames)) {
     LARARIUM_ASSIGN_OR_RETURN(const std::optional<Frame> frame, source->Next());
     if (!frame) {

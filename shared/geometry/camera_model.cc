@@ -109,6 +109,14 @@ Eigen::Vector2d CameraModel::PixelFromPlane(const Eigen::Vector2d& plane) const 
   return {fx * d.x() + cx, fy * d.y() + cy};
 }
 
+Eigen::Vector2d CameraModel::PixelFromPlane(const Eigen::Vector2d& plane,
+                                            Eigen::Matrix2d& slope) const {
+  const Eigen::Vector2d d = Distort(*this, plane, &slope);
+  slope.row(0) *= fx;
+  slope.row(1) *= fy;
+  return {fx * d.x() + cx, fy * d.y() + cy};
+}
+
 Eigen::Vector2d CameraModel::PlaneFromPixel(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d target((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   if (!HasDistortion()) {
@@ -151,6 +159,14 @@ Result<CameraModel> CameraModel::ForImages(int new_width, int new_height) const 
   return Resized(new_width, new_height);
 }
 
+CameraModel CameraModel::GuessForImages(int new_width, int new_height) const {
+  if (const Result<CameraModel> same = ForImages(new_width, new_height); same.ok()) {
+    return *same;
+  }
+  const double focal = Focal() * std::max(new_width, new_height) / std::max(width, height);
+  return {new_width, new_height, focal, focal, 0.5 * (new_width - 1), 0.5 * (new_height - 1)};
+}
+
 CameraModel CameraModel::DisplayPinhole() const {
   CameraModel display = *this;
   display.k1 = display.k2 = display.p1 = display.p2 = 0.0;
@@ -176,28 +192,29 @@ CameraModel CameraModel::DisplayPinhole() const {
   return display;
 }
 
-void DescribePinhole(Fields& fields, CameraModel& camera) {
-  fields.Integer("width", camera.width, 16, 16384);
-  fields.Integer("height", camera.height, 16, 16384);
-  std::array k = {camera.fx, camera.fy, camera.cx, camera.cy};
-  fields.Numbers("K", k);
+namespace {
+
+// An array of four numbers that are members of their own.
+void DescribeFour(Fields& fields, const char* name, const std::array<double*, 4>& members) {
+  std::array values = {*members[0], *members[1], *members[2], *members[3]};
+  fields.Numbers(name, values);
   if (fields.reading()) {
-    camera.fx = k[0];
-    camera.fy = k[1];
-    camera.cx = k[2];
-    camera.cy = k[3];
+    for (size_t i = 0; i < values.size(); ++i) {
+      *members[i] = values[i];
+    }
   }
 }
 
+}  // namespace
+
+void DescribePinhole(Fields& fields, CameraModel& camera) {
+  fields.Integer("width", camera.width, 16, 16384);
+  fields.Integer("height", camera.height, 16, 16384);
+  DescribeFour(fields, "K", {&camera.fx, &camera.fy, &camera.cx, &camera.cy});
+}
+
 void DescribeDistortion(Fields& fields, CameraModel& camera) {
-  std::array k = {camera.k1, camera.k2, camera.p1, camera.p2};
-  fields.Numbers("k1_k2_p1_p2", k);
-  if (fields.reading()) {
-    camera.k1 = k[0];
-    camera.k2 = k[1];
-    camera.p1 = k[2];
-    camera.p2 = k[3];
-  }
+  DescribeFour(fields, "k1_k2_p1_p2", {&camera.k1, &camera.k2, &camera.p1, &camera.p2});
 }
 
 void DescribeFields(Fields& fields, CameraModel& camera) {

@@ -47,6 +47,8 @@ struct CameraModel {
   // Returns the raw pixel of a point (x, y) on the plane z = 1; meaningless where the distortion
   // folds back.
   Eigen::Vector2d PixelFromPlane(const Eigen::Vector2d& plane) const;
+  // The same, with the derivative of the pixel by the point.
+  Eigen::Vector2d PixelFromPlane(const Eigen::Vector2d& plane, Eigen::Matrix2d& slope) const;
   // Returns the point (x, y) on the plane z = 1 that is seen at a raw pixel. Inverts the distortion
   // by Newton's method, to 1e-10.
   Eigen::Vector2d PlaneFromPixel(const Eigen::Vector2d& pixel) const;
@@ -57,6 +59,10 @@ struct CameraModel {
   // Same as Resized(), but returns an error with both sizes if the aspect ratios differ by more
   // than a pixel.
   Result<CameraModel> ForImages(int new_width, int new_height) const;
+
+  // Same as ForImages() where that is possible. Otherwise a guess: a camera of the same field of view
+  // along the longer side, with its principal point in the middle and without distortion.
+  CameraModel GuessForImages(int new_width, int new_height) const;
 
   // Returns the undistorted pinhole of the same size whose image is completely covered by this
   // camera's image: the largest field of view without blank corners.

@@ -2,8 +2,6 @@
 
 namespace lararium::vision {
 
-using geometry::CameraModel;
-
 BackgroundRelocalizer::BackgroundRelocalizer(Relocalizer& relocalizer, int threads)
     : relocalizer_(relocalizer) {
   if (threads != 1) {
@@ -11,10 +9,10 @@ BackgroundRelocalizer::BackgroundRelocalizer(Relocalizer& relocalizer, int threa
   }
 }
 
-void BackgroundRelocalizer::Begin(const cv::Mat& grey, const CameraModel& camera) {
+void BackgroundRelocalizer::Begin(const cv::Mat& grey, const CameraGuess& guess) {
   const std::lock_guard lock(mutex_);
   grey_ = grey;
-  camera_ = camera;
+  guess_ = guess;
   located_.reset();
   busy_ = true;
   changed_.notify_all();
@@ -23,7 +21,7 @@ void BackgroundRelocalizer::Begin(const cv::Mat& grey, const CameraModel& camera
 std::optional<Located> BackgroundRelocalizer::Take(bool wait) {
   std::unique_lock lock(mutex_);
   if (!thread_.joinable()) {
-    located_ = relocalizer_.Find(grey_, camera_);
+    located_ = relocalizer_.Find(grey_, guess_);
   } else if (wait) {
     changed_.wait(lock, [this] { return located_.has_value(); });
   }
@@ -50,9 +48,9 @@ void BackgroundRelocalizer::Work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return busy_ && !located_; })) {
     const cv::Mat grey = grey_;
-    const CameraModel camera = camera_;
+    const CameraGuess guess = guess_;
     lock.unlock();
-    const Located located = relocalizer_.Find(grey, camera);
+    const Located located = relocalizer_.Find(grey, guess);
     lock.lock();
     located_ = located;
     changed_.notify_all();

@@ -24,7 +24,7 @@ class BackgroundRelocalizer {
   BackgroundRelocalizer(Relocalizer& relocalizer, int threads);
 
   // Starts to locate an image. Requires !busy(). The pixels are shared, not copied.
-  void Begin(const cv::Mat& grey, const geometry::CameraModel& camera);
+  void Begin(const cv::Mat& grey, const CameraGuess& guess);
   bool busy() const { return busy_; }
 
   // Returns the result and ends the busy state. Requires busy(). nullopt if the result is not ready
@@ -41,7 +41,7 @@ class BackgroundRelocalizer {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   cv::Mat grey_;
-  geometry::CameraModel camera_;
+  CameraGuess guess_;
   std::optional<Located> located_;
   bool busy_ = false;    // Changed by the caller's thread only.
   std::jthread thread_;  // Last member, so that it stops before the members it uses are destroyed.

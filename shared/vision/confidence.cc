@@ -36,29 +36,48 @@ double BetaFraction(double a, double b, double x) {
 }
 
 // The mean of J' J over the image and the depths, in square pixels, where J is the derivative of a
-// point's projection by (w, v).
-Matrix6d MeanSquareOfMotion(const CameraModel& camera, const std::array<double, 3>& depths) {
+// point's projection by (w, v) and the camera's parameters.
+template <int N>
+JointMatrix<N> MeanSquareOfMotion(const CameraModel& model, const std::array<double, 3>& depths) {
   constexpr int kColumns = 5;
   constexpr int kRows = 4;
-  Matrix6d sum = Matrix6d::Zero();
+  JointMatrix<N> sum = JointMatrix<N>::Zero();
+  const CameraEstimate camera = ExactCamera(model);
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const Eigen::Vector2d pixel((column + 0.5) * camera.width / kColumns - 0.5,
-                                  (row + 0.5) * camera.height / kRows - 0.5);
-      PoseMatch place;
-      place.plane = camera.PlaneFromPixel(pixel);
+      const Eigen::Vector2d pixel((column + 0.5) * model.width / kColumns - 0.5,
+                                  (row + 0.5) * model.height / kRows - 0.5);
+      const Eigen::Vector2d plane = model.PlaneFromPixel(pixel);
       for (const double depth : depths) {
-        place.point = depth * place.plane.homogeneous();
         Eigen::Vector2d residual;
-        Matrix26d jacobian;
-        if (PlaneResidual(geometry::Rigid3(), place, residual, &jacobian)) {
+        Eigen::Matrix<double, 2, N> jacobian;
+        if (PixelResidual<N>(camera, depth * plane.homogeneous(), nullptr, pixel, residual,
+                             &jacobian)) {
           sum.noalias() += jacobian.transpose() * jacobian;
         }
       }
     }
   }
-  const double focal = camera.Focal();
-  return sum * (focal * focal / (kColumns * kRows * static_cast<double>(depths.size())));
+  return sum / (kColumns * kRows * static_cast<double>(depths.size()));
+}
+
+// The squared error is d' M d, where d has the covariance. In axes in which the covariance becomes
+// the identity and M is diagonal, it is a sum of squares.
+template <int N>
+RegistrationVariance VarianceOf(const CameraModel& camera, const PoseEvidence& evidence) {
+  const Eigen::SelfAdjointEigenSolver<JointMatrix<N>> covariance(
+      evidence.covariance.topLeftCorner<N, N>());
+  const JointMatrix<N> root =
+      covariance.eigenvectors() *
+      covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
+  const JointMatrix<N> turned =
+      root.transpose() * MeanSquareOfMotion<N>(camera, evidence.depths) * root;
+  const Eigen::SelfAdjointEigenSolver<JointMatrix<N>> parts(turned, Eigen::EigenvaluesOnly);
+  RegistrationVariance variance;
+  for (int i = 0; i < N; ++i) {
+    variance.parts[i] = std::max(parts.eigenvalues()[N - 1 - i], 0.0);
+  }
+  return variance;
 }
 
 }  // namespace
@@ -86,19 +105,10 @@ double RegistrationVariance::Sum() const {
 
 RegistrationVariance ComputeRegistrationVariance(const CameraModel& camera,
                                                  const PoseEvidence& evidence) {
-  // The squared error is d' M d, where d has the pose's covariance. In axes in which the covariance
-  // becomes the identity and M is diagonal, it is a sum of squares.
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> covariance(evidence.covariance);
-  const Matrix6d root =
-      covariance.eigenvectors() *
-      covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
-  const Matrix6d turned = root.transpose() * MeanSquareOfMotion(camera, evidence.depths) * root;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> parts(turned, Eigen::EigenvaluesOnly);
-  RegistrationVariance variance;
-  for (int i = 0; i < 6; ++i) {
-    variance.parts[i] = std::max(parts.eigenvalues()[5 - i], 0.0);
-  }
-  return variance;
+  // A readout time does not move the middle of the image, to which the pose belongs.
+  return evidence.covariance(6 + kFocal, 6 + kFocal) == 0.0
+             ? VarianceOf<6>(camera, evidence)
+             : VarianceOf<kMostJoint>(camera, evidence);
 }
 
 // The sum of squares is approximated by a multiple of a chi-square distribution with h degrees of

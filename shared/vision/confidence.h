@@ -6,14 +6,15 @@
 #include <array>
 
 #include "shared/geometry/camera_model.h"
-#include "shared/vision/pose_refinement.h"
+#include "shared/vision/camera_estimate.h"
 
 namespace lararium::vision {
 
 // The results of pose refinement from which the confidence is computed.
 struct PoseEvidence {
-  // Covariance of (w, v) in the pose (exp(w) R, exp(w) t + v); radians and map units.
-  Matrix6d covariance = Matrix6d::Zero();
+  // Covariance of (w, v) in the pose (exp(w) R, exp(w) t + v), radians and map units, and of the
+  // camera's parameters.
+  JointMatrix<kMostJoint> covariance = JointMatrix<kMostJoint>::Zero();
   // Representative depths of the visible points, map units: nearer, middle, farther.
   std::array<double, 3> depths = {1.0, 1.0, 1.0};
   int inliers = 0;
@@ -23,7 +24,7 @@ struct PoseEvidence {
 // depths. The squared error is distributed as the sum of the squares of independent normal
 // variables with the variances `parts`.
 struct RegistrationVariance {
-  std::array<double, 6> parts = {};  // Square pixels, in descending order.
+  std::array<double, kMostJoint> parts = {};  // Square pixels, in descending order.
   double Sum() const;
 };
 RegistrationVariance ComputeRegistrationVariance(const geometry::CameraModel& camera,

@@ -29,7 +29,8 @@ void ExposureModel::SetPose(const geometry::Rigid3& camera_from_map) {
   // motion_ is the velocity half a frame ago; extrapolates it to the time of this image.
   const Vector6d acceleration =
       motion_before_ ? Vector6d(motion_ - *motion_before_) : Vector6d::Zero();
-  exposure_.velocity = ExpMotion(motion_ + 0.5 * acceleration);
+  exposure_.during_frame = motion_ + 0.5 * acceleration;
+  exposure_.velocity = ExpMotion(exposure_.during_frame);
   exposure_.acceleration = ExpMotion(acceleration);
 }
 

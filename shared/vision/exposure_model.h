@@ -15,6 +15,7 @@ struct ExposureMotion {
   // by its acceleration.
   geometry::Rigid3 velocity;
   geometry::Rigid3 acceleration;
+  Vector6d during_frame = Vector6d::Zero();  // The velocity as (w, v).
   double shutter = 0.3;  // Share of the frame time for which the shutter is open.
 };
 

@@ -108,7 +108,8 @@ Eigen::Vector3d TrackedMap::PlaneAt(uint32_t keyframe, uint32_t point) const {
       db.keyframes[keyframe].camera_from_map * db.points[point].cast<double>();
   const double focal = db.camera.Focal();
   const Eigen::Vector2d plane = p.hnormalized();
-  const Eigen::Vector2d pixel = db.camera.PixelFromPlane(plane);
+  const Eigen::Vector2d pixel = db.PixelIn(keyframe, db.points[point].cast<double>())
+                                    .value_or(db.camera.PixelFromPlane(plane));
   const double inverse = 1.0 / p.z();
 
   struct Neighbour {

@@ -1,5 +1,6 @@
 #include "shared/vision/localizer.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "shared/core/parallel.h"
 #include "shared/geometry/p3p.h"
+#include "shared/geometry/radial_pose.h"
 
 namespace lararium::vision {
 namespace {
@@ -21,8 +23,9 @@ constexpr size_t kLeastMatches = 6;    // Below this number, agreement proves no
 constexpr size_t kFirstQueries = 400;  // Number of features that are searched first.
 constexpr int kPlentyOfInliers = 50;   // Enough inliers to skip the search for the other features.
 constexpr double kGuidedRadiusPx = 3.0;
-constexpr double kSample = 3.0;            // Number of matches that determine a pose.
-constexpr double kPosesOfSample = 4.0;     // Maximum number of P3P solutions.
+constexpr size_t kSample = 3;              // Number of matches that determine a pose.
+constexpr size_t kCameraSample = 5;        // The same with an unknown focal length and distortion.
+constexpr double kPosesOfSample = 4.0;     // Maximum number of solutions of a sample.
 constexpr double kMostFalseAlarms = 1e-6;  // Expected number of accidental poses per image.
 constexpr float kSpotPx = 8.0f;            // Matches in one cell of this size count once.
 constexpr double kLargestErrorPx = 5.0;    // Largest expected error of an accepted pose.
@@ -89,8 +92,10 @@ Localizer::Localizer(const SceneDatabase& database, const LocalizerOptions& opti
   }
 }
 
-Location Localizer::Locate(const Features& features, const CameraModel& camera) {
+Location Localizer::Locate(const Features& features, const CameraGuess& guess) {
+  const CameraModel& camera = guess.prior.model;
   Location location;
+  location.camera = guess.prior;
   points_.clear();
   location.reason = TrackReason::kTooFewFeatures;
   if (features.size() < static_cast<size_t>(options_.min_inliers)) {
@@ -106,11 +111,12 @@ Location Localizer::Locate(const Features& features, const CameraModel& camera) 
   found_.assign(features.size(), std::nullopt);
   const size_t first = std::min(kFirstQueries, queries_.size());
   SearchMatches(features, 0, first);
-  bool located = LocateFromMatches(features, camera, location);
+  bool located = LocateFromMatches(features, guess, location);
   if (first < queries_.size() && (!located || location.inliers < kPlentyOfInliers)) {
     SearchMatches(features, first, queries_.size());
     Location full;
-    located = LocateFromMatches(features, camera, full);
+    full.camera = guess.prior;
+    located = LocateFromMatches(features, guess, full);
     if (located || !location.camera_from_map) {
       location = full;
     }
@@ -119,8 +125,9 @@ Location Localizer::Locate(const Features& features, const CameraModel& camera) 
 }
 
 bool Localizer::LocateFromMatches(const Features& features,
-                                  const CameraModel& camera,
+                                  const CameraGuess& guess,
                                   Location& location) {
+  const bool known = guess.prior.Unknown() <= kShutterParameters;
   location.matches = static_cast<int>(matches_.size());
   location.reason = TrackReason::kTooFewMatches;
   if (matches_.size() < kLeastMatches) {
@@ -128,23 +135,61 @@ bool Localizer::LocateFromMatches(const Features& features,
   }
   location.reason = TrackReason::kNoConsistentPose;
   FillPoseMatches(features, matches_);
-  const std::optional<Rigid3> first = FindPose(camera);
-  if (!first) {
+  if (known) {
+    const std::optional<Rigid3> first = FindPose(guess.prior.model);
+    if (!first) {
+      return false;
+    }
+    posed_ = {*first, guess.prior};
+  } else {
+    const std::optional<PosedCamera> first = FindPosedCamera(guess);
+    if (!first) {
+      return false;
+    }
+    posed_ = *first;
+  }
+  Refine(guess);
+  if (inliers_->size() < kLeastMatches || !posed_.camera.model.Validate().ok() ||
+      !IsNoAccident(features, guess)) {
     return false;
   }
-  const RefinementOptions refinement{camera.Focal(), options_.inlier_threshold_px};
-  refiner_.Refine(pose_matches_, refinement, *first, refined_);
-  if (refined_.inliers.size() < kLeastMatches || !IsNoAccident(features, camera)) {
-    return false;
-  }
-  guided_.Match(camera, refined_.camera_from_map, features, kGuidedRadiusPx, guided_matches_);
+  guided_.Match(posed_.camera.model, posed_.camera_from_map, features, kGuidedRadiusPx,
+                guided_matches_);
   FillPoseMatches(features, guided_matches_);
-  refiner_.Refine(pose_matches_, refinement, refined_.camera_from_map, refined_);
-  if (!Judge(camera, location)) {
+  Refine(guess);
+  if (!posed_.camera.model.Validate().ok() || !Judge(guess, location)) {
     return false;
   }
   FillPoints(features);
   return true;
+}
+
+void Localizer::Refine(const CameraGuess& guess) {
+  if (guess.prior.Unknown() <= kShutterParameters) {
+    refiner_.Refine(pose_matches_, {guess.prior.model.Focal(), options_.inlier_threshold_px},
+                    posed_.camera_from_map, refined_);
+    posed_.camera_from_map = refined_.camera_from_map;
+    inliers_ = &refined_.inliers;
+    noise_px_ = refined_.noise_px;
+  } else {
+    camera_refiner_.Refine(pose_matches_, options_.inlier_threshold_px, posed_, guess.prior,
+                           refined_camera_);
+    posed_ = refined_camera_.posed;
+    inliers_ = &refined_camera_.inliers;
+    noise_px_ = refined_camera_.noise_px;
+  }
+}
+
+// The covariance of the pose and the camera, errors that matches share included.
+JointMatrix<kMostJoint> Localizer::Covariance(const CameraGuess& guess) const {
+  const double effect = DesignEffect(noise_px_, static_cast<int>(inliers_->size()));
+  if (guess.prior.Unknown() <= kShutterParameters) {
+    return WithKnownCamera(effect * refined_.covariance);
+  }
+  JointMatrix<kMostJoint> information =
+      refined_camera_.information / (effect * noise_px_ * noise_px_);
+  information.bottomRightCorner<kCameraParameters, kCameraParameters>() += Information(guess.prior);
+  return information.inverse();
 }
 
 // Orders the features by their rank within their tile: first the strongest feature of every tile,
@@ -174,7 +219,9 @@ void Localizer::OrderQueries(const Features& features) {
 // Monasse & Marlet, "Adaptive structure from motion with a contrario model estimation", ACCV 2012).
 // A random match puts its point at a random feature of the image, so accidental agreement is more
 // probable where features are dense. Matches at the same spot count once.
-bool Localizer::IsNoAccident(const Features& features, const CameraModel& camera) {
+bool Localizer::IsNoAccident(const Features& features, const CameraGuess& guess) {
+  const CameraModel& camera = guess.prior.model;
+  const double sample = guess.prior.Unknown() <= kShutterParameters ? kSample : kCameraSample;
   // The largest residual that an uncertain inlier may have; see SelectInliers.
   const double radius = 2.0 * options_.inlier_threshold_px;
   const TileGrid grid(features);
@@ -184,7 +231,7 @@ bool Localizer::IsNoAccident(const Features& features, const CameraModel& camera
   }
   spots_.clear();
   double log_chance = 0.0;
-  for (const uint32_t i : refined_.inliers) {
+  for (const uint32_t i : *inliers_) {
     const Keypoint& keypoint = features.keypoints[matches_[i].feature];
     const auto column = static_cast<uint32_t>(std::max(keypoint.x, 0.0f) / kSpotPx);
     const auto row = static_cast<uint32_t>(std::max(keypoint.y, 0.0f) / kSpotPx);
@@ -202,32 +249,36 @@ bool Localizer::IsNoAccident(const Features& features, const CameraModel& camera
   const auto k = static_cast<double>(spots_.size());
   // Inliers that share a spot with another inlier are not counted as matches either.
   const double n = static_cast<double>(matches_.size()) - (inliers - k);
-  if (k <= kSample) {
+  if (k <= sample) {
     return false;
   }
   const auto log_choose = [](double from, double count) {
     return std::lgamma(from + 1.0) - std::lgamma(count + 1.0) - std::lgamma(from - count + 1.0);
   };
   const double log_tests =
-      std::log(kPosesOfSample * (n - kSample)) + log_choose(n, k) + log_choose(k, kSample);
-  return log_tests + (k - kSample) * log_chance < std::log(kMostFalseAlarms);
+      std::log(kPosesOfSample * (n - sample)) + log_choose(n, k) + log_choose(k, sample);
+  return log_tests + (k - sample) * log_chance < std::log(kMostFalseAlarms);
 }
 
-bool Localizer::Judge(const CameraModel& camera, Location& location) {
-  location.inliers = static_cast<int>(refined_.inliers.size());
+bool Localizer::Judge(const CameraGuess& guess, Location& location) {
+  location.inliers = static_cast<int>(inliers_->size());
   if (location.inliers < options_.min_inliers) {
     return false;
   }
-  const Matrix6d covariance =
-      DesignEffect(refined_.noise_px, location.inliers) * refined_.covariance;
+  const CameraModel& camera = posed_.camera.model;
   const PoseEvidence evidence{
-      .covariance = covariance, .depths = Depths(), .inliers = location.inliers};
+      .covariance = Covariance(guess), .depths = Depths(), .inliers = location.inliers};
   const double error = std::sqrt(ComputeRegistrationVariance(camera, evidence).Sum());
   if (!(error < kLargestErrorPx)) {
     return false;
   }
-  location.camera_from_map = refined_.camera_from_map;
-  location.covariance = covariance;
+  location.camera_from_map = posed_.camera_from_map;
+  location.camera = posed_.camera;
+  if (guess.prior.Unknown() > kShutterParameters) {
+    location.camera.covariance =
+        evidence.covariance.bottomRightCorner<kCameraParameters, kCameraParameters>();
+  }
+  location.covariance = evidence.covariance.topLeftCorner<6, 6>();
   location.reason = TrackReason::kNone;
   location.expected_error_px = error;
   location.confidence = static_cast<float>(PoseConfidence(camera, evidence));
@@ -236,11 +287,11 @@ bool Localizer::Judge(const CameraModel& camera, Location& location) {
 
 void Localizer::FillPoints(const Features& features) {
   points_.clear();
-  for (const uint32_t i : refined_.inliers) {
+  for (const uint32_t i : *inliers_) {
     const FeatureMatch& match = guided_matches_[i];
     const Keypoint& keypoint = features.keypoints[match.feature];
-    const double sigma = refined_.noise_px * SigmaOf(keypoint, match.squared_distance,
-                                                     database_.observation_counts[match.point]);
+    const double sigma = noise_px_ * SigmaOf(keypoint, match.squared_distance,
+                                             database_.observation_counts[match.point]);
     points_.push_back({match.point, static_cast<float>(sigma), {keypoint.x, keypoint.y}});
   }
   std::sort(points_.begin(), points_.end(), [](const LocatedPoint& a, const LocatedPoint& b) {
@@ -252,9 +303,11 @@ template <typename M>
 void Localizer::FillPoseMatches(const Features& features, const std::vector<M>& matches) {
   pose_matches_.clear();
   for (const FeatureMatch& match : matches) {
-    pose_matches_.push_back({database_.points[match.point].cast<double>(), planes_[match.feature],
-                             SigmaOf(features.keypoints[match.feature], match.squared_distance,
-                                     database_.observation_counts[match.point])});
+    const Keypoint& keypoint = features.keypoints[match.feature];
+    pose_matches_.push_back(
+        {database_.points[match.point].cast<double>(), planes_[match.feature],
+         SigmaOf(keypoint, match.squared_distance, database_.observation_counts[match.point]),
+         Eigen::Vector2d(keypoint.x, keypoint.y)});
   }
 }
 
@@ -318,23 +371,31 @@ void Localizer::KeepBestOfEachPoint() {
   }
 }
 
+// The first samples are drawn from the most distinctive matches, later ones from a growing pool
+// (after Chum & Matas, "Matching with PROSAC", CVPR 2005).
+template <size_t N>
+std::array<const PoseMatch*, N> Localizer::DrawSample(uint32_t sample, Random& random) const {
+  constexpr uint32_t kFirstPool = 12;
+  const auto count = static_cast<uint32_t>(matches_.size());
+  const uint32_t grown = kFirstPool + 4 * count * sample / (3 * options_.hypotheses);
+  const uint32_t pool = std::min(grown, count);
+  std::array<const PoseMatch*, N> drawn;
+  for (const PoseMatch*& match : drawn) {
+    match = &pose_matches_[random.Below(pool)];
+  }
+  return drawn;
+}
+
 std::optional<Rigid3> Localizer::FindPose(const CameraModel& camera) {
   using Pose = Eigen::Matrix<double, 3, 4>;
-  const auto count = static_cast<uint32_t>(matches_.size());
-  // The first samples are drawn from the most distinctive matches, later ones from a growing pool
-  // (after Chum & Matas, "Matching with PROSAC", CVPR 2005).
-  constexpr uint32_t kFirstPool = 12;
   uint32_t samples = 0;
   const auto generate = [&](Random& random, std::vector<Pose>& poses) {
-    const uint32_t grown = kFirstPool + 4 * count * samples / (3 * options_.hypotheses);
-    const uint32_t pool = std::min(grown, count);
-    ++samples;
+    const auto drawn = DrawSample<kSample>(samples++, random);
     std::array<Eigen::Vector3d, 3> rays;
     std::array<Eigen::Vector3d, 3> points;
-    for (int i = 0; i < 3; ++i) {
-      const PoseMatch& match = pose_matches_[random.Below(pool)];
-      rays[i] = match.plane.homogeneous().normalized();
-      points[i] = match.point;
+    for (size_t i = 0; i < kSample; ++i) {
+      rays[i] = drawn[i]->plane.homogeneous().normalized();
+      points[i] = drawn[i]->point;
     }
     const geometry::P3pSolutions solutions = geometry::SolveP3p(rays, points);
     for (const Rigid3& pose : solutions.poses()) {
@@ -354,7 +415,7 @@ std::optional<Rigid3> Localizer::FindPose(const CameraModel& camera) {
   };
   const geometry::PreemptiveRansacOptions ransac_options{.hypotheses = options_.hypotheses,
                                                          .seed = options_.seed};
-  const auto winner = ransac_.Run(count, ransac_options, generate, cost);
+  const auto winner = ransac_.Run(matches_.size(), ransac_options, generate, cost);
   if (!winner) {
     return std::nullopt;
   }
@@ -362,11 +423,79 @@ std::optional<Rigid3> Localizer::FindPose(const CameraModel& camera) {
   return Rigid3::FromMatrix(pose.leftCols<3>(), pose.col(3));
 }
 
+// The pose of a camera of unknown focal length and distortion. Half of the samples suppose one of
+// the candidates; the others, of five matches, suppose nothing.
+std::optional<PosedCamera> Localizer::FindPosedCamera(const CameraGuess& guess) {
+  const CameraModel& model = guess.prior.model;
+  const Eigen::Vector2d middle(model.cx, model.cy);
+  const double half_size = 0.5 * std::max(model.width, model.height);
+  uint32_t samples = 0;
+  const auto suppose = [&](const CameraModel& candidate, Random& random,
+                           std::vector<SeenPose>& poses) {
+    const auto drawn = DrawSample<kSample>(samples, random);
+    std::array<Eigen::Vector3d, 3> rays;
+    std::array<Eigen::Vector3d, 3> points;
+    for (size_t i = 0; i < kSample; ++i) {
+      rays[i] = candidate.PlaneFromPixel(drawn[i]->pixel).homogeneous().normalized();
+      points[i] = drawn[i]->point;
+    }
+    const double focal = candidate.Focal();
+    const geometry::P3pSolutions solutions = geometry::SolveP3p(rays, points);
+    for (const Rigid3& pose : solutions.poses()) {
+      poses.push_back({pose.Matrix3x4(), focal, candidate.k1 / (focal * focal)});
+    }
+  };
+  const auto generate = [&](Random& random, std::vector<SeenPose>& poses) {
+    const size_t pick = samples / 2;
+    if (samples % 2 == 0 && !guess.candidates.empty()) {
+      suppose(guess.candidates[pick % guess.candidates.size()], random, poses);
+    } else {
+      const auto drawn = DrawSample<kCameraSample>(samples, random);
+      std::array<Eigen::Vector2d, kCameraSample> pixels;
+      std::array<Eigen::Vector3d, kCameraSample> points;
+      for (size_t i = 0; i < kCameraSample; ++i) {
+        pixels[i] = drawn[i]->pixel - middle;
+        points[i] = drawn[i]->point;
+      }
+      const geometry::RadialPoseSolutions solutions =
+          geometry::SolveRadialPose(pixels, points, half_size);
+      for (const geometry::RadialPose& found : solutions.all()) {
+        poses.push_back({found.camera_from_world.Matrix3x4(), found.focal, found.division});
+      }
+    }
+    ++samples;
+  };
+  const double limit = std::pow(2.0 * options_.inlier_threshold_px, 2);
+  const auto cost = [&](const SeenPose& seen, uint32_t i) {
+    const PoseMatch& match = pose_matches_[i];
+    const Eigen::Vector3d p = seen.pose.leftCols<3>() * match.point + seen.pose.col(3);
+    if (p.z() <= 0.0) {
+      return limit;
+    }
+    const Eigen::Vector2d pixel = match.pixel - middle;
+    const double stretch = 1.0 / (1.0 + seen.division * pixel.squaredNorm());
+    const double square = (seen.focal * p.hnormalized() - stretch * pixel).squaredNorm();
+    return std::min(square, limit);
+  };
+  const geometry::PreemptiveRansacOptions ransac_options{.hypotheses = 2 * options_.hypotheses,
+                                                         .seed = options_.seed};
+  const auto winner = camera_ransac_.Run(matches_.size(), ransac_options, generate, cost);
+  if (!winner) {
+    return std::nullopt;
+  }
+  PosedCamera posed{Rigid3::FromMatrix(winner->pose.leftCols<3>(), winner->pose.col(3)),
+                    guess.prior};
+  posed.camera.model.fx = posed.camera.model.fy = winner->focal;
+  posed.camera.model.k1 = winner->division * winner->focal * winner->focal;
+  posed.camera.model.k2 = posed.camera.model.p1 = posed.camera.model.p2 = 0.0;
+  return posed;
+}
+
 // Quartiles of the inliers' depths.
 std::array<double, 3> Localizer::Depths() {
   depths_.clear();
-  for (const uint32_t i : refined_.inliers) {
-    depths_.push_back((refined_.camera_from_map * pose_matches_[i].point).z());
+  for (const uint32_t i : *inliers_) {
+    depths_.push_back((posed_.camera_from_map * pose_matches_[i].point).z());
   }
   std::sort(depths_.begin(), depths_.end());
   return {depths_[depths_.size() / 4], depths_[depths_.size() / 2],

@@ -10,9 +10,12 @@
 #include <span>
 #include <vector>
 
+#include "shared/core/random.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/preemptive_ransac.h"
 #include "shared/geometry/transform.h"
+#include "shared/vision/camera_estimate.h"
+#include "shared/vision/camera_refinement.h"
 #include "shared/vision/confidence.h"
 #include "shared/vision/descriptor_forest.h"
 #include "shared/vision/features.h"
@@ -32,8 +35,17 @@ struct LocalizerOptions {
   uint64_t seed = 1;
 };
 
+// What is known of the camera that took an image.
+struct CameraGuess {
+  // All is known if the covariance is zero; otherwise the intrinsics are estimated with the pose.
+  CameraEstimate prior;
+  // Cameras that may have taken the image, if not all is known. They only propose poses.
+  std::vector<geometry::CameraModel> candidates = {};
+};
+
 struct Location {
   std::optional<geometry::Rigid3> camera_from_map;
+  CameraEstimate camera;                    // The given one, or as estimated with the pose.
   TrackReason reason = TrackReason::kNone;  // Why there is no pose.
   int matches = 0;                          // Number of matches found without a prior.
   int inliers = 0;                          // Number of inliers after guided matching.
@@ -58,13 +70,23 @@ class Localizer {
   Localizer(const SceneDatabase& database, const LocalizerOptions& options);
 
   // Deterministic: the same features give the same pose, independent of earlier calls.
-  Location Locate(const Features& features, const geometry::CameraModel& camera);
+  Location Locate(const Features& features, const CameraGuess& guess);
+  Location Locate(const Features& features, const geometry::CameraModel& camera) {
+    return Locate(features, CameraGuess{ExactCamera(camera)});
+  }
 
   // The points that support the last location, the most accurate first; empty without a pose.
   std::span<const LocatedPoint> points() const { return points_; }
 
  private:
   static constexpr uint32_t kNoMatch = 0xffffffff;
+
+  // A pose with the focal length and the division of geometry::RadialPose.
+  struct SeenPose {
+    Eigen::Matrix<double, 3, 4> pose;
+    double focal = 0.0;
+    double division = 0.0;
+  };
 
   struct Match : FeatureMatch {
     float ratio = 1.0f;  // Squared distance over that of the nearest other point.
@@ -74,10 +96,11 @@ class Localizer {
   // Searches for the features queries_[begin, end) and rebuilds matches_ from all that were found.
   void SearchMatches(const Features& features, size_t begin, size_t end);
   // Estimates the pose from matches_. Returns whether there is a pose.
-  bool LocateFromMatches(const Features& features,
-                         const geometry::CameraModel& camera,
-                         Location& location);
-  bool IsNoAccident(const Features& features, const geometry::CameraModel& camera);
+  bool LocateFromMatches(const Features& features, const CameraGuess& guess, Location& location);
+  // Refines the pose of pose_matches_, and with it the camera unless it is known. Fills in
+  // inliers_, noise_px_ and posed_.
+  void Refine(const CameraGuess& guess);
+  bool IsNoAccident(const Features& features, const CameraGuess& guess);
   std::optional<Match> SearchMatch(const Features& features,
                                    uint32_t feature,
                                    ForestSearcher& searcher) const;
@@ -85,8 +108,13 @@ class Localizer {
   template <typename M>
   void FillPoseMatches(const Features& features, const std::vector<M>& matches);
   std::optional<geometry::Rigid3> FindPose(const geometry::CameraModel& camera);
+  std::optional<PosedCamera> FindPosedCamera(const CameraGuess& guess);
+  // Draws the matches of one sample, first the most distinctive ones.
+  template <size_t N>
+  std::array<const PoseMatch*, N> DrawSample(uint32_t sample, Random& random) const;
+  JointMatrix<kMostJoint> Covariance(const CameraGuess& guess) const;
   std::array<double, 3> Depths();
-  bool Judge(const geometry::CameraModel& camera, Location& location);
+  bool Judge(const CameraGuess& guess, Location& location);
   void FillPoints(const Features& features);
 
   const SceneDatabase& database_;
@@ -107,6 +135,12 @@ class Localizer {
   geometry::PreemptiveRansac<Eigen::Matrix<double, 3, 4>> ransac_;
   PoseRefiner refiner_;
   RefinedPose refined_;
+  geometry::PreemptiveRansac<SeenPose> camera_ransac_;
+  CameraRefiner camera_refiner_;
+  RefinedCamera refined_camera_;
+  PosedCamera posed_;
+  const std::vector<uint32_t>* inliers_ = nullptr;  // Indices into pose_matches_.
+  double noise_px_ = 0.0;                           // See RefinedPose.
   std::vector<LocatedPoint> points_;
   std::vector<double> depths_;
   std::vector<uint32_t> spots_;  // [inliers]: Key of the image cell that holds the inlier.

@@ -35,21 +35,21 @@ MapLocator::MapLocator(std::span<const std::shared_ptr<const SceneDatabase>> map
   }
 }
 
-Located MapLocator::Locate(const Features& features, const geometry::CameraModel& camera) {
+Located MapLocator::Locate(const Features& features, const CameraGuess& guess) {
   if (maps_.size() == 1) {
-    return {0, maps_[0].localizer->Locate(features, camera)};
+    return {0, maps_[0].localizer->Locate(features, guess)};
   }
   ChooseProbes(features);
   SearchProbes(features);
   CountVotes();
   const size_t tried = std::min(kMostTried, ranking_.size());
-  Located likeliest{ranking_[0], maps_[ranking_[0]].localizer->Locate(features, camera)};
+  Located likeliest{ranking_[0], maps_[ranking_[0]].localizer->Locate(features, guess)};
   for (size_t i = 1; i < tried && !likeliest.location.camera_from_map; ++i) {
     const uint32_t map = ranking_[i];
     if (votes_[map] == 0) {
       break;
     }
-    const Location location = maps_[map].localizer->Locate(features, camera);
+    const Location location = maps_[map].localizer->Locate(features, guess);
     if (location.camera_from_map) {
       return {map, location};
     }

@@ -29,7 +29,7 @@ class MapLocator {
 
   // Deterministic: the same features give the same result, independent of earlier calls and of the
   // number of threads. With a single map this is Localizer::Locate.
-  Located Locate(const Features& features, const geometry::CameraModel& camera);
+  Located Locate(const Features& features, const CameraGuess& guess);
   // Localizer::points of the last location. map must be the map of that location.
   std::span<const LocatedPoint> points(uint32_t map) const {
     return maps_[map].localizer->points();

@@ -18,14 +18,16 @@ constexpr size_t kSampleMost = 512;        // Maximum number of squares sampled 
 
 // Computes the matches' points in the camera frame and the squares of their whitened residuals,
 // which are infinite behind the camera.
-void FindSquares(std::span<const PatchMatch> matches, PatchPose& pose) {
-  const Eigen::Matrix3d rotation = pose.camera_from_map.rotation.toRotationMatrix();
-  const Eigen::Vector3d& translation = pose.camera_from_map.translation;
+template <int N>
+void FindSquares(std::span<const PatchMatch> matches, FrameMotion motion, PatchPose& pose) {
+  const Rigid3& camera_from_map = pose.posed.camera_from_map;
+  const Eigen::Matrix3d rotation = camera_from_map.rotation.toRotationMatrix();
   for (size_t i = 0; i < matches.size(); ++i) {
     pose.in_camera[i].noalias() = rotation * matches[i].point;
-    pose.in_camera[i] += translation;
+    pose.in_camera[i] += camera_from_map.translation;
     Eigen::Vector2d residual;
-    const bool seen = PlaneResidual(pose.in_camera[i], matches[i].plane, residual, nullptr);
+    const bool seen = PixelResidual<N>(pose.posed.camera, pose.in_camera[i], motion,
+                                       matches[i].pixel, residual, nullptr);
     pose.squares[i] = seen ? (matches[i].whitening * residual).squaredNorm()
                            : std::numeric_limits<double>::infinity();
   }
@@ -45,46 +47,48 @@ double ScaleOf(std::span<const double> squares) {
   return std::sqrt(*middle / (2.0 * std::log(2.0)));
 }
 
-}  // namespace
-
-bool EstimatePatchPose(std::span<const PatchMatch> matches,
-                       const Rigid3& start,
-                       double least_scale,
-                       PatchPose& pose) {
-  pose.camera_from_map = start;
-  pose.squares.resize(matches.size());
-  pose.in_camera.resize(matches.size());
-  pose.inliers = 0;
-  pose.covariance.setZero();
-  if (matches.size() < 4) {
-    return false;
-  }
-  Matrix6d information;
+// Estimates the pose and the first N - 6 parameters of the camera.
+template <int N>
+bool Estimate(std::span<const PatchMatch> matches,
+              const CameraPrior& prior,
+              double least_scale,
+              PatchPose& pose) {
+  const CameraMatrix prior_information = Information(prior.camera);
+  JointMatrix<N> information;
   for (int iteration = 0;; ++iteration) {
-    FindSquares(matches, pose);
+    FindSquares<N>(matches, prior.motion, pose);
     pose.scale = std::max(ScaleOf(pose.squares), least_scale);
     if (!std::isfinite(pose.scale)) {
       return false;
     }
     const double limit = kTukey2 * pose.scale * pose.scale;
     information.setZero();
-    Vector6d right = Vector6d::Zero();
+    JointVector<N> right = JointVector<N>::Zero();
     for (size_t i = 0; i < matches.size(); ++i) {
       if (pose.squares[i] >= limit) {
         continue;
       }
       Eigen::Vector2d residual;
-      Matrix26d jacobian;
-      PlaneResidual(pose.in_camera[i], matches[i].plane, residual, &jacobian);
+      Eigen::Matrix<double, 2, N> jacobian;
+      PixelResidual<N>(pose.posed.camera, pose.in_camera[i], prior.motion, matches[i].pixel,
+                       residual, &jacobian);
       const double root = 1.0 - pose.squares[i] / limit;
       const Eigen::Matrix2d whitening = root * matches[i].whitening;
-      const Matrix26d whitened = whitening * jacobian;
+      const Eigen::Matrix<double, 2, N> whitened = whitening * jacobian;
       information.noalias() += whitened.transpose() * whitened;
       right.noalias() -= whitened.transpose() * (whitening * residual);
     }
-    Matrix6d damped = information;
+    if constexpr (N > 6) {
+      const double weight = prior.shared_errors * pose.scale * pose.scale;
+      const CameraVector off = Difference(prior.camera, pose.posed.camera);
+      information.template bottomRightCorner<N - 6, N - 6>() +=
+          weight * prior_information.topLeftCorner<N - 6, N - 6>();
+      right.template tail<N - 6>() -=
+          weight * (prior_information.topLeftCorner<N - 6, N - 6>() * off.head<N - 6>());
+    }
+    JointMatrix<N> damped = information;
     damped.diagonal() *= 1.0 + 1e-9;
-    const Vector6d step = damped.ldlt().solve(right);
+    const JointVector<N> step = damped.ldlt().solve(right);
     if (!step.allFinite()) {
       return false;
     }
@@ -93,19 +97,46 @@ bool EstimatePatchPose(std::span<const PatchMatch> matches,
     if (converged || iteration >= kPoseIterations) {
       break;
     }
-    pose.camera_from_map = Moved(pose.camera_from_map, step);
+    pose.posed.camera_from_map = Moved(pose.posed.camera_from_map, step.template head<6>());
+    if constexpr (N > 6) {
+      CameraVector change = CameraVector::Zero();
+      change.head<N - 6>() = step.template tail<N - 6>();
+      pose.posed.camera = Changed(pose.posed.camera, change);
+    }
   }
   const double scale2 = pose.scale * pose.scale;
   for (double& square : pose.squares) {
     square /= scale2;
     pose.inliers += square < kInlierSquare ? 1 : 0;
   }
-  const Matrix6d inverse = information.inverse();
+  const JointMatrix<N> inverse = information.inverse();
   if (!inverse.allFinite()) {
     return false;
   }
-  pose.covariance = scale2 * inverse;
+  pose.covariance.topLeftCorner<N, N>() = prior.shared_errors * scale2 * inverse;
   return true;
+}
+
+}  // namespace
+
+bool EstimatePatchPose(std::span<const PatchMatch> matches,
+                       const CameraPrior& prior,
+                       const PosedCamera& start,
+                       double least_scale,
+                       PatchPose& pose) {
+  pose.posed = start;
+  pose.squares.resize(matches.size());
+  pose.in_camera.resize(matches.size());
+  pose.inliers = 0;
+  pose.covariance.setZero();
+  if (matches.size() < 4) {
+    return false;
+  }
+  const int unknown = prior.camera.Unknown();
+  return unknown == 0 ? Estimate<6>(matches, prior, least_scale, pose)
+         : unknown <= kShutterParameters
+             ? Estimate<6 + kShutterParameters>(matches, prior, least_scale, pose)
+             : Estimate<kMostJoint>(matches, prior, least_scale, pose);
 }
 
 }  // namespace lararium::vision

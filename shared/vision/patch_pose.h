@@ -8,23 +8,34 @@
 #include <vector>
 
 #include "shared/geometry/transform.h"
+#include "shared/vision/camera_estimate.h"
 #include "shared/vision/pose_refinement.h"
 
 namespace lararium::vision {
 
 struct PatchMatch {
   Eigen::Vector3d point;  // Map frame.
-  Eigen::Vector2d plane;  // Measured position on the camera's plane z = 1.
-  // W such that W^T W is the inverse covariance of `plane`, up to a factor common to all matches.
+  Eigen::Vector2d pixel;  // Measured position, raw pixel.
+  // W such that W^T W is the inverse covariance of `pixel`, up to a factor common to all matches.
   Eigen::Matrix2d whitening = Eigen::Matrix2d::Identity();
 };
 
+// What is known of the camera before the patches of an image are found.
+struct CameraPrior {
+  CameraEstimate camera;
+  FrameMotion motion = nullptr;  // Matters only for a rolling shutter.
+  // Factor on the covariance of the pose by the patches, for errors that they share; see
+  // PatchPose::covariance.
+  double shared_errors = 1.0;
+};
+
 struct PatchPose {
-  geometry::Rigid3 camera_from_map;
+  PosedCamera posed;            // The camera keeps the covariance of the prior.
   std::vector<double> squares;  // [matches]: Squared whitened residual over scale^2.
   int inliers = 0;              // Number of squares below kInlierSquare.
   double scale = 0.0;  // Robust standard deviation of the whitened residuals along one axis.
-  Matrix6d covariance = Matrix6d::Zero();  // Covariance of (w, v), without shared errors.
+  // Covariance of (w, v) and the camera's parameters, shared errors included.
+  JointMatrix<kMostJoint> covariance = JointMatrix<kMostJoint>::Zero();
   std::vector<Eigen::Vector3d> in_camera;  // [matches]: Points in the camera frame.
 };
 
@@ -32,10 +43,12 @@ struct PatchPose {
 inline constexpr double kInlierSquare = 9.21;
 
 // Iteratively reweighted Gauss-Newton with Tukey's loss, which gives outliers no weight. The scale
-// comes from the median of the whitened residuals and is at least least_scale. Reuses the memory of
+// comes from the median of the whitened residuals and is at least least_scale. Estimates also the
+// parameters of the camera that are not known. start may refer to pose.posed. Reuses the memory of
 // `pose`. Returns false with fewer than 4 matches or without a minimum.
 bool EstimatePatchPose(std::span<const PatchMatch> matches,
-                       const geometry::Rigid3& start,
+                       const CameraPrior& prior,
+                       const PosedCamera& start,
                        double least_scale,
                        PatchPose& pose);
 

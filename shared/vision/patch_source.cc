@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shared/vision/camera_estimate.h"
+
 namespace lararium::vision {
 namespace {
 
@@ -13,15 +15,8 @@ using geometry::Rigid3;
 
 // The derivative of the raw pixel by the position on the plane z = 1.
 Eigen::Matrix2d PixelFromPlaneSlope(const CameraModel& camera, const Eigen::Vector2d& plane) {
-  Eigen::Matrix2d slope = Eigen::Vector2d(camera.fx, camera.fy).asDiagonal();
-  if (camera.HasDistortion()) {
-    constexpr double kStep = 1e-4;
-    for (int i = 0; i < 2; ++i) {
-      const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(i);
-      slope.col(i) = (camera.PixelFromPlane(plane + step) - camera.PixelFromPlane(plane - step)) /
-                     (2.0 * kStep);
-    }
-  }
+  Eigen::Matrix2d slope;
+  camera.PixelFromPlane(plane, slope);
   return slope;
 }
 
@@ -40,6 +35,16 @@ float Unlike(const Rigid3& key_from_map,
   // A keyframe from farther away shows less detail and is penalised twice as much as a nearer one.
   const double scale = zoom > 0.0 ? 0.6 * zoom : -0.3 * zoom;
   return static_cast<float>(angle + scale);
+}
+
+// A plane n . p = 1 in the axes of another camera; nullopt if that one sees it edge-on or from
+// behind.
+std::optional<Eigen::Vector3d> MovedPlane(const Eigen::Vector3d& plane,
+                                          const Rigid3& other_from_this) {
+  // The points q = R p + t satisfy (R n) . (q - t) = 1.
+  const Eigen::Vector3d turned = other_from_this.rotation * plane;
+  const double distance = 1.0 + turned.dot(other_from_this.translation);
+  return distance > 1e-3 ? std::optional<Eigen::Vector3d>(turned / distance) : std::nullopt;
 }
 
 }  // namespace
@@ -69,17 +74,12 @@ const ImagePyramid& PatchSource::ImageOf(const SourcePatch& patch) const {
   return patch.source >= kFresh ? fresh_[patch.source - kFresh].image : map_->pyramid(patch.source);
 }
 
-const Rigid3& PatchSource::PoseOf(const SourcePatch& patch) const {
-  return patch.source >= kFresh ? fresh_[patch.source - kFresh].camera_from_map
-                                : map_->database().keyframes[patch.source].camera_from_map;
-}
-
 // Chooses the keyframe of a patch. Returns false if no keyframe is suitable. A fresh patch is kept
 // as long as its view is similar enough.
 bool PatchSource::ChooseKeyframe(const Rigid3& camera_from_map, SourcePatch& patch) const {
   constexpr float kMostUnlike = 0.8f;
   if (patch.source >= kFresh) {
-    return Unlike(PoseOf(patch), patch.point_in_map, camera_from_map) < kMostUnlike;
+    return Unlike(patch.source_from_map, patch.point_in_map, camera_from_map) < kMostUnlike;
   }
   const std::optional<uint32_t> best =
       MostSimilarKeyframe(patch.point, camera_from_map, kMostUnlike);
@@ -90,14 +90,21 @@ bool PatchSource::ChooseKeyframe(const Rigid3& camera_from_map, SourcePatch& pat
     return true;
   }
   const SceneDatabase& db = map_->database();
-  const Eigen::Vector3d p = db.keyframes[*best].camera_from_map * patch.point_in_map;
-  if (p.z() <= 0.0) {
+  const std::optional<Eigen::Vector2d> pixel = db.PixelIn(*best, patch.point_in_map);
+  if (!pixel) {
     return false;
   }
   patch.source = *best;
-  patch.key_plane = p.hnormalized();
-  patch.key_pixel = db.camera.PixelFromPlane(patch.key_plane);
-  patch.tangent = map_->PlaneAt(*best, patch.point);
+  patch.source_from_map = db.PoseAt(*best, *pixel);
+  patch.key_plane = (patch.source_from_map * patch.point_in_map).hnormalized();
+  patch.key_pixel = *pixel;
+  const auto tangent =
+      MovedPlane(map_->PlaneAt(*best, patch.point),
+                 patch.source_from_map * db.keyframes[*best].camera_from_map.Inverse());
+  if (!tangent) {
+    return false;
+  }
+  patch.tangent = *tangent;
   patch.plane_from_key_pixel = PixelFromPlaneSlope(db.camera, patch.key_plane).inverse();
   return HasRoomForPatch(db.camera, patch.key_pixel);
 }
@@ -129,16 +136,15 @@ bool PatchSource::ChooseFresh(uint32_t i, const LocatedPoint& located, SourcePat
   if (!keyframe) {
     return false;
   }
-  // The points p of the plane in the fresh camera's frame satisfy n . (R p + t) = 1.
-  const Rigid3 key_from_fresh =
-      map_->database().keyframes[*keyframe].camera_from_map * frame.camera_from_map.Inverse();
-  const Eigen::Vector3d n = map_->PlaneAt(*keyframe, patch.point);
-  const double distance = 1.0 - n.dot(key_from_fresh.translation);
-  if (!(distance > 1e-3)) {
-    return false;  // The surface is seen edge-on or from behind.
+  const auto tangent = MovedPlane(
+      map_->PlaneAt(*keyframe, patch.point),
+      frame.camera_from_map * map_->database().keyframes[*keyframe].camera_from_map.Inverse());
+  if (!tangent) {
+    return false;
   }
-  patch.tangent = key_from_fresh.rotation.conjugate() * n / distance;
+  patch.tangent = *tangent;
   patch.source = kFresh + i;
+  patch.source_from_map = frame.camera_from_map;
   patch.sigma_px = located.sigma_px;
   patch.key_pixel = located.pixel.cast<double>();
   patch.key_plane = frame.camera.PlaneFromPixel(patch.key_pixel);
@@ -176,13 +182,37 @@ bool PatchSource::View(const ExposedCamera& camera,
   if (model.FoldsBackAt(plane)) {
     return false;
   }
-  view.pixel = model.PixelFromPlane(plane);
+  Eigen::Matrix2d pixel_slope;
+  view.pixel = model.PixelFromPlane(plane, pixel_slope);
+  Eigen::Vector2d speed = Eigen::Vector2d::Zero();  // pixels per frame time
+  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();
+  if (camera.motion != nullptr) {
+    const auto shift = [&](const Rigid3& motion) -> Eigen::Vector2d {
+      const auto moved = model.Project(motion * p);
+      return moved ? Eigen::Vector2d(*moved - view.pixel) : Eigen::Vector2d::Zero();
+    };
+    speed = shift(camera.motion->velocity);
+    acceleration = shift(camera.motion->acceleration);
+  }
+  if (!camera.readout.isZero(0.0) && camera.motion != nullptr) {
+    // The pixel is that of the time at which it is exposed itself.
+    const Eigen::Vector2d of_middle = view.pixel;
+    const CameraEstimate shutter{.model = model, .readout = camera.readout};
+    for (int i = 0; i < 3; ++i) {
+      const double time = shutter.TimeOf(view.pixel);
+      view.pixel = of_middle + time * speed + 0.5 * time * time * acceleration;
+    }
+    const Eigen::Vector2d time_slope(camera.readout.x() / model.width,
+                                     camera.readout.y() / model.height);
+    const Eigen::Matrix2d sheared = Eigen::Matrix2d::Identity() + speed * time_slope.transpose();
+    pixel_slope = sheared * pixel_slope;
+  }
   if (!HasRoomForPatch(model, view.pixel)) {
     return false;
   }
   // The tangent plane induces the homography R + t n^T from the source's plane z = 1 to that of the
   // camera.
-  const Rigid3 camera_from_key = camera.camera_from_map * PoseOf(patch).Inverse();
+  const Rigid3 camera_from_key = camera.camera_from_map * patch.source_from_map.Inverse();
   const Eigen::Matrix3d homography = camera_from_key.rotation.toRotationMatrix() +
                                      camera_from_key.translation * patch.tangent.transpose();
   const double z = homography.row(2).dot(patch.key_plane.homogeneous());
@@ -191,24 +221,15 @@ bool PatchSource::View(const ExposedCamera& camera,
   }
   const Eigen::Matrix2d plane_slope =
       (homography.topLeftCorner<2, 2>() - plane * homography.bottomLeftCorner<1, 2>()) / z;
-  const Eigen::Matrix2d pixel_from_key =
-      PixelFromPlaneSlope(model, plane) * plane_slope * patch.plane_from_key_pixel;
+  const Eigen::Matrix2d pixel_from_key = pixel_slope * plane_slope * patch.plane_from_key_pixel;
   const double area = pixel_from_key.determinant();
   if (!(area > 0.05 && area < 8.0)) {
     return false;  // The patch is shown from behind, edge-on, or much too large.
   }
   view.key_from_pixel = pixel_from_key.inverse();
-  view.velocity.setZero();
-  view.acceleration.setZero();
-  if (camera.motion != nullptr) {
-    const ExposureMotion& during = *camera.motion;
-    const auto shift = [&](const Rigid3& motion) -> Eigen::Vector2d {
-      const auto moved = model.Project(motion * p);
-      return moved ? Eigen::Vector2d(*moved - view.pixel) : Eigen::Vector2d::Zero();
-    };
-    view.velocity = during.shutter * shift(during.velocity);
-    view.acceleration = during.shutter * during.shutter * shift(during.acceleration);
-  }
+  const double shutter = camera.motion != nullptr ? camera.motion->shutter : 0.0;
+  view.velocity = shutter * speed;
+  view.acceleration = shutter * shutter * acceleration;
   return true;
 }
 

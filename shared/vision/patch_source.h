@@ -29,12 +29,16 @@ struct ExposedCamera {
   const geometry::CameraModel& model;
   const geometry::Rigid3& camera_from_map;
   const ExposureMotion* motion = nullptr;  // nullptr: patches are not blurred.
+  // See CameraEstimate::readout. Without a motion it has no effect.
+  Eigen::Vector2d readout = Eigen::Vector2d::Zero();
 };
 
 // The patch around a map point in the image that supplies it.
 struct SourcePatch {
   uint32_t point = 0;
   uint32_t source = 0;  // Index of a keyframe; PatchSource::kFresh + i for fresh image i.
+  // Pose of the source when it saw the point.
+  geometry::Rigid3 source_from_map;
   // Standard deviation, along one axis, of the point's position within the patch.
   float sigma_px = 0.0f;
   Eigen::Vector3d point_in_map = Eigen::Vector3d::Zero();
@@ -102,7 +106,6 @@ class PatchSource {
   };
 
   const ImagePyramid& ImageOf(const SourcePatch& patch) const;
-  const geometry::Rigid3& PoseOf(const SourcePatch& patch) const;
   std::optional<uint32_t> MostSimilarKeyframe(uint32_t point,
                                               const geometry::Rigid3& camera_from_map,
                                               float most) const;

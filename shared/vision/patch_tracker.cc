@@ -23,9 +23,24 @@ constexpr int kSpreadColumns = 6;
 constexpr int kSpreadRows = 5;
 constexpr double kLargestTrackedErrorPx = 3.0;
 
+constexpr double kSharedErrors = 2.0;    // Factor on the covariance of independent errors.
 constexpr double kNoiseInflation = 2.0;  // Factor on the variance; pixel noise is correlated.
 constexpr double kModelErrorPx = 0.03;   // Error of warp and interpolation, pixels of the level.
 constexpr double kLeastPoseScale = 0.4;
+
+// Whether an estimated camera can be the one that was expected, and is a camera at all. Patches
+// that contradict the expected lens drag its parameters away: the lens has changed.
+bool IsPlausible(const CameraEstimate& expected, const CameraEstimate& found) {
+  constexpr double kMostDeviations = 4.0;
+  const int unknown = expected.Unknown();
+  const CameraVector off = Difference(expected, found);
+  for (int i = kShutterParameters; i < unknown; ++i) {
+    if (off[i] * off[i] > kMostDeviations * kMostDeviations * expected.covariance(i, i)) {
+      return false;
+    }
+  }
+  return unknown <= kShutterParameters || found.model.Validate().ok();
+}
 
 int Coarsest(const ImagePyramid& image) {
   return std::min(image.levels() - 1, CoarsestLevel(image.level(0).cols));
@@ -51,55 +66,64 @@ void PatchTracker::Start(const CameraModel& camera, const Rigid3& camera_from_ma
 }
 
 FollowedPose PatchTracker::Follow(const ImagePyramid& image,
-                                  const CameraModel& camera,
+                                  const CameraEstimate& camera,
                                   std::span<const Rigid3> predictions,
                                   const Rigid3* before,
                                   double frames) {
   FollowedPose result;
   exposure_.BeginImage(before, frames);
   pool_.BeginImage(predictions[0].Center());
-  Rigid3 pose = BestPrediction(image, camera, predictions);
+  PosedCamera posed{BestPrediction(image, camera, predictions), camera};
   const int coarsest = Coarsest(image);
   int finest = 0;
   for (int level = coarsest; level >= finest; --level) {
-    exposure_.SetPose(pose);
-    finest = std::min(FinestLevel({camera, pose, exposure_.motion()}), level);
+    exposure_.SetPose(posed.camera_from_map);
+    finest = std::min(FinestLevel(Exposed(posed)), level);
+    const CameraPrior prior{
+        camera, exposure_.motion() != nullptr ? &exposure_.motion()->during_frame : nullptr,
+        kSharedErrors};
     const int wanted = level == finest ? 1000 : level == coarsest ? 60 : 100;
     const int stride = std::max(1, static_cast<int>(pool_.size()) / wanted);
-    Rigid3 moved = pose;
-    bool found = RunLevel(image, camera, level, stride, moved, result.expected);
+    PosedCamera moved = posed;
+    bool found = RunLevel(image, prior, level, stride, moved, result.expected);
     if (level == coarsest && (!found || 3 * fit_.pose.inliers < result.expected)) {
-      Rigid3 searched = pose;
-      if (SearchLevel(image, camera, level, stride, found ? fit_.pose.inliers : 0, searched)) {
+      PosedCamera searched = posed;
+      if (SearchLevel(image, prior, level, stride, found ? fit_.pose.inliers : 0, searched)) {
         moved = searched;
         found = true;
       }
     }
     if (found) {
-      pose = moved;
+      posed = moved;
     } else if (level == finest) {
       return result;
     }
   }
-  result.camera_from_map = pose;
+  result.camera_from_map = posed.camera_from_map;
   result.evidence.covariance = Covariance();
   result.agreeing = fit_.pose.inliers;
   if (exposure_.motion() == nullptr && result.agreeing > 0) {
     // Blur by an unknown motion shows as patches that are not found. Its effect on the other
     // patches is a common error, so the covariance grows.
-    result.evidence.covariance /= result.share() * result.share();
+    result.evidence.covariance.topLeftCorner<6, 6>() /= result.share() * result.share();
+  }
+  result.camera = posed.camera;
+  result.camera.covariance =
+      result.evidence.covariance.bottomRightCorner<kCameraParameters, kCameraParameters>();
+  if (exposure_.motion() != nullptr) {
+    result.motion = exposure_.motion()->during_frame;
   }
   Judge(camera, result);
   if (result.reliable) {
-    const ExposedCamera exposed{camera, pose, exposure_.motion()};
-    LearnShutter(image, exposed, finest);
-    result.blur_px = BlurPx(exposed);
-    Settle(camera, pose);
+    LearnShutter(image, Exposed(posed), finest);
+    result.blur_px = BlurPx(Exposed(posed));
+    Settle(posed);
   }
   return result;
 }
 
-void PatchTracker::Judge(const CameraModel& camera, FollowedPose& pose) {
+void PatchTracker::Judge(const CameraEstimate& prior, FollowedPose& pose) {
+  const CameraModel& camera = pose.camera.model;
   CHECK(fit_.observations.size() == fit_.pose.squares.size());
   std::array<bool, kSpreadColumns * kSpreadRows> covered{};
   int cells = 0;
@@ -125,12 +149,13 @@ void PatchTracker::Judge(const CameraModel& camera, FollowedPose& pose) {
   const double variance = ComputeRegistrationVariance(camera, pose.evidence).Sum();
   pose.expected_error_px = std::sqrt(variance);
   pose.reliable = pose.agreeing >= kLeastAgreeing && pose.share() >= kLeastShare &&
-                  cells >= kLeastCells && pose.expected_error_px < kLargestTrackedErrorPx;
+                  cells >= kLeastCells && pose.expected_error_px < kLargestTrackedErrorPx &&
+                  IsPlausible(prior, pose.camera);
 }
 
 // Updates the motion statistics and the set of patches.
-void PatchTracker::Settle(const CameraModel& camera, const Rigid3& camera_from_map) {
-  exposure_.EndImage(camera_from_map);
+void PatchTracker::Settle(const PosedCamera& posed) {
+  exposure_.EndImage(posed.camera_from_map);
   agreeing_.clear();
   seen_.clear();
   for (size_t i = 0; i < fit_.observations.size(); ++i) {
@@ -140,7 +165,7 @@ void PatchTracker::Settle(const CameraModel& camera, const Rigid3& camera_from_m
       seen_.push_back({pool_[observation.patch].point, observation.pixel});
     }
   }
-  pool_.EndImage({camera, camera_from_map, exposure_.motion()}, agreeing_);
+  pool_.EndImage(Exposed(posed), agreeing_);
 }
 
 // --- Finding the pose
@@ -150,8 +175,10 @@ void PatchTracker::Fit::Clear() {
   matches.clear();
 }
 
-void PatchTracker::AddObservation(
-    const CameraModel& camera, uint32_t patch, int level, const PatchFit& found, Fit& fit) const {
+void PatchTracker::AddObservation(uint32_t patch,
+                                  int level,
+                                  const PatchFit& found,
+                                  Fit& fit) const {
   fit.observations.push_back({patch, PixelFromLevel(found.centre, level)});
   const double size = 1 << level;
   const Eigen::Vector2d pixel = PixelFromLevel(Eigen::Vector2d(found.centre.cast<double>()), level);
@@ -167,21 +194,19 @@ void PatchTracker::AddObservation(
   symmetric.diagonal().array() += 1e-9;
   PatchMatch& match = fit.matches.emplace_back();
   match.point = pool_[patch].point_in_map;
-  match.plane = camera.PlaneFromPixel(pixel);
+  match.pixel = pixel;
   match.whitening = symmetric.llt().matrixU();
-  match.whitening.col(0) *= camera.fx;
-  match.whitening.col(1) *= camera.fy;
 }
 
 bool PatchTracker::RunLevel(const ImagePyramid& image,
-                            const CameraModel& camera,
+                            const CameraPrior& prior,
                             int level,
                             int stride,
-                            Rigid3& camera_from_map,
+                            PosedCamera& posed,
                             int& expected) {
   fit_.Clear();
   expected = 0;
-  const ExposedCamera exposed{camera, camera_from_map, exposure_.motion()};
+  const ExposedCamera exposed = Exposed(posed);
   PatchTemplate patch;
   const bool last = stride == 1;
   const PatchSearch search{
@@ -199,24 +224,24 @@ bool PatchTracker::RunLevel(const ImagePyramid& image,
         fit.correlation < kLeastCorrelation) {
       continue;
     }
-    AddObservation(camera, i, level, fit, fit_);
+    AddObservation(i, level, fit, fit_);
   }
-  if (!EstimatePatchPose(fit_.matches, camera_from_map, kLeastPoseScale, fit_.pose)) {
+  if (!EstimatePatchPose(fit_.matches, prior, posed, kLeastPoseScale, fit_.pose)) {
     return false;
   }
-  camera_from_map = fit_.pose.camera_from_map;
+  posed = fit_.pose.posed;
   return true;
 }
 
 bool PatchTracker::SearchLevel(const ImagePyramid& image,
-                               const CameraModel& camera,
+                               const CameraPrior& prior,
                                int level,
                                int stride,
                                int least,
-                               Rigid3& camera_from_map) {
+                               PosedCamera& posed) {
   constexpr int kReach = 5;
   searched_.Clear();
-  const ExposedCamera exposed{camera, camera_from_map, exposure_.motion()};
+  const ExposedCamera exposed = Exposed(posed);
   PatchTemplate patch;
   for (auto i = uint32_t{0}; i < pool_.size(); i += static_cast<uint32_t>(stride)) {
     PatchView view;
@@ -239,21 +264,21 @@ bool PatchTracker::SearchLevel(const ImagePyramid& image,
     PatchFit fit;
     if (highest > kLeastCorrelation &&
         AlignPatch(image.level(level), patch, best, {.largest_shift = 1.5f}, fit)) {
-      AddObservation(camera, i, level, fit, searched_);
+      AddObservation(i, level, fit, searched_);
     }
   }
-  if (!EstimatePatchPose(searched_.matches, camera_from_map, kLeastPoseScale, searched_.pose) ||
+  if (!EstimatePatchPose(searched_.matches, prior, posed, kLeastPoseScale, searched_.pose) ||
       searched_.pose.inliers <= least) {
     return false;
   }
   std::swap(fit_, searched_);
-  camera_from_map = fit_.pose.camera_from_map;
+  posed = fit_.pose.posed;
   return true;
 }
 
 // The prediction with the highest correlation of the patches on the coarsest level.
 Rigid3 PatchTracker::BestPrediction(const ImagePyramid& image,
-                                    const CameraModel& camera,
+                                    const CameraEstimate& camera,
                                     std::span<const Rigid3> predictions) {
   if (predictions.size() == 1) {
     return predictions[0];
@@ -266,7 +291,8 @@ Rigid3 PatchTracker::BestPrediction(const ImagePyramid& image,
   for (size_t candidate = 0; candidate < predictions.size(); ++candidate) {
     float sum = 0.0f;
     exposure_.SetPose(predictions[candidate]);
-    const ExposedCamera exposed{camera, predictions[candidate], exposure_.motion()};
+    const PosedCamera posed{predictions[candidate], camera};
+    const ExposedCamera exposed = Exposed(posed);
     for (uint32_t i = 0; i < pool_.size(); i += stride) {
       PatchView view;
       PatchTemplate patch;
@@ -333,7 +359,7 @@ void PatchTracker::LearnShutter(const ImagePyramid& image, const ExposedCamera& 
   const auto likeness = [&](double change) {
     ExposureMotion tried = *camera.motion;
     tried.shutter += change;
-    return Likeness(image, {camera.model, camera.camera_from_map, &tried}, level);
+    return Likeness(image, {camera.model, camera.camera_from_map, &tried, camera.readout}, level);
   };
   const double less = likeness(-ExposureModel::kShutterStep);
   const double same = likeness(0.0);
@@ -353,11 +379,10 @@ int PatchTracker::FinestLevel(const ExposedCamera& camera) const {
 // Covariance of the pose: that of patches with independent errors, enlarged for the errors that
 // they share. These are the errors of the keyframes' poses and the part of the acceleration during
 // the exposure that earlier images do not predict.
-Matrix6d PatchTracker::Covariance() const {
-  constexpr double kSharedErrors = 2.0;
-  Matrix6d covariance = kSharedErrors * fit_.pose.covariance;
+JointMatrix<kMostJoint> PatchTracker::Covariance() const {
+  JointMatrix<kMostJoint> covariance = fit_.pose.covariance;
   if (exposure_.motion() != nullptr) {
-    covariance += exposure_.UnpredictedCovariance();
+    covariance.topLeftCorner<6, 6>() += exposure_.UnpredictedCovariance();
   }
   return covariance;
 }

@@ -31,6 +31,8 @@ struct FollowedPose {
   // Enough of the expected patches agree, they are spread over the image, and the error is small.
   bool reliable = false;
   geometry::Rigid3 camera_from_map;
+  CameraEstimate camera;           // As estimated with the pose, and its covariance.
+  std::optional<Vector6d> motion;  // (w, v) during one frame time, if it is known.
   PoseEvidence evidence;
   int expected = 0;  // Number of patches that should be visible.
   int agreeing = 0;  // Number of patches that agree with the pose.
@@ -55,10 +57,10 @@ class PatchTracker {
   void Start(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map);
 
   // Finds the pose of an image near one of the predictions. before is the pose of the previous
-  // image, `frames` frames ago, or nullptr if it is unknown. The set of patches changes only if the
-  // pose is reliable.
+  // image, `frames` frames ago, or nullptr if it is unknown. camera: what is known of the camera
+  // before this image. The set of patches changes only if the pose is reliable.
   FollowedPose Follow(const ImagePyramid& image,
-                      const geometry::CameraModel& camera,
+                      const CameraEstimate& camera,
                       std::span<const geometry::Rigid3> predictions,
                       const geometry::Rigid3* before,
                       double frames);
@@ -103,34 +105,33 @@ class PatchTracker {
   // Aligns every stride-th patch on a level and updates the pose. expected becomes the number of
   // patches that should be visible.
   bool RunLevel(const ImagePyramid& image,
-                const geometry::CameraModel& camera,
+                const CameraPrior& prior,
                 int level,
                 int stride,
-                geometry::Rigid3& camera_from_map,
+                PosedCamera& posed,
                 int& expected);
   // Exhaustive search in whole pixels on the coarsest level, for use when alignment failed. Returns
   // false and changes nothing unless more than `least` patches agree with the new pose.
   bool SearchLevel(const ImagePyramid& image,
-                   const geometry::CameraModel& camera,
+                   const CameraPrior& prior,
                    int level,
                    int stride,
                    int least,
-                   geometry::Rigid3& camera_from_map);
-  void AddObservation(const geometry::CameraModel& camera,
-                      uint32_t patch,
-                      int level,
-                      const PatchFit& found,
-                      Fit& fit) const;
+                   PosedCamera& posed);
+  void AddObservation(uint32_t patch, int level, const PatchFit& found, Fit& fit) const;
+  ExposedCamera Exposed(const PosedCamera& posed) const {
+    return {posed.camera.model, posed.camera_from_map, exposure_.motion(), posed.camera.readout};
+  }
   geometry::Rigid3 BestPrediction(const ImagePyramid& image,
-                                  const geometry::CameraModel& camera,
+                                  const CameraEstimate& camera,
                                   std::span<const geometry::Rigid3> predictions);
   double BlurPx(const ExposedCamera& camera) const;
   double Likeness(const ImagePyramid& image, const ExposedCamera& camera, int level) const;
   void LearnShutter(const ImagePyramid& image, const ExposedCamera& camera, int level);
   int FinestLevel(const ExposedCamera& camera) const;
-  Matrix6d Covariance() const;
-  void Judge(const geometry::CameraModel& camera, FollowedPose& pose);
-  void Settle(const geometry::CameraModel& camera, const geometry::Rigid3& camera_from_map);
+  JointMatrix<kMostJoint> Covariance() const;
+  void Judge(const CameraEstimate& prior, FollowedPose& pose);
+  void Settle(const PosedCamera& posed);
 
   PatchPool pool_;
   ExposureModel exposure_;

@@ -13,8 +13,11 @@ namespace lararium::vision {
 // A map point and its undistorted position in the image.
 struct PoseMatch {
   Eigen::Vector3d point;  // Map frame.
-  Eigen::Vector2d plane;  // Observed position on the camera's plane z = 1.
-  double sigma_px = 1.0;  // Relative uncertainty of `plane`; 1 for the finest features.
+  // Observed position on the camera's plane z = 1.
+  Eigen::Vector2d plane = Eigen::Vector2d::Zero();
+  double sigma_px = 1.0;  // Relative uncertainty of the position; 1 for the finest features.
+  // Observed raw pixel. Only for a camera that is estimated with the pose, in place of `plane`.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;

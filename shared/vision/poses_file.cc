@@ -68,6 +68,11 @@ void DescribeRecord(Fields& fields, PoseRecord& record) {
   if (fields.reading()) {
     record.tracked = tracked && record.camera_from_world.has_value();
   }
+  fields.Object("rolling_shutter", record.shutter, [](Fields& rolling, RollingShutter& shutter) {
+    rolling.Numbers("readout", std::span(shutter.readout.data(), 2));
+    rolling.Numbers("rotation", std::span(shutter.motion.data(), 3));
+    rolling.Numbers("translation", std::span(shutter.motion.data() + 3, 3));
+  });
   if (fields.Has("map", record.details.has_value())) {
     DescribeDetails(fields, record.details ? *record.details : record.details.emplace());
   }
@@ -80,8 +85,11 @@ void DescribeRecords(Fields& fields, std::vector<PoseRecord>& records) {
 }  // namespace
 
 PoseRecord MakePoseRecord(std::string file, const TrackedFrame& tracked) {
-  return {std::move(file), tracked.camera, tracked.camera_from_map,
+  return {std::move(file),
+          tracked.camera,
+          tracked.camera_from_map,
           tracked.camera_from_map.has_value(),
+          tracked.rolling_shutter,
           TrackingDetails{tracked.state, tracked.reason, tracked.map, tracked.followed,
                           tracked.confidence, tracked.gain}};
 }

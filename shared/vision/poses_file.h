@@ -32,6 +32,7 @@ struct PoseRecord {
   geometry::CameraModel camera;
   std::optional<geometry::Rigid3> camera_from_world;
   bool tracked = false;  // If false, the pose is a guess and must not be used.
+  std::optional<RollingShutter> shutter = std::nullopt;   // Absent if it is global or unknown.
   std::optional<TrackingDetails> details = std::nullopt;  // Absent in files written by training.
 };
 

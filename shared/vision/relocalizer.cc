@@ -18,19 +18,17 @@ LocalizerOptions LocalizerOptionsOf(const TrackerOptions& options) {
 
 }  // namespace
 
-using geometry::CameraModel;
-
 Relocalizer::Relocalizer(std::span<const std::shared_ptr<const SceneDatabase>> maps,
                          const TrackerOptions& options)
     : locator_(maps, LocalizerOptionsOf(options)), detail_(options.feature_budget) {}
 
-Located Relocalizer::Find(const cv::Mat& grey, const CameraModel& camera) {
+Located Relocalizer::Find(const cv::Mat& grey, const CameraGuess& guess) {
   const bool finest = detail_.finest();
-  Located located = Locate(grey, camera, detail_.options());
+  Located located = Locate(grey, guess, detail_.options());
   const size_t features = features_.size();
   const bool again = !located.location.camera_from_map && !finest;
   if (again) {
-    located = Locate(grey, camera, detail_.finest_options());
+    located = Locate(grey, guess, detail_.finest_options());
   }
   const Location& location = located.location;
   std::optional<PoseQuality> pose;
@@ -43,10 +41,10 @@ Located Relocalizer::Find(const cv::Mat& grey, const CameraModel& camera) {
 }
 
 Located Relocalizer::Locate(const cv::Mat& grey,
-                            const CameraModel& camera,
+                            const CameraGuess& guess,
                             const FeatureOptions& options) {
   CHECK(extractor_.Extract(grey, options, features_).ok());
-  return locator_.Locate(features_, camera);
+  return locator_.Locate(features_, guess);
 }
 
 }  // namespace lararium::vision

@@ -23,7 +23,7 @@ class Relocalizer {
 
   // Locates an image (CV_8UC1). A coarse feature scale saves time but must not cost a pose: if it
   // finds none, the same image is tried again at the finest scale.
-  Located Find(const cv::Mat& grey, const geometry::CameraModel& camera);
+  Located Find(const cv::Mat& grey, const CameraGuess& guess);
 
   // The points that support the last pose. map must be the one in which the image was located.
   std::span<const LocatedPoint> points(uint32_t map) const { return locator_.points(map); }
@@ -31,9 +31,7 @@ class Relocalizer {
   int features() const { return static_cast<int>(features_.size()); }
 
  private:
-  Located Locate(const cv::Mat& grey,
-                 const geometry::CameraModel& camera,
-                 const FeatureOptions& options);
+  Located Locate(const cv::Mat& grey, const CameraGuess& guess, const FeatureOptions& options);
 
   MapLocator locator_;
   FeatureExtractor extractor_;

@@ -10,6 +10,7 @@
 #include "shared/image/decode.h"
 #include "shared/image/encode.h"
 #include "shared/image/image_header.h"
+#include "shared/vision/rolling_shutter.h"
 #include "shared/vision/scene_database_generated.h"
 
 namespace lararium::vision {
@@ -28,6 +29,8 @@ constexpr double kMaxCoordinate = 1e9;
 // Limits far beyond the exposure range of any camera.
 constexpr float kMaxColour = 1e4f;
 constexpr float kMaxGain = 1e4f;
+constexpr double kMostMotion = 1e4;   // In one frame time, radians or map units.
+constexpr double kMostReadout = 2.0;  // Frame times.
 
 // Returns false for NaN, too.
 bool Plausible(double value) { return std::abs(value) < kMaxCoordinate; }
@@ -105,6 +108,9 @@ Status ValidateKeyframes(const SceneDatabase& db) {
     const geometry::Rigid3& pose = keyframe.camera_from_map;
     if (!(std::abs(pose.rotation.squaredNorm() - 1.0) < 1e-6) || !AllPlausible(pose.translation)) {
       return Broken("a keyframe's pose is not a rigid motion");
+    }
+    if (!(keyframe.motion.array().abs() <= kMostMotion).all()) {
+      return Broken("a keyframe's motion is out of range");
     }
     if (keyframe.session >= 32) {
       return Broken("a keyframe's session is above 31");
@@ -254,6 +260,9 @@ Status ReadKeyframes(const fb::Scene& scene, const std::string& where, SceneData
     keyframe.camera_from_map.rotation =
         Eigen::Quaterniond(pose.qw(), pose.qx(), pose.qy(), pose.qz());
     keyframe.camera_from_map.translation = {pose.tx(), pose.ty(), pose.tz()};
+    if (const fb::Motion* m = source.motion(); m != nullptr) {
+      keyframe.motion << m->wx(), m->wy(), m->wz(), m->vx(), m->vy(), m->vz();
+    }
     if (const fb::Gain* gain = source.gain(); gain != nullptr) {
       keyframe.gain = {gain->r(), gain->g(), gain->b()};
     }
@@ -306,8 +315,10 @@ flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<fb::Keyframe>>> Writ
         builder.CreateVector(reinterpret_cast<const uint8_t*>(images[i].data()), images[i].size());
     const fb::Pose pose = PoseTo(keyframe.camera_from_map);
     const fb::Gain gain(keyframe.gain[0], keyframe.gain[1], keyframe.gain[2]);
+    const auto& m = keyframe.motion;
+    const fb::Motion motion(m[0], m[1], m[2], m[3], m[4], m[5]);
     keyframes.push_back(fb::CreateKeyframe(builder, keyframe.frame_index, name, keyframe.session,
-                                           &pose, jpeg, &gain));
+                                           &pose, jpeg, &gain, m.isZero(0.0) ? nullptr : &motion));
   }
   return builder.CreateVector(keyframes);
 }
@@ -332,8 +343,29 @@ std::vector<fb::ForestNode> NodesTo(const std::vector<ForestNode>& from) {
 
 }  // namespace
 
+geometry::Rigid3 SceneDatabase::PoseAt(uint32_t keyframe, const Eigen::Vector2d& pixel) const {
+  const Keyframe& seen = keyframes[keyframe];
+  return readout.isZero(0.0) ? seen.camera_from_map
+                             : PoseAfter(seen.camera_from_map, seen.motion,
+                                         readout.dot(ReadoutOrder(camera, pixel)));
+}
+
+std::optional<Eigen::Vector2d> SceneDatabase::PixelIn(uint32_t keyframe,
+                                                      const Eigen::Vector3d& point) const {
+  std::optional<Eigen::Vector2d> pixel =
+      camera.Project(keyframes[keyframe].camera_from_map * point);
+  constexpr int kRounds = 3;  // Each leaves a few hundredths of the error.
+  for (int i = 0; i < kRounds && pixel && !readout.isZero(0.0); ++i) {
+    pixel = camera.Project(PoseAt(keyframe, *pixel) * point);
+  }
+  return pixel;
+}
+
 Status SceneDatabase::Validate() const {
   LARARIUM_RETURN_IF_ERROR(camera.Validate());
+  if (!(readout.array().abs() <= kMostReadout).all()) {
+    return Broken("the readout time is out of range");
+  }
   if (!(mean_reprojection_error_px >= 0.0 && Plausible(mean_reprojection_error_px))) {
     return Broken("the mean reprojection error is out of range");
   }
@@ -368,6 +400,9 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
   if (const Status status = db.camera.Validate(); !status.ok()) {
     return status.At(where);
   }
+  if (const fb::Readout* readout = scene.readout(); readout != nullptr) {
+    db.readout = {readout->x(), readout->y()};
+  }
   db.mean_reprojection_error_px = scene.mean_reprojection_error_px();
   db.points = VectorsFrom(*scene.points());
   db.normals = VectorsFrom(*scene.normals());
@@ -400,6 +435,7 @@ Result<SceneDatabase> LoadSceneDatabase(const std::filesystem::path& file) {
 std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
   flatbuffers::FlatBufferBuilder builder(1 << 20);
   const fb::Camera camera = CameraTo(db.camera);
+  const fb::Readout readout(db.readout.x(), db.readout.y());
   const auto points = builder.CreateVectorOfStructs(VectorsTo(db.points));
   const auto normals = builder.CreateVectorOfStructs(VectorsTo(db.normals));
   const auto counts = builder.CreateVector(db.observation_counts);
@@ -424,7 +460,8 @@ std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
   fb::FinishSceneBuffer(
       builder, fb::CreateScene(builder, kVersion, &camera, db.mean_reprojection_error_px, points,
                                normals, counts, sessions, descriptor_begin, descriptors, keyframes,
-                               observations, roots, nodes, order, colours, descriptor_sessions));
+                               observations, roots, nodes, order, colours, descriptor_sessions,
+                               db.readout.isZero(0.0) ? nullptr : &readout));
   const auto* begin = reinterpret_cast<const std::byte*>(builder.GetBufferPointer());
   return {begin, begin + builder.GetSize()};
 }

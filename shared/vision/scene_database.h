@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct Keyframe {
   std::string name;          // See FrameSource::FrameName.
   uint32_t session = 0;
   geometry::Rigid3 camera_from_map;
+  // Motion during one frame time, see RollingShutter::motion. Zero if it is unknown.
+  Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
   // CV_8UC1 of the camera's size, stored as JPEG. Empty if the map budget left the image out.
   cv::Mat grey;
   // Brightness of the image over the map's photometric reference (SceneDatabase::colours), linear
@@ -42,7 +45,8 @@ struct Observation {
 };
 
 struct SceneDatabase {
-  geometry::CameraModel camera;  // Camera of the training images.
+  geometry::CameraModel camera;                       // Camera of the training images.
+  Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // Of that camera, see RollingShutter.
   double mean_reprojection_error_px = 0.0;
 
   // Points, in map units; parallel arrays.
@@ -71,6 +75,11 @@ struct SceneDatabase {
     return descriptor_sessions.empty() ? session_masks[descriptor_point[descriptor]]
                                        : descriptor_sessions[descriptor];
   }
+
+  // The pose with which a keyframe saw a pixel.
+  geometry::Rigid3 PoseAt(uint32_t keyframe, const Eigen::Vector2d& pixel) const;
+  // The raw pixel at which a keyframe saw a point; nullopt if the camera cannot have seen it.
+  std::optional<Eigen::Vector2d> PixelIn(uint32_t keyframe, const Eigen::Vector3d& point) const;
 
   // Checks the invariants above, every index and every number. The error says what is broken.
   Status Validate() const;

@@ -13,6 +13,7 @@
 #include "shared/geometry/frame.h"
 #include "shared/geometry/transform.h"
 #include "shared/vision/occluders.h"
+#include "shared/vision/rolling_shutter.h"
 
 namespace lararium::vision {
 
@@ -37,7 +38,7 @@ std::string_view Name(TrackReason reason);
 // An image with its pose. The image shown is the image that was tracked.
 struct TrackedFrame {
   geometry::Frame frame;
-  geometry::CameraModel camera;
+  geometry::CameraModel camera;                     // As given, or as estimated for this image.
   std::optional<geometry::Rigid3> camera_from_map;  // Set if and only if state is kTracking.
   uint32_t map = 0;  // Index of the map that the pose refers to, among the tracker's maps.
   TrackState state = TrackState::kSearching;
@@ -49,6 +50,7 @@ struct TrackedFrame {
   float confidence = 0.0f;
   // Covariance of (w, v) in the pose (exp(w) R, exp(w) t + v); radians and map units.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  std::optional<RollingShutter> rolling_shutter = std::nullopt;  // None if the motion is unknown.
   int features = 0;
   int matches = 0;
   int inliers = 0;

@@ -9,6 +9,7 @@
 
 #include "shared/core/check.h"
 #include "shared/vision/background_relocalizer.h"
+#include "shared/vision/camera_filter.h"
 #include "shared/vision/gain_estimator.h"
 #include "shared/vision/motion_model.h"
 #include "shared/vision/patch_tracker.h"
@@ -52,7 +53,10 @@ class Tracker final : public PoseSource {
   Tracker(std::vector<std::shared_ptr<const SceneDatabase>> maps,
           const CameraModel& camera,
           const TrackerOptions& options)
-      : options_(options), camera_(camera), maps_(std::move(maps)), relocalizer_(maps_, options) {
+      : options_(options),
+        camera_(camera, options.known_camera),
+        maps_(std::move(maps)),
+        relocalizer_(maps_, options) {
     if (options.follow) {
       for (const auto& map : maps_) {
         patch_trackers_.push_back(
@@ -65,7 +69,10 @@ class Tracker final : public PoseSource {
   TrackedFrame Track(const geometry::Frame& frame) override {
     TrackedFrame tracked;
     tracked.frame = frame;
-    tracked.camera = CameraFor(frame);
+    if (!frame.grey.empty()) {
+      camera_.SetSize(frame.grey.cols, frame.grey.rows);
+    }
+    tracked.camera = camera_.now().model;
     tracked.gain = last_gain_;
     by_patches_ = false;
     found_in_.reset();
@@ -114,12 +121,6 @@ class Tracker final : public PoseSource {
   }
 
  private:
-  CameraModel CameraFor(const geometry::Frame& frame) const {
-    const bool same = frame.grey.empty() ||
-                      (frame.grey.cols == camera_.width && frame.grey.rows == camera_.height);
-    return same ? camera_ : camera_.Resized(frame.grey.cols, frame.grey.rows);
-  }
-
   void FollowOrFind(TrackedFrame& tracked) {
     const cv::Mat& grey = tracked.frame.grey;
     // One level more than the patch tracker's coarsest, for estimating the camera's rotation.
@@ -156,11 +157,12 @@ class Tracker final : public PoseSource {
     const Rigid3 motion = motion_.Motion(frames);
     std::array<Rigid3, 2> predictions = {motion * before};
     size_t count = 1;
-    if (const auto turn = EstimateTurn(tracked.camera, motion.rotation)) {
+    const CameraEstimate camera = camera_.Predict(frames);
+    if (const auto turn = EstimateTurn(camera.model, motion.rotation)) {
       predictions[count++] = Rigid3{*turn, motion.translation} * before;
     }
     const FollowedPose followed = patch_trackers_[map_]->Follow(
-        pyramid_, tracked.camera, std::span(predictions.data(), count), &before, frames);
+        pyramid_, camera, std::span(predictions.data(), count), &before, frames);
     if (!followed.reliable) {
       return false;
     }
@@ -196,7 +198,7 @@ class Tracker final : public PoseSource {
     if (background_) {
       background_->Drop();  // The frame in the background belongs to the lost tracking.
     }
-    const Located located = relocalizer_.Find(tracked.frame.grey, tracked.camera);
+    const Located located = relocalizer_.Find(tracked.frame.grey, camera_.Guess());
     const Location& location = located.location;
     tracked.map = located.map;
     tracked.camera_from_map = location.camera_from_map;
@@ -208,6 +210,8 @@ class Tracker final : public PoseSource {
     tracked.inliers = location.inliers;
     if (location.camera_from_map) {
       found_in_ = located.map;
+      tracked.camera = location.camera.model;
+      camera_.Found(location.camera);
     }
   }
 
@@ -226,7 +230,7 @@ class Tracker final : public PoseSource {
     PatchTracker& patch_tracker = *patch_trackers_[map_];
     patch_tracker.Start(tracked.camera, rough);
     const FollowedPose followed =
-        patch_tracker.Follow(pyramid_, tracked.camera, std::span(&rough, 1), before, frames);
+        patch_tracker.Follow(pyramid_, camera_.now(), std::span(&rough, 1), before, frames);
     if (followed.reliable && DistancePx(tracked.camera, rough, followed.camera_from_map,
                                         followed.evidence.depths[1]) < kTwoMeaningsPx) {
       Report(followed, tracked);
@@ -236,10 +240,15 @@ class Tracker final : public PoseSource {
   }
 
   void Report(const FollowedPose& followed, TrackedFrame& tracked) {
+    camera_.Update(followed.camera);
+    tracked.camera = followed.camera.model;
+    if (followed.motion) {
+      tracked.rolling_shutter = RollingShutter{followed.camera.readout, *followed.motion};
+    }
     tracked.map = map_;
     tracked.camera_from_map = followed.camera_from_map;
     tracked.reason = TrackReason::kNone;
-    tracked.covariance = followed.evidence.covariance;
+    tracked.covariance = followed.evidence.covariance.topLeftCorner<6, 6>();
     tracked.confidence = static_cast<float>(PoseConfidence(tracked.camera, followed.evidence));
     tracked.features = followed.expected;
     tracked.matches = followed.expected;
@@ -287,7 +296,7 @@ class Tracker final : public PoseSource {
       checked_camera_ = tracked.camera;
       checked_blur_px_ = blur_px_;
       std::swap(checked_image_, pyramid_);
-      background_->Begin(tracked.frame.grey, tracked.camera);
+      background_->Begin(tracked.frame.grey, camera_.PresentGuess());
     }
   }
 
@@ -314,8 +323,8 @@ class Tracker final : public PoseSource {
       since.translation.setZero();  // Each map has its own unit of length.
     }
     const Rigid3 theirs = since * found;
-    const double our_share = FollowAnew(map_, tracked.camera, ours).share();
-    const FollowedPose followed = FollowAnew(located.map, tracked.camera, theirs);
+    const double our_share = FollowAnew(map_, ours).share();
+    const FollowedPose followed = FollowAnew(located.map, theirs);
     if (followed.reliable && followed.share() > our_share) {
       if (located.map == map_) {
         motion_.Correct(followed.camera_from_map);
@@ -331,13 +340,14 @@ class Tracker final : public PoseSource {
     }
   }
 
-  FollowedPose FollowAnew(uint32_t map, const CameraModel& camera, const Rigid3& pose) {
-    patch_trackers_[map]->Start(camera, pose);
+  FollowedPose FollowAnew(uint32_t map, const Rigid3& pose) {
+    const CameraEstimate& camera = camera_.now();
+    patch_trackers_[map]->Start(camera.model, pose);
     return patch_trackers_[map]->Follow(pyramid_, camera, std::span(&pose, 1), nullptr, 1.0);
   }
 
   TrackerOptions options_;
-  CameraModel camera_;
+  CameraFilter camera_;
   std::vector<std::shared_ptr<const SceneDatabase>> maps_;
   Relocalizer relocalizer_;
   std::vector<std::unique_ptr<PatchTracker>> patch_trackers_;  // [maps]

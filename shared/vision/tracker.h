@@ -19,6 +19,9 @@ enum class BackgroundWork {
 
 struct TrackerOptions {
   bool follow = true;  // Track from frame to frame. Otherwise every frame is located by itself.
+  // The given camera is that of the images. Otherwise it is only similar, and the intrinsics are
+  // estimated.
+  bool known_camera = true;
   BackgroundWork background = BackgroundWork::kJoined;
   int threads = 0;            // 0: one thread per core. 1: all work in the caller's thread.
   int feature_budget = 1000;  // Number of features that FeatureScaleController aims at.

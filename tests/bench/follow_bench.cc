@@ -179,7 +179,7 @@ void BenchFollow(benchmark::State& state) {
     frame = (frame + 1) % kFrames;
     pyramid.Build(pictures[frame], CoarsestLevel(kCamera.width) + 1);
     const FollowedPose pose =
-        patch_tracker.Follow(pyramid, kCamera, std::span(&before, 1), &before, 1.0);
+        patch_tracker.Follow(pyramid, ExactCamera(kCamera), std::span(&before, 1), &before, 1.0);
     reliable += pose.reliable;
     before = pose.reliable ? pose.camera_from_map : truth[frame];
   }

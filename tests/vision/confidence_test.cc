@@ -57,7 +57,9 @@ TEST(RegistrationVariance, IsWhatProjectionsOfDrawnPosesShow) {
   const Matrix6d covariance = SomeCovariance(random, 1e-4);
   const Matrix6d root = covariance.llt().matrixL();
   const double expected =
-      ComputeRegistrationVariance(kCamera, {.covariance = covariance, .depths = kDepths}).Sum();
+      ComputeRegistrationVariance(kCamera,
+                                  {.covariance = WithKnownCamera(covariance), .depths = kDepths})
+          .Sum();
   double sum = 0.0;
   constexpr int kDraws = 4000;
   for (int i = 0; i < kDraws; ++i) {
@@ -76,8 +78,8 @@ TEST(PoseConfidence, IsTheShareOfDrawnPosesWithinTheLimit) {
     const Matrix6d covariance = SomeCovariance(random, scale);
     const Matrix6d root = covariance.llt().matrixL();
     // With many inliers the covariance is certain.
-    const double confidence =
-        PoseConfidence(kCamera, {.covariance = covariance, .depths = kDepths, .inliers = 100000});
+    const double confidence = PoseConfidence(
+        kCamera, {.covariance = WithKnownCamera(covariance), .depths = kDepths, .inliers = 100000});
     int within = 0;
     constexpr int kDraws = 2000;
     for (int i = 0; i < kDraws; ++i) {
@@ -97,15 +99,20 @@ TEST(PoseConfidence, FallsWithTheCovarianceAndWithFewerInliers) {
   double last = 1.1;
   for (const double factor : {1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}) {
     const double confidence = PoseConfidence(
-        kCamera, {.covariance = factor * covariance, .depths = kDepths, .inliers = 50});
+        kCamera,
+        {.covariance = WithKnownCamera(factor * covariance), .depths = kDepths, .inliers = 50});
     EXPECT_LT(confidence, last);
     last = confidence;
   }
   EXPECT_LT(last, 0.1);
   const Matrix6d fair = 3.0 * covariance;
-  EXPECT_GT(PoseConfidence(kCamera, {.covariance = fair, .depths = kDepths, .inliers = 500}),
-            PoseConfidence(kCamera, {.covariance = fair, .depths = kDepths, .inliers = 5}));
-  EXPECT_EQ(PoseConfidence(kCamera, {.covariance = fair, .depths = kDepths, .inliers = 3}), 0.0);
+  EXPECT_GT(PoseConfidence(
+                kCamera, {.covariance = WithKnownCamera(fair), .depths = kDepths, .inliers = 500}),
+            PoseConfidence(kCamera,
+                           {.covariance = WithKnownCamera(fair), .depths = kDepths, .inliers = 5}));
+  EXPECT_EQ(PoseConfidence(kCamera,
+                           {.covariance = WithKnownCamera(fair), .depths = kDepths, .inliers = 3}),
+            0.0);
 }
 
 TEST(PoseConfidence, IsCertainOfAnExactPoseAndOfNoneThatIsNotFinite) {

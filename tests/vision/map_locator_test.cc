@@ -33,7 +33,7 @@ TEST(MapLocator, FindsTheRoomAndThePoseInIt) {
     const SyntheticWorld& world = house.rooms[room];
     const Rigid3& truth = world.cameras_from_world[2 + room];
     const auto view = test::RenderView(world, truth, {.noise_px = 0.3, .outlier_share = 0.5});
-    const Located located = locator.Locate(view.features, world.camera);
+    const Located located = locator.Locate(view.features, {ExactCamera(world.camera)});
     EXPECT_EQ(located.map, room);
     ASSERT_TRUE(located.location.camera_from_map.has_value());
     EXPECT_LT((located.location.camera_from_map->Center() - truth.Center()).norm(), 0.02);
@@ -55,7 +55,7 @@ TEST(MapLocator, FindsTheRoomOfAViewThatHalfShowsAnother) {
   view.features.keypoints.resize(view.features.size() / 3);
   view.features.descriptors.resize(view.features.keypoints.size());
   test::Append(seen.features, view.features);
-  const Located located = locator.Locate(view.features, house.rooms[2].camera);
+  const Located located = locator.Locate(view.features, {ExactCamera(house.rooms[2].camera)});
   EXPECT_EQ(located.map, 2u);
   EXPECT_TRUE(located.location.camera_from_map.has_value());
 }
@@ -71,7 +71,7 @@ TEST(MapLocator, TriesTheOtherMapsWhereThatOfMostVotesGivesNoPose) {
   const auto scattered = test::RenderView(house.rooms[0], house.rooms[0].cameras_from_world[5],
                                           {.outlier_share = 1.0});
   test::Append(scattered.features, view.features);
-  const Located located = locator.Locate(view.features, house.rooms[1].camera);
+  const Located located = locator.Locate(view.features, {ExactCamera(house.rooms[1].camera)});
   EXPECT_EQ(located.map, 1u);
   EXPECT_TRUE(located.location.camera_from_map.has_value());
 }
@@ -83,11 +83,12 @@ TEST(MapLocator, FindsNothingInAPlaceThatIsNoRoomOfTheHouse) {
   for (uint64_t seed = 1; seed <= 5; ++seed) {
     const auto view =
         test::RenderView(elsewhere, elsewhere.cameras_from_world[seed], {.seed = seed});
-    const Located located = locator.Locate(view.features, elsewhere.camera);
+    const Located located = locator.Locate(view.features, {ExactCamera(elsewhere.camera)});
     EXPECT_FALSE(located.location.camera_from_map.has_value());
     EXPECT_NE(located.location.reason, TrackReason::kNone);
   }
-  EXPECT_FALSE(locator.Locate(Features(), elsewhere.camera).location.camera_from_map.has_value());
+  EXPECT_FALSE(locator.Locate(Features(), {ExactCamera(elsewhere.camera)})
+                   .location.camera_from_map.has_value());
 }
 
 TEST(MapLocator, DoesNotDependOnThreadsOrOnWhatCameBefore) {
@@ -97,11 +98,11 @@ TEST(MapLocator, DoesNotDependOnThreadsOrOnWhatCameBefore) {
   const SyntheticWorld& world = house.rooms[1];
   const auto view =
       test::RenderView(world, world.cameras_from_world[4], {.noise_px = 0.5, .outlier_share = 0.5});
-  const Located a = first.Locate(view.features, world.camera);
+  const Located a = first.Locate(view.features, {ExactCamera(world.camera)});
   second.Locate(test::RenderView(house.rooms[0], world.cameras_from_world[7], {}).features,
-                world.camera);
+                {ExactCamera(world.camera)});
   const ThreadLimit limit(1);
-  const Located b = second.Locate(view.features, world.camera);
+  const Located b = second.Locate(view.features, {ExactCamera(world.camera)});
   EXPECT_EQ(a.map, b.map);
   ASSERT_TRUE(a.location.camera_from_map && b.location.camera_from_map);
   EXPECT_EQ(a.location.camera_from_map->translation, b.location.camera_from_map->translation);

@@ -12,6 +12,7 @@ namespace {
 using geometry::Rigid3;
 
 constexpr double kFocal = 500.0;
+const geometry::CameraModel kPatchCamera{640, 480, kFocal, kFocal, 319.5, 239.5};
 
 const Rigid3 kTruth{geometry::RotationFromVector({0.1, -0.2, 0.05}), {0.1, 0.2, 4.0}};
 
@@ -23,11 +24,12 @@ std::vector<PatchMatch> MakeMatches(int count, double noise_px, double outliers,
     PatchMatch& match = matches.emplace_back();
     match.point = {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)};
     const double vague = i % 2 == 0 ? 1.0 : 30.0;
-    match.whitening << kFocal, 0.0, 0.0, kFocal / vague;
-    match.plane = (kTruth * match.point).hnormalized();
-    match.plane += noise_px / kFocal * Eigen::Vector2d(random.Normal(), vague * random.Normal());
+    match.whitening << 1.0, 0.0, 0.0, 1.0 / vague;
+    match.pixel = *kPatchCamera.Project(kTruth * match.point);
+    match.pixel += noise_px * Eigen::Vector2d(random.Normal(), vague * random.Normal());
     if (random.Uniform() < outliers) {
-      match.plane += Eigen::Vector2d(random.Uniform(-0.05, 0.05), random.Uniform(0.01, 0.05));
+      match.pixel +=
+          kFocal * Eigen::Vector2d(random.Uniform(-0.05, 0.05), random.Uniform(0.01, 0.05));
     }
   }
   return matches;
@@ -40,20 +42,23 @@ Vector6d Difference(const Rigid3& estimate) {
   return difference;
 }
 
-const Rigid3 kStart =
-    Rigid3{geometry::RotationFromVector({0.01, 0.01, -0.01}), {0.02, 0.0, 0.03}} * kTruth;
+CameraPrior KnownPrior() { return {ExactCamera(kPatchCamera)}; }
+
+const PosedCamera kStart{
+    Rigid3{geometry::RotationFromVector({0.01, 0.01, -0.01}), {0.02, 0.0, 0.03}} * kTruth,
+    ExactCamera(kPatchCamera)};
 
 TEST(EstimatePatchPose, IsExactWithoutNoise) {
   PatchPose pose;
-  ASSERT_TRUE(EstimatePatchPose(MakeMatches(50, 0.0, 0.0, 1), kStart, 1e-6, pose));
-  EXPECT_LT(Difference(pose.camera_from_map).norm(), 1e-8);
+  ASSERT_TRUE(EstimatePatchPose(MakeMatches(50, 0.0, 0.0, 1), KnownPrior(), kStart, 1e-6, pose));
+  EXPECT_LT(Difference(pose.posed.camera_from_map).norm(), 1e-8);
   EXPECT_EQ(pose.inliers, 50);
 }
 
 TEST(EstimatePatchPose, LeavesOutliersOut) {
   PatchPose pose;
-  ASSERT_TRUE(EstimatePatchPose(MakeMatches(200, 0.1, 0.3, 2), kStart, 0.01, pose));
-  EXPECT_LT(Difference(pose.camera_from_map).norm(), 2e-3);
+  ASSERT_TRUE(EstimatePatchPose(MakeMatches(200, 0.1, 0.3, 2), KnownPrior(), kStart, 0.01, pose));
+  EXPECT_LT(Difference(pose.posed.camera_from_map).norm(), 2e-3);
   EXPECT_GT(pose.inliers, 120);
   EXPECT_LT(pose.inliers, 165);
 }
@@ -63,16 +68,17 @@ TEST(EstimatePatchPose, CovarianceForetellsTheScatter) {
   constexpr int kRuns = 150;
   for (int run = 0; run < kRuns; ++run) {
     PatchPose pose;
-    ASSERT_TRUE(EstimatePatchPose(MakeMatches(100, 0.2, 0.0, 100 + run), kStart, 0.01, pose));
-    const Vector6d d = Difference(pose.camera_from_map);
-    sum += d.dot(pose.covariance.inverse() * d) / 6.0;
+    ASSERT_TRUE(
+        EstimatePatchPose(MakeMatches(100, 0.2, 0.0, 100 + run), KnownPrior(), kStart, 0.01, pose));
+    const Vector6d d = Difference(pose.posed.camera_from_map);
+    sum += d.dot(pose.covariance.topLeftCorner<6, 6>().inverse() * d) / 6.0;
   }
   EXPECT_NEAR(sum / kRuns, 1.0, 0.25);
 }
 
 TEST(EstimatePatchPose, WantsFourMatches) {
   PatchPose pose;
-  EXPECT_FALSE(EstimatePatchPose(MakeMatches(3, 0.0, 0.0, 1), kStart, 1e-6, pose));
+  EXPECT_FALSE(EstimatePatchPose(MakeMatches(3, 0.0, 0.0, 1), KnownPrior(), kStart, 1e-6, pose));
 }
 
 }  // namespace

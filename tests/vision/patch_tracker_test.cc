@@ -41,7 +41,7 @@ TEST_P(FollowerTest, BelievesWhatTheSearchSawWhereNoLevelFollows) {
   PatchTracker patch_tracker(map_);
   patch_tracker.Start(kPosterCamera, before);
   const FollowedPose followed =
-      patch_tracker.Follow(image, kPosterCamera, std::span(&before, 1), nullptr, 1.0);
+      patch_tracker.Follow(image, ExactCamera(kPosterCamera), std::span(&before, 1), nullptr, 1.0);
   ASSERT_TRUE(followed.reliable);
   EXPECT_LT(test::CornerError(followed.camera_from_map, now), 0.3);
   ASSERT_EQ(patch_tracker.seen().size(), static_cast<size_t>(followed.agreeing));

@@ -1,0 +1,136 @@
+#pragma once
+
+// A camera whose intrinsics are not exactly known, and the residuals of points seen by it. The
+// shutter may be a rolling one: each pixel is exposed at its own time, while the camera moves.
+
+#include <Eigen/Core>
+
+#include "shared/geometry/camera_model.h"
+#include "shared/geometry/transform.h"
+#include "shared/vision/pose_refinement.h"
+#include "shared/vision/rolling_shutter.h"
+
+namespace lararium::vision {
+
+// The parameters that can be estimated. What most cameras need most comes first, so that a prefix
+// of the parameters can be estimated by itself.
+enum CameraParameter {
+  kReadoutX,  // CameraEstimate::readout
+  kReadoutY,
+  kFocal,    // relative change of both focal lengths
+  kCentreX,  // principal point, pixels
+  kCentreY,
+  kRadial1,  // k1
+  kRadial2,  // k2
+  kCameraParameters,
+};
+inline constexpr int kShutterParameters = kFocal;  // Those of the shutter, which come first.
+
+using CameraVector = Eigen::Matrix<double, kCameraParameters, 1>;
+using CameraMatrix = Eigen::Matrix<double, kCameraParameters, kCameraParameters>;
+
+struct CameraEstimate {
+  geometry::CameraModel model;
+  Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // See RollingShutter.
+  // Of the parameters; a parameter of variance 0 is exactly known.
+  CameraMatrix covariance = CameraMatrix::Zero();
+
+  // The number of parameters, counted from the first, of which at least the last is not known.
+  int Unknown() const;
+
+  // The time at which a pixel is exposed, in frame times after the middle of the image.
+  double TimeOf(const Eigen::Vector2d& pixel) const;
+};
+
+// An exactly known camera with a global shutter.
+CameraEstimate ExactCamera(const geometry::CameraModel& model);
+
+// Changes the parameters; the covariance stays.
+CameraEstimate Changed(const CameraEstimate& camera, const CameraVector& step);
+// The step with Changed(from, step) = to.
+CameraVector Difference(const CameraEstimate& from, const CameraEstimate& to);
+
+struct PosedCamera {
+  geometry::Rigid3 camera_from_map;
+  CameraEstimate camera;
+};
+
+// The inverse of the covariance. A known parameter has no correlation with others and 1 on the
+// diagonal, so that it can be estimated to be unchanged.
+CameraMatrix Information(const CameraEstimate& camera);
+
+// A pose and the first N - 6 parameters of the camera.
+template <int N>
+using JointVector = Eigen::Matrix<double, N, 1>;
+template <int N>
+using JointMatrix = Eigen::Matrix<double, N, N>;
+inline constexpr int kMostJoint = 6 + kCameraParameters;
+// The covariance of a pose and of a camera that is exactly known.
+JointMatrix<kMostJoint> WithKnownCamera(const Matrix6d& covariance);
+
+// The camera's motion (w, v) during one frame time, as in Moved(). nullptr: unknown, which counts
+// as none.
+using FrameMotion = const Vector6d*;
+
+// The point that a pixel shows, in the camera frame of the middle of the image, moved to the time
+// at which the pixel was exposed.
+Eigen::Vector3d AtTimeOf(double time, const Eigen::Vector3d& in_camera, FrameMotion motion);
+
+// The pixel at which a point in the camera frame is seen, minus the pixel at which it was observed.
+// If jacobian is not null, fills in the derivative by (w, v) and the parameters. Returns false for
+// a point behind the camera.
+template <int N>
+bool PixelResidual(const CameraEstimate& camera,
+                   const Eigen::Vector3d& in_camera,
+                   FrameMotion motion,
+                   const Eigen::Vector2d& observed,
+                   Eigen::Vector2d& residual,
+                   Eigen::Matrix<double, 2, N>* jacobian) {
+  const double time = N > 6 ? camera.TimeOf(observed) : 0.0;
+  const Eigen::Vector3d p = N > 6 ? AtTimeOf(time, in_camera, motion) : in_camera;
+  Eigen::Vector2d on_plane;
+  Matrix26d by_pose;
+  if (!PlaneResidual(p, Eigen::Vector2d::Zero(), on_plane,
+                     jacobian != nullptr ? &by_pose : nullptr)) {
+    return false;
+  }
+  if (jacobian == nullptr) {
+    residual = camera.model.PixelFromPlane(on_plane) - observed;
+    return true;
+  }
+  Eigen::Matrix2d slope;
+  const Eigen::Vector2d seen = camera.model.PixelFromPlane(on_plane, slope);
+  residual = seen - observed;
+  jacobian->template leftCols<6>().noalias() = slope * by_pose;
+  if constexpr (N > 6) {
+    const geometry::CameraModel& model = camera.model;
+    Eigen::Vector2d speed = Eigen::Vector2d::Zero();  // pixels per frame time
+    if (motion != nullptr) {
+      // The point moves as the one of the middle of the image does, turned by what the camera has
+      // turned since.
+      const Eigen::Matrix<double, 2, 3> by_point = jacobian->template middleCols<3>(3);
+      const Eigen::Vector3d w = motion->template head<3>();
+      const Eigen::Matrix3d turn = geometry::Skew(w);
+      const Eigen::Matrix<double, 2, 3> by_middle =
+          by_point * (Eigen::Matrix3d::Identity() + time * turn + 0.5 * time * time * turn * turn);
+      jacobian->template leftCols<3>().noalias() = -by_middle * geometry::Skew(in_camera);
+      jacobian->template middleCols<3>(3) = by_middle;
+      const Eigen::Vector3d across = w.cross(in_camera);
+      speed = by_point * (across + time * w.cross(across) + motion->template tail<3>());
+    }
+    jacobian->template middleCols<2>(6 + kReadoutX) =
+        speed * ReadoutOrder(model, observed).transpose();
+    if constexpr (N > 6 + kShutterParameters) {
+      const double r2 = on_plane.squaredNorm();
+      const Eigen::Vector2d scaled(model.fx * on_plane.x(), model.fy * on_plane.y());
+      jacobian->col(6 + kFocal) = seen - Eigen::Vector2d(model.cx, model.cy);
+      jacobian->col(6 + kCentreX) = Eigen::Vector2d::UnitX();
+      jacobian->col(6 + kCentreY) = Eigen::Vector2d::UnitY();
+      jacobian->col(6 + kRadial1) = scaled * r2;
+      jacobian->col(6 + kRadial2) = scaled * (r2 * r2);
+    }
+  }
+  return true;
+}
+
+}  // namespace lararium::vision

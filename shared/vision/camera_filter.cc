@@ -1,0 +1,181 @@
+#include "shared/vision/camera_filter.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace lararium::vision {
+namespace {
+
+using geometry::CameraModel;
+
+constexpr size_t kMostLenses = 4;
+
+// Standard deviations of a camera that nothing is known of. Lengths in pixels are shares of the
+// longer side of the image.
+constexpr double kUnknownReadout = 0.5;
+constexpr double kUnknownFocal = 0.7;
+constexpr double kUnknownCentre = 0.01;
+constexpr double kUnknownRadial = 0.1;
+
+// Standard deviations of what changes in one frame time.
+constexpr double kReadoutStep = 0.001;
+constexpr double kFocalStep = 0.003;
+constexpr double kCentreStep = 0.00005;
+constexpr double kRadialStep = 0.0005;
+
+// By how much a lens may differ when it is used again: autofocus has moved it since.
+constexpr double kFocalAgain = 0.025;
+constexpr double kCentreAgain = 0.002;
+constexpr double kRadialAgain = 0.01;
+
+double LongerSide(const CameraModel& model) { return std::max(model.width, model.height); }
+
+CameraMatrix Squares(double readout, double focal, double centre, double radial) {
+  CameraVector deviations;
+  deviations << readout, readout, focal, centre, centre, radial, radial;
+  return deviations.cwiseAbs2().asDiagonal();
+}
+
+CameraMatrix Sum(const CameraMatrix& covariance,
+                 const CameraMatrix& change,
+                 const CameraMatrix& most) {
+  CameraMatrix sum = covariance + change;
+  // What is not known cannot become less known; correlations fade as well.
+  for (int i = 0; i < kCameraParameters; ++i) {
+    if (sum(i, i) > most(i, i)) {
+      const double factor = most(i, i) > 0.0 ? std::sqrt(most(i, i) / sum(i, i)) : 0.0;
+      sum.row(i) *= factor;
+      sum.col(i) *= factor;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+CameraFilter::CameraFilter(const CameraModel& camera, bool known)
+    : similar_(camera), known_(known), now_(Unknown()) {}
+
+CameraEstimate CameraFilter::Unknown() const {
+  CameraEstimate camera = ExactCamera(similar_);
+  if (known_) {
+    camera.covariance = Squares(kUnknownReadout, 0.0, 0.0, 0.0);
+    return camera;
+  }
+  CameraModel& model = camera.model;
+  model.fx = model.fy = similar_.Focal();
+  model.cx = 0.5 * (model.width - 1);
+  model.cy = 0.5 * (model.height - 1);
+  model.k1 = model.k2 = model.p1 = model.p2 = 0.0;
+  camera.covariance =
+      Squares(kUnknownReadout, kUnknownFocal, kUnknownCentre * LongerSide(model), kUnknownRadial);
+  return camera;
+}
+
+void CameraFilter::SetSize(int width, int height) {
+  if (width == now_.model.width && height == now_.model.height) {
+    return;
+  }
+  if (known_) {
+    similar_ = similar_.Resized(width, height);
+    now_.model = now_.model.Resized(width, height);
+    return;
+  }
+  similar_ = similar_.GuessForImages(width, height);
+  now_ = Unknown();
+  lenses_.clear();
+}
+
+CameraEstimate CameraFilter::Predict(double frames) const {
+  CameraEstimate predicted = now_;
+  const CameraMatrix change =
+      frames * (known_ ? Squares(kReadoutStep, 0.0, 0.0, 0.0)
+                       : Squares(kReadoutStep, kFocalStep, kCentreStep * LongerSide(now_.model),
+                                 kRadialStep));
+  predicted.covariance = Sum(now_.covariance, change, Unknown().covariance);
+  return predicted;
+}
+
+CameraGuess CameraFilter::Guess() const {
+  if (known_) {
+    return {now_};
+  }
+  CameraGuess guess{Unknown()};
+  guess.prior.readout = now_.readout;
+  for (auto lens = lenses_.rbegin(); lens != lenses_.rend(); ++lens) {
+    guess.candidates.push_back(lens->model);
+  }
+  guess.candidates.push_back(similar_);
+  return guess;
+}
+
+CameraGuess CameraFilter::PresentGuess() const {
+  return known_ ? CameraGuess{now_} : CameraGuess{Predict(1.0), {now_.model}};
+}
+
+void CameraFilter::Update(const CameraEstimate& estimate) {
+  constexpr double kMostDeviations = 4.0;
+  const CameraEstimate before = now_;
+  now_ = estimate;
+  const CameraVector off = Difference(before, estimate);
+  for (const int i : {kReadoutX, kReadoutY}) {
+    if (off[i] * off[i] > kMostDeviations * kMostDeviations * before.covariance(i, i)) {
+      now_.readout[i] = before.readout[i];
+      now_.covariance.row(i).setZero();
+      now_.covariance.col(i).setZero();
+      now_.covariance(i, i) = before.covariance(i, i);
+    }
+  }
+  if (!lenses_.empty()) {
+    lenses_.back() = now_;
+  }
+}
+
+void CameraFilter::Found(const CameraEstimate& found) {
+  if (known_) {
+    return;  // A single image does not show the readout time.
+  }
+  // The statistic of a difference of the five parameters of the lens, and its 99.9 % quantile.
+  constexpr double kSameLens = 20.5;
+  constexpr int kLens = kCameraParameters - kShutterParameters;
+  std::optional<size_t> same;
+  double least = kSameLens;
+  const double side = LongerSide(found.model);
+  const CameraMatrix since = Squares(0.0, kFocalAgain, kCentreAgain * side, kRadialAgain);
+  for (size_t i = 0; i < lenses_.size(); ++i) {
+    const auto off = Difference(lenses_[i], found).tail<kLens>();
+    const Eigen::Matrix<double, kLens, kLens> covariance =
+        (lenses_[i].covariance + since + found.covariance).bottomRightCorner<kLens, kLens>();
+    const double square = off.dot(covariance.inverse() * off);
+    if (square < least) {
+      least = square;
+      same = i;
+    }
+  }
+  CameraEstimate lens = found;
+  lens.readout = now_.readout;
+  lens.covariance.topRows<kShutterParameters>().setZero();
+  lens.covariance.leftCols<kShutterParameters>().setZero();
+  lens.covariance.topLeftCorner<kShutterParameters, kShutterParameters>() =
+      now_.covariance.topLeftCorner<kShutterParameters, kShutterParameters>();
+  if (same) {
+    // The two estimates are joined, each weighed by its information.
+    CameraEstimate known = lenses_[*same];
+    known.covariance += since;
+    const CameraMatrix of_known = Information(known);
+    const CameraMatrix of_found = Information(lens);
+    const CameraMatrix covariance = (of_known + of_found).inverse();
+    const CameraVector off = covariance * (of_found * Difference(known, lens));
+    lens = Changed(known, off);
+    lens.covariance = covariance;
+    lenses_.erase(lenses_.begin() + static_cast<std::ptrdiff_t>(*same));
+  } else if (lenses_.size() == kMostLenses) {
+    lenses_.erase(lenses_.begin());
+  }
+  lenses_.push_back(lens);
+  now_ = lens;
+}
+
+}  // namespace lararium::vision

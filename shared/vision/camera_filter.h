@@ -1,0 +1,49 @@
+#pragma once
+
+// What is known of a camera from image to image. The intrinsics of a visitor's camera are seldom
+// known, and they change: autofocus moves the focal length, and phones switch lenses.
+
+#include <vector>
+
+#include "shared/geometry/camera_model.h"
+#include "shared/vision/camera_estimate.h"
+#include "shared/vision/localizer.h"
+
+namespace lararium::vision {
+
+class CameraFilter {
+ public:
+  // camera: the intrinsics if they are known; otherwise those of some camera that may be similar,
+  // such as the one that the map was trained with. The readout time is always estimated.
+  CameraFilter(const geometry::CameraModel& camera, bool known);
+
+  // Prepares for images of this size. A camera of unknown intrinsics is another one if its images
+  // have another shape.
+  void SetSize(int width, int height);
+
+  // What is known before an image, `frames` frames after the last one.
+  CameraEstimate Predict(double frames) const;
+  // What is known before an image that is located without a prior: the lens may be another one.
+  CameraGuess Guess() const;
+  // The present lens as a guess, for an image that was already followed.
+  CameraGuess PresentGuess() const;
+
+  // Takes over the camera of an image that was followed with Predict(). A readout time that
+  // contradicts the expected one is left out: the camera jerked, or images are missing.
+  void Update(const CameraEstimate& estimate);
+  // Takes over the camera of an image that was located with Guess(). Recognises a lens that was in
+  // use before, and then knows its intrinsics.
+  void Found(const CameraEstimate& found);
+
+  const CameraEstimate& now() const { return now_; }
+
+ private:
+  CameraEstimate Unknown() const;
+
+  geometry::CameraModel similar_;
+  bool known_;
+  CameraEstimate now_;
+  std::vector<CameraEstimate> lenses_;  // Those that were in use, the present one last.
+};
+
+}  // namespace lararium::vision
