@@ -163,7 +163,16 @@ std::string CameraSummary(const train::TrainReport& report) {
                 report.camera.fx, report.focal_deviation_px, report.camera.k1, report.k1_deviation,
                 report.camera.k2, report.k2_deviation, report.camera.cx, report.camera.cy,
                 report.principal_point_estimated ? "" : " (assumed)");
-  return text;
+  std::string summary = text;
+  if (report.shutter) {
+    const Eigen::Vector2d& readout = report.shutter->readout;
+    std::snprintf(text, sizeof(text),
+                  "shutter: rolling; an image is read in %.3f of the frame time, by %s\n",
+                  readout.cwiseAbs().maxCoeff(),
+                  std::abs(readout.x()) > std::abs(readout.y()) ? "columns" : "rows");
+    summary += text;
+  }
+  return summary;
 }
 
 // {"points", "descriptors", "images", "bytes", "recall", ...} for each budget.

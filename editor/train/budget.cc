@@ -224,6 +224,7 @@ SceneDatabase WithPoints(const SceneDatabase& db,
                          int max_descriptors) {
   SceneDatabase kept;
   kept.camera = db.camera;
+  kept.readout = db.readout;
   kept.mean_reprojection_error_px = db.mean_reprojection_error_px;
   kept.keyframes = db.keyframes;
   kept.descriptor_begin.push_back(0);

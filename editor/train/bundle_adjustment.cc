@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "shared/core/check.h"
+#include "shared/vision/rolling_shutter.h"
 
 namespace lararium::train {
 namespace {
@@ -34,39 +35,59 @@ CameraModel WithIntrinsics(CameraModel camera, const IntrinsicsBlock& block) {
   return camera;
 }
 
+// Indices of the parameters that are not adjusted.
+std::vector<int> ConstantIntrinsics(const BundleOptions& options) {
+  std::vector<int> constant;
+  for (int i = 0; i < kIntrinsics; ++i) {
+    const bool refined = i < 3   ? options.refine_intrinsics
+                         : i < 5 ? options.refine_intrinsics && options.refine_centre
+                                 : options.refine_readout;
+    if (!refined) {
+      constant.push_back(i);
+    }
+  }
+  return constant;
+}
+
 class ReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7, 3> {
  public:
-  ReprojectionCost(const CameraModel& fixed, const Eigen::Vector2d& pixel)
-      : fixed_(fixed), pixel_(pixel) {}
+  ReprojectionCost(const CameraModel& fixed,
+                   const ImageMotion& motion,
+                   const Eigen::Vector2d& pixel)
+      : fixed_(fixed), motion_(motion), pixel_(pixel) {}
 
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
-    return ReprojectionResidual(fixed_, pixel_, parameters[0], parameters[1], parameters[2],
-                                residuals, jacobians != nullptr ? jacobians[0] : nullptr,
+    return ReprojectionResidual(fixed_, motion_, pixel_, parameters[0], parameters[1],
+                                parameters[2], residuals,
+                                jacobians != nullptr ? jacobians[0] : nullptr,
                                 jacobians != nullptr ? jacobians[1] : nullptr,
                                 jacobians != nullptr ? jacobians[2] : nullptr);
   }
 
  private:
   const CameraModel& fixed_;
+  ImageMotion motion_;
   Eigen::Vector2d pixel_;
 };
 
 // A ceres::Problem together with its parameter blocks.
 class Bundle {
  public:
-  Bundle(const CameraModel& camera, const BundleOptions& options)
+  Bundle(const CameraModel& camera, const Eigen::Vector2d& readout, const BundleOptions& options)
       : options_(options),
         camera_(camera),
         loss_(options.loss_scale_px),
         problem_(BorrowingOptions()),
-        intrinsics_(ToIntrinsicsBlock(camera)) {
+        intrinsics_(ToIntrinsicsBlock(camera, readout)) {
     problem_.AddParameterBlock(intrinsics_.data(), kIntrinsics);
-    if (!options.refine_intrinsics) {
+    const std::vector<int> constant = ConstantIntrinsics(options);
+    if (constant.size() == kIntrinsics) {
       problem_.SetParameterBlockConstant(intrinsics_.data());
-    } else if (!options.refine_centre) {
-      problem_.SetManifold(intrinsics_.data(), &centred_manifold_);
+    } else if (!constant.empty()) {
+      intrinsics_manifold_.emplace(kIntrinsics, constant);
+      problem_.SetManifold(intrinsics_.data(), &*intrinsics_manifold_);
     }
   }
   Bundle(const Bundle&) = delete;
@@ -98,10 +119,13 @@ class Bundle {
     return block;
   }
 
-  void AddObservation(const Eigen::Vector2d& pixel, double* pose, double* point) {
+  void AddObservation(const ImageMotion& motion,
+                      const Eigen::Vector2d& pixel,
+                      double* pose,
+                      double* point) {
     // The problem owns its cost functions.
-    problem_.AddResidualBlock(new ReprojectionCost(camera_, pixel), &loss_, intrinsics_.data(),
-                              pose, point);
+    problem_.AddResidualBlock(new ReprojectionCost(camera_, motion, pixel), &loss_,
+                              intrinsics_.data(), pose, point);
   }
 
   bool Solve() {
@@ -123,6 +147,7 @@ class Bundle {
   }
 
   CameraModel camera() const { return WithIntrinsics(camera_, intrinsics_); }
+  Eigen::Vector2d readout() const { return {intrinsics_[5], intrinsics_[6]}; }
   Rigid3 pose(size_t i) const { return ToPose(poses_[i]); }
   const Eigen::Vector3d& point(size_t i) const { return points_[i]; }
   ceres::Problem& problem() { return problem_; }
@@ -166,7 +191,7 @@ class Bundle {
   CameraModel camera_;
   ceres::CauchyLoss loss_;
   PoseManifold pose_manifold_;
-  ceres::SubsetManifold centred_manifold_{kIntrinsics, {3, 4}};
+  std::optional<ceres::SubsetManifold> intrinsics_manifold_;  // Some are not adjusted.
   ceres::Problem problem_;
   IntrinsicsBlock intrinsics_;
   std::vector<PoseBlock> poses_;
@@ -205,7 +230,8 @@ struct ReconstructionBundle {
                        const std::vector<bool>& variable,  // [image]
                        const BundleOptions& options,
                        size_t firm_observations = std::numeric_limits<size_t>::max())
-      : bundle(reconstruction.camera(), options), tracks(std::move(bundled_tracks)) {
+      : bundle(reconstruction.camera(), reconstruction.readout(), options),
+        tracks(std::move(bundled_tracks)) {
     bundle.Reserve(reconstruction.image_count(), tracks.size());
     std::vector<double*> poses(reconstruction.image_count(), nullptr);
     for (const uint32_t track : tracks) {
@@ -221,7 +247,8 @@ struct ReconstructionBundle {
           poses[image] = bundle.AddPose(reconstruction.camera_from_map(image), variable[image]);
           images.push_back(image);
         }
-        bundle.AddObservation(reconstruction.Pixel(element), poses[image], point);
+        bundle.AddObservation(reconstruction.motion(image), reconstruction.Pixel(element),
+                              poses[image], point);
       }
     }
   }
@@ -281,11 +308,12 @@ Rigid3 ToPose(const PoseBlock& block) {
   return pose;
 }
 
-IntrinsicsBlock ToIntrinsicsBlock(const CameraModel& camera) {
-  return {camera.fx, camera.k1, camera.k2, camera.cx, camera.cy};
+IntrinsicsBlock ToIntrinsicsBlock(const CameraModel& camera, const Eigen::Vector2d& readout) {
+  return {camera.fx, camera.k1, camera.k2, camera.cx, camera.cy, readout.x(), readout.y()};
 }
 
 bool ReprojectionResidual(const CameraModel& fixed,
+                          const ImageMotion& motion,
                           const Eigen::Vector2d& pixel,
                           const double* intrinsics,
                           const double* pose,
@@ -299,7 +327,14 @@ bool ReprojectionResidual(const CameraModel& fixed,
   const Eigen::Map<const Eigen::Vector3d> translation(pose + 4);
   const Eigen::Map<const Eigen::Vector3d> in_map(point);
   const Eigen::Vector3d cross = v.cross(in_map);
-  const Eigen::Vector3d in_camera = in_map + 2.0 * (w * cross + v.cross(cross)) + translation;
+  const Eigen::Vector3d of_middle = in_map + 2.0 * (w * cross + v.cross(cross)) + translation;
+  // The point when its pixel was exposed, by the motion to second order.
+  const Eigen::Vector2d order = vision::ReadoutOrder(fixed, pixel);
+  const double time = intrinsics[5] * order.x() + intrinsics[6] * order.y();
+  const Eigen::Matrix3d turning = geometry::Skew(motion.head<3>());
+  const Eigen::Matrix3d turned =
+      Eigen::Matrix3d::Identity() + time * turning + 0.5 * time * time * turning * turning;
+  const Eigen::Vector3d in_camera = turned * of_middle + time * motion.tail<3>();
   if (!(in_camera.z() > 1e-9)) {
     return false;
   }
@@ -318,12 +353,7 @@ bool ReprojectionResidual(const CameraModel& fixed,
   residual[0] = fx * distorted.x() + intrinsics[3] - pixel.x();
   residual[1] = fy * distorted.y() + intrinsics[4] - pixel.y();
 
-  if (by_intrinsics != nullptr) {
-    Eigen::Map<Matrix2xIntrinsics> jacobian(by_intrinsics);
-    jacobian << distorted.x(), fx * x * r2, fx * x * r2 * r2, 1.0, 0.0,  //
-        fy / fx * distorted.y(), fy * y * r2, fy * y * r2 * r2, 0.0, 1.0;
-  }
-  if (by_pose == nullptr && by_point == nullptr) {
+  if (by_intrinsics == nullptr && by_pose == nullptr && by_point == nullptr) {
     return true;
   }
   // Derivatives by the point on the plane z = 1, then by the point in camera axes.
@@ -335,6 +365,16 @@ bool ReprojectionResidual(const CameraModel& fixed,
   Matrix2x3 by_camera;
   by_camera.leftCols<2>() = by_plane * inverse_z;
   by_camera.col(2) = by_plane * Eigen::Vector2d(-x, -y) * inverse_z;
+  if (by_intrinsics != nullptr) {
+    Eigen::Map<Matrix2xIntrinsics> jacobian(by_intrinsics);
+    jacobian.leftCols<5>() << distorted.x(), fx * x * r2, fx * x * r2 * r2, 1.0, 0.0,  //
+        fy / fx * distorted.y(), fy * y * r2, fy * y * r2 * r2, 0.0, 1.0;
+    const Eigen::Vector3d speed =
+        (turning + time * turning * turning) * of_middle + motion.tail<3>();
+    jacobian.rightCols<2>() = by_camera * speed * order.transpose();
+  }
+  by_camera =
+      (by_camera * turned).eval();  // By the point when the middle of the image was exposed.
   if (by_pose != nullptr) {
     // R X = X + 2 w (v x X) + 2 v x (v x X), and v x (v x X) = v (v.X) - X (v.v).
     Eigen::Map<Matrix2x7> jacobian(by_pose);
@@ -376,6 +416,9 @@ bool AdjustAll(Reconstruction& reconstruction,
     }
     reconstruction.SetCamera(camera);
   }
+  if (options.refine_readout) {
+    reconstruction.SetReadout(adjusted.bundle.readout());
+  }
   adjusted.WriteTo(reconstruction);
   if (options.points_per_image > 0) {
     IntersectOthers(reconstruction, adjusted.tracks);
@@ -387,7 +430,7 @@ bool AdjustAll(Reconstruction& reconstruction,
 bool AdjustLocally(Reconstruction& reconstruction,
                    std::span<const uint32_t> images,
                    const BundleOptions& options) {
-  CHECK(!images.empty() && !options.refine_intrinsics);
+  CHECK(!images.empty() && !options.refine_intrinsics && !options.refine_readout);
   std::vector<bool> variable(reconstruction.image_count(), false);
   for (const uint32_t image : images) {
     variable[image] = true;
@@ -422,12 +465,13 @@ std::optional<Rigid3> AdjustPose(const CameraModel& camera,
                                  const Rigid3& start,
                                  const BundleOptions& options) {
   CHECK(pixels.size() == points.size());
-  Bundle bundle(camera, options);
+  Bundle bundle(camera, Eigen::Vector2d::Zero(), options);
   bundle.Reserve(1, points.size());
   double* pose = bundle.AddPose(start, true);
   for (size_t i = 0; i < pixels.size(); ++i) {
     if ((start * points[i]).z() > 1e-6) {
-      bundle.AddObservation(pixels[i], pose, bundle.AddPoint(points[i], false));
+      bundle.AddObservation(ImageMotion::Zero(), pixels[i], pose,
+                            bundle.AddPoint(points[i], false));
     }
   }
   if (!bundle.Solve()) {
@@ -438,12 +482,10 @@ std::optional<Rigid3> AdjustPose(const CameraModel& camera,
 
 IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
                                       uint32_t anchor,
-                                      bool centre_refined) {
+                                      BundleOptions options) {
   std::vector<bool> variable(reconstruction.image_count(), true);
   variable[anchor] = false;
-  BundleOptions options;
-  options.refine_intrinsics = true;
-  options.refine_centre = centre_refined;
+  options.points_per_image = 0;
   ReconstructionBundle evaluated(reconstruction, reconstruction.TracksWithPoints(), variable,
                                  options);
   ceres::Problem& problem = evaluated.bundle.problem();
@@ -476,12 +518,15 @@ IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
     const double variance = factors.solve(unit)[parameter] * variance_of_residuals;
     return variance > 0.0 ? std::sqrt(variance) : 0.0;
   };
-  IntrinsicsDeviation found{deviation(0), deviation(1), deviation(2)};
-  if (centre_refined) {
-    found.cx_px = deviation(3);
-    found.cy_px = deviation(4);
+  const std::vector<int> constant = ConstantIntrinsics(options);
+  std::array<double, kIntrinsics> found{};
+  int column = 0;
+  for (int i = 0; i < kIntrinsics; ++i) {
+    if (std::find(constant.begin(), constant.end(), i) == constant.end()) {
+      found[i] = deviation(column++);
+    }
   }
-  return found;
+  return {found[0], found[1], found[2], found[3], found[4], found[5], found[6]};
 }
 
 }  // namespace lararium::train

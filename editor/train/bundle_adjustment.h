@@ -13,19 +13,22 @@
 
 namespace lararium::train {
 
-// The intrinsics that are adjusted: fx, k1, k2, cx, cy. The ratio fy / fx stays constant.
-inline constexpr int kIntrinsics = 5;
+// The intrinsics that are adjusted: fx, k1, k2, cx, cy, and the readout time along x and y (see
+// vision::RollingShutter). The ratio fy / fx stays constant.
+inline constexpr int kIntrinsics = 7;
 using IntrinsicsBlock = std::array<double, kIntrinsics>;
-IntrinsicsBlock ToIntrinsicsBlock(const geometry::CameraModel& camera);
+IntrinsicsBlock ToIntrinsicsBlock(const geometry::CameraModel& camera,
+                                  const Eigen::Vector2d& readout = Eigen::Vector2d::Zero());
 // A camera_from_map: quaternion x, y, z, w, then the translation.
 using PoseBlock = std::array<double, 7>;
 PoseBlock ToPoseBlock(const geometry::Rigid3& pose);
 geometry::Rigid3 ToPose(const PoseBlock& block);
 
 // Computes the projection of a point minus its observed pixel. Fills in each Jacobian that is not
-// null, row by row. fixed supplies the parameters that IntrinsicsBlock does not hold. Returns false
-// for points behind the camera.
+// null, row by row. fixed supplies the parameters that IntrinsicsBlock does not hold. motion: of
+// the camera during one frame time. Returns false for points behind the camera.
 bool ReprojectionResidual(const geometry::CameraModel& fixed,
+                          const ImageMotion& motion,
                           const Eigen::Vector2d& pixel,
                           const double* intrinsics,
                           const double* pose,
@@ -41,6 +44,7 @@ struct BundleOptions {
   double function_tolerance = 1e-6;
   bool refine_intrinsics = false;  // Also adjusts focal length and two radial terms.
   bool refine_centre = false;      // Also adjusts the principal point; needs refine_intrinsics.
+  bool refine_readout = false;     // Also adjusts the readout time.
   // If not 0, only the most observed points take part, enough of them that each image sees this
   // many. AdjustAll triangulates the other points again afterwards. 0: all points take part.
   size_t points_per_image = 0;
@@ -75,9 +79,12 @@ struct IntrinsicsDeviation {
   double k2 = 0.0;
   double cx_px = 0.0;
   double cy_px = 0.0;
+  double readout_x = 0.0;
+  double readout_y = 0.0;
 };
+// options: as those with which the parameters were refined.
 IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
                                       uint32_t anchor,
-                                      bool centre_refined);
+                                      BundleOptions options);
 
 }  // namespace lararium::train

@@ -35,6 +35,7 @@ class Builder {
 
   vision::SceneDatabase Build() {
     database_.camera = reconstruction_.camera();
+    database_.readout = reconstruction_.readout();
     AddKeyframes();
     database_.descriptor_begin.push_back(0);
     double error_sum = 0.0;
@@ -72,6 +73,7 @@ class Builder {
       keyframe.name = images_[image].name;
       keyframe.session = options_.session;
       keyframe.camera_from_map = reconstruction_.camera_from_map(image);
+      keyframe.motion = reconstruction_.motion(image);
       keyframe.grey = images_[image].grey;
       bgr_.push_back(images_[image].bgr);
     }

@@ -7,12 +7,15 @@
 #include "shared/core/parallel.h"
 #include "shared/vision/guided_matcher.h"
 #include "shared/vision/localizer.h"
+#include "shared/vision/patch_pose.h"
+#include "shared/vision/rolling_shutter.h"
 
 namespace lararium::train {
 namespace {
 
 constexpr size_t kWorkers = 8;
-constexpr double kLargestErrorPx = 2.0;  // Largest error of an observation.
+constexpr double kLargestErrorPx = 2.0;   // Largest error of an observation.
+constexpr double kMatchingReachPx = 4.0;  // Points are looked for while the shutter is ignored.
 
 }  // namespace
 
@@ -40,7 +43,7 @@ class FrameLocator::Worker {
   explicit Worker(const vision::SceneDatabase& database)
       : database_(database), localizer_(database, {}), matcher_(database) {}
 
-  LocatedView Locate(const cv::Mat& grey) {
+  LocatedView Locate(const cv::Mat& grey, const ImageMotion& motion) {
     vision::FeatureOptions options;
     options.first_octave = 0;
     options.max_features = 1500;
@@ -51,7 +54,10 @@ class FrameLocator::Worker {
     view.features = static_cast<int>(features_.size());
     view.camera_from_map = localizer_.Locate(features_, database_.camera).camera_from_map;
     if (view.camera_from_map) {
-      std::vector<double> errors = ErrorsOfObservations(*view.camera_from_map);
+      if (!database_.readout.isZero(0.0) && !motion.isZero(0.0)) {
+        view.camera_from_map = WhileReading(*view.camera_from_map, motion);
+      }
+      std::vector<double> errors = ErrorsOfObservations(*view.camera_from_map, motion);
       view.observations = static_cast<int>(errors.size());
       view.median_error_px = Median(std::move(errors));
     }
@@ -59,15 +65,39 @@ class FrameLocator::Worker {
   }
 
  private:
-  std::vector<double> ErrorsOfObservations(const geometry::Rigid3& camera_from_map) {
-    matcher_.Match(database_.camera, camera_from_map, features_, kLargestErrorPx, matches_);
+  // Refines a pose by the points that support it, each at the time of its pixel.
+  geometry::Rigid3 WhileReading(const geometry::Rigid3& camera_from_map,
+                                const ImageMotion& motion) {
+    std::vector<vision::PatchMatch> matches;
+    for (const vision::LocatedPoint& located : localizer_.points()) {
+      matches.push_back({database_.points[located.point].cast<double>(),
+                         located.pixel.cast<double>(),
+                         Eigen::Matrix2d::Identity() / std::max(located.sigma_px, 1e-3f)});
+    }
+    vision::CameraPrior prior{vision::ExactCamera(database_.camera), &motion};
+    prior.camera.readout = database_.readout;
+    // As good as known; an unknown readout is what makes the estimation look at the time.
+    prior.camera.covariance(vision::kReadoutX, vision::kReadoutX) = 1e-12;
+    prior.camera.covariance(vision::kReadoutY, vision::kReadoutY) = 1e-12;
+    vision::PatchPose pose;
+    return vision::EstimatePatchPose(matches, prior, {camera_from_map, prior.camera}, 0.1, pose)
+               ? pose.posed.camera_from_map
+               : camera_from_map;
+  }
+
+  std::vector<double> ErrorsOfObservations(const geometry::Rigid3& camera_from_map,
+                                           const ImageMotion& motion) {
+    matcher_.Match(database_.camera, camera_from_map, features_, kMatchingReachPx, matches_);
     std::vector<double> errors;
     for (const vision::FeatureMatch& match : matches_) {
       const vision::Keypoint& keypoint = features_.keypoints[match.feature];
+      const Eigen::Vector2d pixel(keypoint.x, keypoint.y);
+      const double time = database_.readout.dot(vision::ReadoutOrder(database_.camera, pixel));
       const auto projected =
-          database_.camera.Project(camera_from_map * database_.points[match.point].cast<double>());
-      if (projected) {
-        errors.push_back((*projected - Eigen::Vector2d(keypoint.x, keypoint.y)).norm());
+          database_.camera.Project(vision::PoseAfter(camera_from_map, motion, time) *
+                                   database_.points[match.point].cast<double>());
+      if (projected && (*projected - pixel).norm() < kLargestErrorPx) {
+        errors.push_back((*projected - pixel).norm());
       }
     }
     return errors;
@@ -89,11 +119,12 @@ FrameLocator::FrameLocator(const vision::SceneDatabase& database) {
 
 FrameLocator::~FrameLocator() = default;
 
-std::vector<LocatedView> FrameLocator::Locate(std::span<const geometry::Frame> frames) {
+std::vector<LocatedView> FrameLocator::Locate(std::span<const geometry::Frame> frames,
+                                              std::span<const ImageMotion> motions) {
   std::vector<LocatedView> views(frames.size());
   ParallelFor(kWorkers, [&](size_t worker) {
     for (size_t i = worker; i < frames.size(); i += kWorkers) {
-      views[i] = workers_[worker]->Locate(frames[i].grey);
+      views[i] = workers_[worker]->Locate(frames[i].grey, motions[i]);
     }
   });
   return views;

@@ -34,9 +34,12 @@ class FrameLocator {
   explicit FrameLocator(const vision::SceneDatabase& database);
   ~FrameLocator();
 
+  // Takes the motion of each frame into account, if the camera has a rolling shutter; zero if it is
+  // not known. motions[i] belongs to frames[i].
   // Result i describes frames[i]. Uses all cores. Deterministic: the same frame gives the same
   // view, independent of earlier calls.
-  std::vector<LocatedView> Locate(std::span<const geometry::Frame> frames);
+  std::vector<LocatedView> Locate(std::span<const geometry::Frame> frames,
+                                  std::span<const ImageMotion> motions);
 
  private:
   class Worker;

@@ -7,6 +7,7 @@
 
 #include "shared/core/check.h"
 #include "shared/geometry/triangulation.h"
+#include "shared/vision/rolling_shutter.h"
 
 namespace lararium::train {
 
@@ -41,6 +42,15 @@ void Reconstruction::SetCamera(const geometry::CameraModel& camera) {
   }
 }
 
+Rigid3 Reconstruction::PoseOf(uint32_t element) const {
+  const uint32_t image = ImageOf(element);
+  if (motions_.empty()) {
+    return camera_from_map(image);
+  }
+  return vision::PoseAfter(camera_from_map(image), motions_[image],
+                           readout_.dot(vision::ReadoutOrder(camera_, Pixel(element))));
+}
+
 std::vector<uint32_t> Reconstruction::LocatedImages() const {
   std::vector<uint32_t> images;
   for (uint32_t image = 0; image < image_count(); ++image) {
@@ -72,8 +82,7 @@ size_t Reconstruction::PointCount() const {
 }
 
 double Reconstruction::SquaredErrorPx(uint32_t element, const Eigen::Vector3d& point) const {
-  const std::optional<Eigen::Vector2d> pixel =
-      camera_.Project(camera_from_map(ImageOf(element)) * point);
+  const std::optional<Eigen::Vector2d> pixel = camera_.Project(PoseOf(element) * point);
   return pixel ? (*pixel - Pixel(element)).squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
@@ -117,7 +126,7 @@ std::optional<Eigen::Vector3d> Reconstruction::Intersect(std::span<const uint32_
   std::vector<Rigid3> cameras;
   std::vector<Eigen::Vector2d> plane_points;
   for (const uint32_t element : elements) {
-    cameras.push_back(camera_from_map(ImageOf(element)));
+    cameras.push_back(PoseOf(element));
     plane_points.push_back(PlanePoint(element));
   }
   return geometry::TriangulatePoint(cameras, plane_points);
@@ -251,6 +260,9 @@ void Reconstruction::Transform(const geometry::Similarity3& new_from_map) {
       // Scales the translation, so that the pose stays rigid in the new unit.
       pose = geometry::CameraFromB(*pose, map_from_new);
     }
+  }
+  for (ImageMotion& motion : motions_) {
+    motion.tail<3>() *= new_from_map.scale;
   }
   for (auto& point : points_) {
     if (point) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "editor/train/tracks.h"
@@ -14,6 +15,9 @@
 #include "shared/geometry/transform.h"
 
 namespace lararium::train {
+
+// See vision::RollingShutter::motion.
+using ImageMotion = Eigen::Matrix<double, 6, 1>;
 
 struct TriangulationOptions {
   double max_error_px = 4.0;
@@ -29,6 +33,19 @@ class Reconstruction {
 
   const geometry::CameraModel& camera() const { return camera_; }
   void SetCamera(const geometry::CameraModel& camera);
+
+  // The shutter of the camera: its readout time and, for each image, the motion meanwhile; see
+  // vision::RollingShutter. A global shutter unless set.
+  void SetShutter(const Eigen::Vector2d& readout, std::vector<ImageMotion> motions) {
+    readout_ = readout;
+    motions_ = std::move(motions);
+  }
+  void SetReadout(const Eigen::Vector2d& readout) { readout_ = readout; }
+  const Eigen::Vector2d& readout() const { return readout_; }
+  // Zero if it is not known.
+  ImageMotion motion(uint32_t image) const {
+    return motions_.empty() ? ImageMotion::Zero() : motions_[image];
+  }
 
   size_t image_count() const { return pixels_.size(); }
   bool Located(uint32_t image) const { return camera_from_map_[image].has_value(); }
@@ -49,6 +66,8 @@ class Reconstruction {
   }
   // Undistorted position on the plane z = 1.
   const Eigen::Vector2d& PlanePoint(uint32_t element) const { return plane_points_[element]; }
+  // The image's pose when the element's pixel was exposed.
+  geometry::Rigid3 PoseOf(uint32_t element) const;
 
   bool HasPoint(uint32_t track) const { return points_[track].has_value(); }
   std::vector<uint32_t> TracksWithPoints() const;  // Indices of tracks, ascending.
@@ -96,6 +115,8 @@ class Reconstruction {
   void DropPoint(uint32_t track);
 
   geometry::CameraModel camera_;
+  Eigen::Vector2d readout_ = Eigen::Vector2d::Zero();
+  std::vector<ImageMotion> motions_;  // [image], or empty
   std::vector<std::vector<Eigen::Vector2d>> pixels_;
   Tracks tracks_;
   std::vector<uint32_t> element_track_;

@@ -16,22 +16,27 @@ using SessionPoseManifold =
 
 class ObservationCost : public ceres::SizedCostFunction<2, 7, 3> {
  public:
-  ObservationCost(const CameraModel& camera, const vision::Observation& observation)
-      : camera_(camera),
-        intrinsics_(ToIntrinsicsBlock(camera)),
+  ObservationCost(const vision::SceneDatabase& db, const vision::Observation& observation)
+      : camera_(db.camera),
+        intrinsics_(ToIntrinsicsBlock(db.camera, db.readout)),
+        motion_(observation.keyframe < db.keyframes.size()
+                    ? db.keyframes[observation.keyframe].motion
+                    : ImageMotion::Zero()),
         pixel_(observation.x, observation.y) {}
 
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
-    return ReprojectionResidual(camera_, pixel_, intrinsics_.data(), parameters[0], parameters[1],
-                                residuals, nullptr, jacobians != nullptr ? jacobians[0] : nullptr,
+    return ReprojectionResidual(camera_, motion_, pixel_, intrinsics_.data(), parameters[0],
+                                parameters[1], residuals, nullptr,
+                                jacobians != nullptr ? jacobians[0] : nullptr,
                                 jacobians != nullptr ? jacobians[1] : nullptr);
   }
 
  private:
   const CameraModel& camera_;
   IntrinsicsBlock intrinsics_;
+  ImageMotion motion_;
   Eigen::Vector2d pixel_;
 };
 
@@ -68,7 +73,7 @@ ceres::Solver::Options SolverOptions(size_t free_poses) {
 }
 
 // Adjusts the poses from first_free on and the points in free_points.
-bool Solve(const CameraModel& camera,
+bool Solve(const vision::SceneDatabase& map,
            std::span<const vision::Observation> observations,
            const std::vector<bool>& free_points,
            size_t first_free,
@@ -87,7 +92,7 @@ bool Solve(const CameraModel& camera,
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (const vision::Observation& o : observations) {
     if (free_points[o.point]) {
-      problem.AddResidualBlock(new ObservationCost(camera, o), &loss, poses[o.keyframe].data(),
+      problem.AddResidualBlock(new ObservationCost(map, o), &loss, poses[o.keyframe].data(),
                                moved[o.point].data());
     }
   }
@@ -128,22 +133,22 @@ bool Solve(const CameraModel& camera,
 
 }  // namespace
 
-bool AdjustSession(const CameraModel& camera,
+bool AdjustSession(const vision::SceneDatabase& map,
                    std::span<const vision::Observation> observations,
                    size_t first_free,
                    std::span<Rigid3> camera_from_map,
                    std::span<Eigen::Vector3d> points) {
-  return Solve(camera, observations, FreePoints(observations, first_free, points.size()),
-               first_free, camera_from_map, points);
+  return Solve(map, observations, FreePoints(observations, first_free, points.size()), first_free,
+               camera_from_map, points);
 }
 
-bool AdjustPoints(const CameraModel& camera,
+bool AdjustPoints(const vision::SceneDatabase& map,
                   std::span<const vision::Observation> observations,
                   std::span<const Rigid3> camera_from_map,
                   const std::vector<bool>& moves,
                   std::span<Eigen::Vector3d> points) {
   std::vector<Rigid3> poses(camera_from_map.begin(), camera_from_map.end());
-  return Solve(camera, observations, moves, poses.size(), poses, points);
+  return Solve(map, observations, moves, poses.size(), poses, points);
 }
 
 }  // namespace lararium::train

@@ -15,16 +15,16 @@ namespace lararium::train {
 // Adjusts the poses from index first_free on, and the points that they observe: minimises Cauchy's
 // loss of the reprojection errors over all observations of these points. Earlier poses, and with
 // them the map's frame and unit, stay fixed. observations index camera_from_map and points. Runs in
-// one thread, so that the same input gives the same bits. Returns false and changes nothing if no
-// solution was found.
-bool AdjustSession(const geometry::CameraModel& camera,
+// one thread, so that the same input gives the same bits. map supplies the camera, and the motion
+// of the keyframes that it has. Returns false and changes nothing if no solution was found.
+bool AdjustSession(const vision::SceneDatabase& map,
                    std::span<const vision::Observation> observations,
                    size_t first_free,
                    std::span<geometry::Rigid3> camera_from_map,
                    std::span<Eigen::Vector3d> points);
 
 // Adjusts only the points i with moves[i], by the same loss; all poses stay fixed.
-bool AdjustPoints(const geometry::CameraModel& camera,
+bool AdjustPoints(const vision::SceneDatabase& map,
                   std::span<const vision::Observation> observations,
                   std::span<const geometry::Rigid3> camera_from_map,
                   const std::vector<bool>& moves,

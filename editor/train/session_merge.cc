@@ -451,7 +451,7 @@ class Merger {
       poses.push_back(keyframe.camera_from_map);
     }
     poses.insert(poses.end(), poses_.begin(), poses_.end());
-    if (!AdjustSession(map_.camera, AllObservations(), MapKeyframes(), poses, points_)) {
+    if (!AdjustSession(map_, AllObservations(), MapKeyframes(), poses, points_)) {
       log_.warn("the joint adjustment found no solution");
       return;
     }
@@ -484,11 +484,13 @@ class Merger {
   SceneDatabase Build() {
     SceneDatabase db;
     db.camera = map_.camera;
+    db.readout = map_.readout;
     db.keyframes = map_.keyframes;
     const std::array<float, 3> exposure = ReferenceRatio();
     for (size_t k = 0; k < poses_.size(); ++k) {
       vision::Keyframe& keyframe = db.keyframes.emplace_back(session_.keyframes[k]);
       keyframe.camera_from_map = poses_[k];
+      keyframe.motion.setZero();  // It belongs to the readout time of another camera.
       keyframe.grey = Resampled(keyframe.grey, session_.camera, map_.camera);
       for (size_t c = 0; c < 3; ++c) {
         keyframe.gain[c] *= exposure[c];
@@ -497,8 +499,7 @@ class Merger {
     AddPoints(db, exposure);
     double error_sum = 0.0;
     for (const Observation& o : db.observations) {
-      const auto pixel = db.camera.Project(db.keyframes[o.keyframe].camera_from_map *
-                                           db.points[o.point].cast<double>());
+      const auto pixel = db.PixelIn(o.keyframe, db.points[o.point].cast<double>());
       error_sum += pixel ? (*pixel - Eigen::Vector2d(o.x, o.y)).norm() : 0.0;
     }
     db.mean_reprojection_error_px =

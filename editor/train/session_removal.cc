@@ -40,6 +40,7 @@ class Remover {
  private:
   void TakeKeyframes() {
     db_.camera = map_.camera;
+    db_.readout = map_.readout;
     for (const vision::Keyframe& keyframe : map_.keyframes) {
       new_keyframe_.push_back(kDropped);
       if (keyframe.session != session_) {
@@ -126,7 +127,7 @@ class Remover {
     for (const Eigen::Vector3f& point : db_.points) {
       points.push_back(point.cast<double>());
     }
-    if (!AdjustPoints(db_.camera, db_.observations, poses, moves, points)) {
+    if (!AdjustPoints(db_, db_.observations, poses, moves, points)) {
       return;
     }
     for (size_t i = 0; i < points.size(); ++i) {

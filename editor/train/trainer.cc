@@ -29,6 +29,10 @@ class Trainer {
     TrainResult result;
     LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
     LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+    if (AdjustsToShutter()) {
+      LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
+      LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+    }
     FillReport(result.database);
     result.report = std::move(report_);
     return result;
@@ -83,18 +87,44 @@ class Trainer {
   Status Map() {
     LARARIUM_ASSIGN_OR_RETURN(
         map_, MapImages(survey_.keyframes, verified_, MappingOptions(), progress_, log_));
-    if (!options_.intrinsics) {
-      const bool centre = map_.reconstruction->camera().cx != verified_.camera.cx;
-      const IntrinsicsDeviation deviation =
-          EstimateDeviation(*map_.reconstruction, map_.anchors[0], centre);
-      report_.focal_deviation_px = deviation.focal_px;
-      report_.k1_deviation = deviation.k1;
-      report_.k2_deviation = deviation.k2;
-      report_.principal_point_estimated = centre;
-      report_.cx_deviation_px = deviation.cx_px;
-      report_.cy_deviation_px = deviation.cy_px;
-    }
     return Status();
+  }
+
+  // Which intrinsics the map determines.
+  BundleOptions Refined() const {
+    BundleOptions refined;
+    refined.refine_intrinsics = !options_.intrinsics;
+    refined.refine_centre =
+        refined.refine_intrinsics && map_.reconstruction->camera().cx != verified_.camera.cx;
+    refined.refine_readout = report_.shutter.has_value();
+    return refined;
+  }
+
+  // Estimates how the camera moved in each frame and, from that, whether its shutter rolls. Returns
+  // whether the map has changed.
+  bool AdjustsToShutter() {
+    std::vector<FrameReport>& reports = report_.frame_reports;
+    FillKeyframes();
+    std::vector<TimedPose> poses;
+    std::vector<FrameReport*> located;
+    for (FrameReport& frame : reports) {
+      if (frame.camera_from_map) {
+        poses.push_back({frame.frame_index, *frame.camera_from_map});
+        located.push_back(&frame);
+      }
+    }
+    const std::vector<ImageMotion> motions = EstimateMotions(poses);
+    for (size_t i = 0; i < located.size(); ++i) {
+      located[i]->camera_motion = motions[i];
+    }
+    std::vector<ImageMotion> of_images;
+    for (const size_t report : report_of_keyframe_) {
+      of_images.push_back(reports[report].camera_motion);
+    }
+    progress_.Report("shutter", 0.0);
+    report_.shutter = AdjustToShutter(*map_.reconstruction, map_.anchors, std::move(of_images),
+                                      MapperOptions(), Refined(), log_);
+    return report_.shutter.has_value();
   }
 
   Status LocateOthers(const vision::SceneDatabase& database) {
@@ -106,14 +136,21 @@ class Trainer {
     size_t next = 0;  // Index into reports.
     return ForOtherFrames(
         source_, survey_, progress_, log_, [&](std::span<const geometry::Frame> batch) {
-          const std::vector<LocatedView> views = locator.Locate(batch);
-          for (size_t i = 0; i < batch.size(); ++i) {
-            while (next < reports.size() && reports[next].frame_index < batch[i].index) {
+          std::vector<FrameReport*> of_batch;
+          std::vector<ImageMotion> motions;
+          for (const geometry::Frame& frame : batch) {
+            while (next < reports.size() && reports[next].frame_index < frame.index) {
               ++next;
             }
             // The survey may have failed to read the frame.
-            if (next < reports.size() && reports[next].frame_index == batch[i].index) {
-              Fill(reports[next], views[i]);
+            const bool known = next < reports.size() && reports[next].frame_index == frame.index;
+            of_batch.push_back(known ? &reports[next] : nullptr);
+            motions.push_back(known ? reports[next].camera_motion : ImageMotion::Zero());
+          }
+          const std::vector<LocatedView> views = locator.Locate(batch, motions);
+          for (size_t i = 0; i < batch.size(); ++i) {
+            if (of_batch[i] != nullptr) {
+              Fill(*of_batch[i], views[i]);
             }
           }
         });
@@ -135,16 +172,31 @@ class Trainer {
     return database.Validate();
   }
 
-  void FillReport(const vision::SceneDatabase& database) {
+  void FillKeyframes() {
     for (uint32_t image = 0; image < survey_.keyframes.size(); ++image) {
       LocatedView view = DescribeImage(*map_.reconstruction, image);
       view.features = static_cast<int>(survey_.keyframes[image].features.size());
       Fill(report_.frame_reports[report_of_keyframe_[image]], view);
     }
+  }
+
+  void FillReport(const vision::SceneDatabase& database) {
+    FillKeyframes();
+    if (!options_.intrinsics) {
+      const BundleOptions refined = Refined();
+      const IntrinsicsDeviation deviation =
+          EstimateDeviation(*map_.reconstruction, map_.anchors[0], refined);
+      report_.focal_deviation_px = deviation.focal_px;
+      report_.k1_deviation = deviation.k1;
+      report_.k2_deviation = deviation.k2;
+      report_.principal_point_estimated = refined.refine_centre;
+      report_.cx_deviation_px = deviation.cx_px;
+      report_.cy_deviation_px = deviation.cy_px;
+    }
     for (const FrameReport& frame : report_.frame_reports) {
       if (frame.camera_from_map) {
-        report_.located.push_back(
-            {frame.frame_index, frame.name, *frame.camera_from_map, frame.keyframe});
+        report_.located.push_back({frame.frame_index, frame.name, *frame.camera_from_map,
+                                   frame.keyframe, frame.camera_motion});
       } else {
         report_.unlocated.push_back(frame.name);
       }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "editor/train/keyframes.h"
+#include "editor/train/shutter.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
@@ -44,6 +45,8 @@ struct LocatedFrame {
   std::string name;  // See FrameSource::FrameName.
   geometry::Rigid3 camera_from_map;
   bool keyframe = false;  // False if the frame was located in the finished map.
+  // Of the camera in one frame time; zero if it is not known.
+  ImageMotion motion = ImageMotion::Zero();
 };
 
 // The results of training for one frame of the source.
@@ -52,6 +55,7 @@ struct FrameReport {
   std::string name;
   bool keyframe = false;
   std::optional<geometry::Rigid3> camera_from_map;  // Set if the frame was located.
+  ImageMotion camera_motion = ImageMotion::Zero();  // As LocatedFrame::motion.
   int features = 0;
   // Number of observed map points; for keyframes, before the budget removes points.
   int observations = 0;
@@ -78,6 +82,7 @@ struct TrainReport {
   bool principal_point_estimated = false;
   double cx_deviation_px = 0.0;
   double cy_deviation_px = 0.0;
+  std::optional<Shutter> shutter;                       // Set if it is a rolling one.
   std::vector<std::pair<std::string, double>> seconds;  // Wall-clock time of each step.
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "shared/core/random.h"
+#include "shared/vision/rolling_shutter.h"
 #include "tests/train/synthetic_world.h"
 
 namespace lararium::train {
@@ -28,8 +29,14 @@ geometry::CameraModel DistortedCamera() {
   return camera;
 }
 
+ImageMotion SomeMotion() {
+  ImageMotion motion;
+  motion << 0.03, -0.02, 0.04, 0.05, 0.1, -0.08;
+  return motion;
+}
+
 struct Arguments {
-  IntrinsicsBlock intrinsics = ToIntrinsicsBlock(DistortedCamera());
+  IntrinsicsBlock intrinsics = ToIntrinsicsBlock(DistortedCamera(), {0.3, 0.8});
   PoseBlock pose{};
   std::array<double, 3> point = {0.4, -0.3, 0.2};
 };
@@ -43,9 +50,9 @@ Arguments SomeArguments() {
 
 Eigen::Vector2d Residual(const Arguments& a) {
   Eigen::Vector2d residual;
-  EXPECT_TRUE(ReprojectionResidual(DistortedCamera(), {300.0, 200.0}, a.intrinsics.data(),
-                                   a.pose.data(), a.point.data(), residual.data(), nullptr, nullptr,
-                                   nullptr));
+  EXPECT_TRUE(ReprojectionResidual(DistortedCamera(), SomeMotion(), {300.0, 200.0},
+                                   a.intrinsics.data(), a.pose.data(), a.point.data(),
+                                   residual.data(), nullptr, nullptr, nullptr));
   return residual;
 }
 
@@ -54,9 +61,14 @@ TEST(ReprojectionResidual, IsTheProjectionOfTheCameraModel) {
   geometry::Rigid3 pose;
   pose.rotation.coeffs() = Eigen::Map<const Eigen::Vector4d>(a.pose.data());
   pose.translation = Eigen::Map<const Eigen::Vector3d>(a.pose.data() + 4);
-  const auto pixel = DistortedCamera().Project(pose * Eigen::Vector3d(0.4, -0.3, 0.2));
+  // The camera moves on until the pixel is exposed.
+  const Eigen::Vector2d observed(300.0, 200.0);
+  const double time =
+      Eigen::Vector2d(0.3, 0.8).dot(vision::ReadoutOrder(DistortedCamera(), observed));
+  const auto pixel = DistortedCamera().Project(vision::PoseAfter(pose, SomeMotion(), time) *
+                                               Eigen::Vector3d(0.4, -0.3, 0.2));
   ASSERT_TRUE(pixel);
-  EXPECT_LT((Residual(a) + Eigen::Vector2d(300.0, 200.0) - *pixel).norm(), 1e-9);
+  EXPECT_LT((Residual(a) + observed - *pixel).norm(), 0.01);  // The turn is of second order.
 }
 
 TEST(ReprojectionResidual, JacobiansMatchCentralDifferences) {
@@ -65,9 +77,9 @@ TEST(ReprojectionResidual, JacobiansMatchCentralDifferences) {
   Eigen::Matrix<double, 2, kIntrinsics, Eigen::RowMajor> by_intrinsics;
   Eigen::Matrix<double, 2, 7, Eigen::RowMajor> by_pose;
   Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_point;
-  ASSERT_TRUE(ReprojectionResidual(DistortedCamera(), {300.0, 200.0}, a.intrinsics.data(),
-                                   a.pose.data(), a.point.data(), residual.data(),
-                                   by_intrinsics.data(), by_pose.data(), by_point.data()));
+  ASSERT_TRUE(ReprojectionResidual(
+      DistortedCamera(), SomeMotion(), {300.0, 200.0}, a.intrinsics.data(), a.pose.data(),
+      a.point.data(), residual.data(), by_intrinsics.data(), by_pose.data(), by_point.data()));
   const auto slope = [&](double& number) {
     const double before = number;
     constexpr double kStep = 1e-6;
@@ -93,9 +105,9 @@ TEST(ReprojectionResidual, RefusesPointsBehindTheCamera) {
   Arguments a = SomeArguments();
   a.pose[6] = -5.0;
   Eigen::Vector2d residual;
-  EXPECT_FALSE(ReprojectionResidual(DistortedCamera(), {300.0, 200.0}, a.intrinsics.data(),
-                                    a.pose.data(), a.point.data(), residual.data(), nullptr,
-                                    nullptr, nullptr));
+  EXPECT_FALSE(ReprojectionResidual(DistortedCamera(), SomeMotion(), {300.0, 200.0},
+                                    a.intrinsics.data(), a.pose.data(), a.point.data(),
+                                    residual.data(), nullptr, nullptr, nullptr));
 }
 
 // The true map with disturbed poses and points.

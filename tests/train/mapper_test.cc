@@ -19,6 +19,8 @@ class CancelAtOnce : public Progress {
   bool Cancelled() const override { return true; }
 };
 
+BundleOptions Refined(bool centre) { return {.refine_intrinsics = true, .refine_centre = centre}; }
+
 TEST(Mapper, RecoversCamerasFromNoisyTracks) {
   const World world = MakeWorld({});
   const auto pairs = world.Pairs(6, world.camera);
@@ -79,7 +81,8 @@ TEST(Mapper, EstimatesAWrongFocalLength) {
   NoProgress progress;
   const auto anchors = MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog());
   ASSERT_TRUE(anchors);
-  const double deviation = EstimateDeviation(reconstruction, (*anchors)[0], false).focal_px;
+  const double deviation =
+      EstimateDeviation(reconstruction, (*anchors)[0], Refined(false)).focal_px;
   EXPECT_GT(deviation, 0.0);
   EXPECT_NEAR(reconstruction.camera().fx, world.camera.fx, 4.0 * deviation);
   EXPECT_NEAR(reconstruction.camera().fx, world.camera.fx, 6.0);
@@ -98,7 +101,8 @@ TEST(Mapper, FreesAPrincipalPointThatTheImagesDetermine) {
   const auto anchors = MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog());
   ASSERT_TRUE(anchors);
   const bool freed = reconstruction.camera().cx != assumed.cx;
-  const IntrinsicsDeviation deviation = EstimateDeviation(reconstruction, (*anchors)[0], freed);
+  const IntrinsicsDeviation deviation =
+      EstimateDeviation(reconstruction, (*anchors)[0], Refined(freed));
   ASSERT_TRUE(freed);
   EXPECT_GT(deviation.cx_px, 0.0);
   EXPECT_NEAR(reconstruction.camera().cx, world.camera.cx, 4.0 * deviation.cx_px);

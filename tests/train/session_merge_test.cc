@@ -197,8 +197,8 @@ void Settle(SceneDatabase& map) {
   for (const Eigen::Vector3f& point : map.points) {
     points.push_back(point.cast<double>());
   }
-  ASSERT_TRUE(AdjustPoints(map.camera, map.observations, poses,
-                           std::vector<bool>(points.size(), true), points));
+  ASSERT_TRUE(
+      AdjustPoints(map, map.observations, poses, std::vector<bool>(points.size(), true), points));
   std::vector<Eigen::Vector3d> towards(points.size(), Eigen::Vector3d::Zero());
   std::fill(map.observation_counts.begin(), map.observation_counts.end(), 0u);
   for (const Observation& o : map.observations) {

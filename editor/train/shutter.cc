@@ -1,0 +1,95 @@
+#include "editor/train/shutter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lararium::train {
+namespace {
+
+using geometry::Rigid3;
+
+constexpr int64_t kReach = 2;  // Frames before and after, whose poses tell the motion.
+
+void FilterAll(Reconstruction& reconstruction, const TriangulationOptions& limits) {
+  for (const uint32_t track : reconstruction.TracksWithPoints()) {
+    reconstruction.Complete(track, limits.max_error_px);
+    reconstruction.Filter(track, limits);
+  }
+}
+
+}  // namespace
+
+std::vector<ImageMotion> EstimateMotions(std::span<const TimedPose> poses) {
+  std::vector<ImageMotion> motions(poses.size(), ImageMotion::Zero());
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const Rigid3 map_from_camera = poses[i].camera_from_map.Inverse();
+    ImageMotion sum = ImageMotion::Zero();
+    double squares = 0.0;
+    // Frames before and after count in equal numbers, so that an acceleration cancels.
+    for (int64_t gap = 1; gap <= kReach; ++gap) {
+      if (i < static_cast<size_t>(gap) || i + static_cast<size_t>(gap) >= poses.size()) {
+        break;
+      }
+      for (const TimedPose& other :
+           {poses[i - static_cast<size_t>(gap)], poses[i + static_cast<size_t>(gap)]}) {
+        const auto time = static_cast<double>(other.frame_index - poses[i].frame_index);
+        if (std::abs(time) > static_cast<double>(kReach)) {
+          continue;
+        }
+        const Rigid3 since = other.camera_from_map * map_from_camera;
+        ImageMotion moved;
+        moved << geometry::VectorFromRotation(since.rotation), since.translation;
+        sum += time * moved;
+        squares += time * time;
+      }
+    }
+    if (squares > 0.0) {
+      motions[i] = sum / squares;
+    }
+  }
+  return motions;
+}
+
+std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
+                                       const InitialPair& anchors,
+                                       std::vector<ImageMotion> motions,
+                                       const MapperOptions& mapper,
+                                       BundleOptions options,
+                                       Log& log) {
+  // Observations share errors, so that deviations are several times those of independent ones. No
+  // sensor takes longer than a frame time, and the fastest hardly distort.
+  constexpr double kSignificant = 20.0;
+  constexpr double kLeast = 0.05;
+  constexpr double kMost = 1.2;
+  const Reconstruction before = reconstruction;
+  reconstruction.SetShutter(Eigen::Vector2d::Zero(), std::move(motions));
+  options.refine_readout = true;
+  options.max_iterations = 50;
+  TriangulationOptions limits = mapper.triangulation;
+  limits.max_error_px = mapper.final_max_error_px;
+  bool adjusted = true;
+  for (const size_t points : {size_t{600}, size_t{0}}) {
+    options.points_per_image = points;
+    adjusted = adjusted && AdjustAll(reconstruction, anchors, options);
+    FilterAll(reconstruction, limits);
+  }
+  Shutter shutter{reconstruction.readout()};
+  if (adjusted) {
+    const IntrinsicsDeviation deviation = EstimateDeviation(reconstruction, anchors[0], options);
+    shutter.deviation = {deviation.readout_x, deviation.readout_y};
+  }
+  const double longest = shutter.readout.cwiseAbs().maxCoeff();
+  const bool rolls = adjusted && longest > kLeast && longest < kMost &&
+                     longest > kSignificant * shutter.deviation.maxCoeff();
+  log.info("readout time along x {:.3f} +- {:.3f}, along y {:.3f} +- {:.3f} of the frame time: {}",
+           shutter.readout.x(), shutter.deviation.x(), shutter.readout.y(), shutter.deviation.y(),
+           rolls ? "a rolling shutter" : "not taken");
+  if (!rolls) {
+    reconstruction = before;
+    return std::nullopt;
+  }
+  return shutter;
+}
+
+}  // namespace lararium::train

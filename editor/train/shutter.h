@@ -1,0 +1,44 @@
+#pragma once
+
+// The rolling shutter of the camera that filmed a place: how the camera moved while each frame was
+// read, and how long that took (after Hedborg, Forssen, Felsberg & Ringaby, "Rolling shutter bundle
+// adjustment", CVPR 2012; the motion is that between the frames of the film).
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "editor/train/bundle_adjustment.h"
+#include "editor/train/mapper.h"
+#include "editor/train/reconstruction.h"
+#include "shared/core/log.h"
+
+namespace lararium::train {
+
+// The pose of a frame of a film.
+struct TimedPose {
+  int64_t frame_index = 0;
+  geometry::Rigid3 camera_from_map;
+};
+
+// [poses]: The motion of the camera during one frame time, from the poses of the frames nearest in
+// time. Zero where there are too few. poses must be in ascending order.
+std::vector<ImageMotion> EstimateMotions(std::span<const TimedPose> poses);
+
+struct Shutter {
+  Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // See vision::RollingShutter.
+  Eigen::Vector2d deviation = Eigen::Vector2d::Zero();
+};
+
+// Estimates the readout time from the map's images and their motions, and adjusts the map to it.
+// options say which intrinsics may change. nullopt if the shutter is a global one as far as the
+// images tell; the map then stays as it is.
+std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
+                                       const InitialPair& anchors,
+                                       std::vector<ImageMotion> motions,
+                                       const MapperOptions& mapper,
+                                       BundleOptions options,
+                                       Log& log);
+
+}  // namespace lararium::train

@@ -1,0 +1,112 @@
+#include "editor/train/shutter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shared/core/random.h"
+#include "shared/vision/rolling_shutter.h"
+#include "tests/train/synthetic_world.h"
+
+namespace lararium::train {
+namespace {
+
+using synthetic::MakeWorld;
+using synthetic::World;
+
+ImageMotion MotionOf(Random& random) {
+  ImageMotion motion;
+  for (int i = 0; i < 6; ++i) {
+    motion[i] = (i < 3 ? 0.01 : 0.03) * random.Normal();
+  }
+  return motion;
+}
+
+// A world that is filmed by a moving camera with a rolling shutter.
+struct Film {
+  World world = MakeWorld({.images = 16, .points = 400, .noise_px = 0.2});
+  std::vector<ImageMotion> motions;
+
+  Film(const Eigen::Vector2d& readout, uint64_t seed) {
+    Random random(seed);
+    for (uint32_t image = 0; image < world.pixels.size(); ++image) {
+      motions.push_back(MotionOf(random));
+      for (size_t i = 0; i < world.pixels[image].size(); ++i) {
+        Eigen::Vector2d& pixel = world.pixels[image][i];
+        const Eigen::Vector3d& point = world.points[world.point_of[image][i]];
+        const Eigen::Vector2d sharp = *world.camera.Project(world.camera_from_world[image] * point);
+        const Eigen::Vector2d noise = pixel - sharp;
+        Eigen::Vector2d rolled = sharp;
+        for (int round = 0; round < 10; ++round) {
+          const double time = readout.dot(vision::ReadoutOrder(world.camera, rolled));
+          rolled = *world.camera.Project(
+              vision::PoseAfter(world.camera_from_world[image], motions[image], time) * point);
+        }
+        pixel = rolled + noise;
+      }
+    }
+  }
+
+  Reconstruction Located() const {
+    Reconstruction reconstruction = world.Unsolved(world.Pairs(11, world.camera), world.camera);
+    for (uint32_t image = 0; image < world.pixels.size(); ++image) {
+      reconstruction.Locate(image, world.camera_from_world[image]);
+    }
+    for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
+      reconstruction.Triangulate(track, {});
+    }
+    EXPECT_TRUE(AdjustAll(reconstruction, {0, 8}, {}));
+    return reconstruction;
+  }
+};
+
+class ReadoutOf : public testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(ReadoutOf, IsFoundAndStraightensTheMap) {
+  const Eigen::Vector2d readout(GetParam().first, GetParam().second);
+  const Film film(readout, 3);
+  Reconstruction reconstruction = film.Located();
+  const double before = film.world.CenterError(reconstruction);
+  const auto shutter =
+      AdjustToShutter(reconstruction, {0, 8}, film.motions, MapperOptions(), {}, *MakeSilentLog());
+  ASSERT_TRUE(shutter);
+  EXPECT_LT((shutter->readout - readout).norm(), 0.03) << shutter->readout.transpose();
+  EXPECT_EQ(reconstruction.readout(), shutter->readout);
+  EXPECT_LT(film.world.CenterError(reconstruction), 0.003);
+  EXPECT_LT(film.world.CenterError(reconstruction), 0.5 * before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Directions,
+                         ReadoutOf,
+                         testing::Values(std::pair(0.0, 0.8),     // downwards
+                                         std::pair(-0.8, 0.0)));  // upright, from the right
+
+TEST(AdjustToShutter, LeavesTheMapOfAGlobalShutterAlone) {
+  const Film film(Eigen::Vector2d::Zero(), 5);
+  Reconstruction reconstruction = film.Located();
+  const Eigen::Vector3d center = reconstruction.camera_from_map(3).Center();
+  EXPECT_FALSE(
+      AdjustToShutter(reconstruction, {0, 8}, film.motions, MapperOptions(), {}, *MakeSilentLog()));
+  EXPECT_EQ(reconstruction.camera_from_map(3).Center(), center);
+  EXPECT_TRUE(reconstruction.readout().isZero(0.0));
+}
+
+TEST(EstimateMotions, AreThoseBetweenTheFramesAround) {
+  ImageMotion speed;
+  speed << 0.01, -0.02, 0.005, 0.02, 0.01, -0.03;
+  std::vector<TimedPose> poses;
+  geometry::Rigid3 pose;
+  for (int64_t frame = 0; frame < 9; ++frame) {
+    if (frame != 6) {  // This one was not located.
+      poses.push_back({frame, pose});
+    }
+    pose = vision::PoseAfter(pose, speed, 1.0);
+  }
+  const std::vector<ImageMotion> motions = EstimateMotions(poses);
+  EXPECT_TRUE(motions.front().isZero(0.0));
+  EXPECT_LT((motions[3] - speed).norm(), 1e-3);
+  EXPECT_LT((motions[5] - speed).norm(), 2e-3);  // Beside the gap.
+}
+
+}  // namespace
+}  // namespace lararium::train
