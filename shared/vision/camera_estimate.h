@@ -107,16 +107,19 @@ bool PixelResidual(const CameraEstimate& camera,
     Eigen::Vector2d speed = Eigen::Vector2d::Zero();  // pixels per frame time
     if (motion != nullptr) {
       // The point moves as the one of the middle of the image does, turned by what the camera has
-      // turned since.
-      const Eigen::Matrix<double, 2, 3> by_point = jacobian->template middleCols<3>(3);
+      // turned since: A = I + t [w] + t^2 / 2 [w]^2, which multiplies each row from the right.
       const Eigen::Vector3d w = motion->template head<3>();
-      const Eigen::Matrix3d turn = geometry::Skew(w);
-      const Eigen::Matrix<double, 2, 3> by_middle =
-          by_point * (Eigen::Matrix3d::Identity() + time * turn + 0.5 * time * time * turn * turn);
-      jacobian->template leftCols<3>().noalias() = -by_middle * geometry::Skew(in_camera);
-      jacobian->template middleCols<3>(3) = by_middle;
       const Eigen::Vector3d across = w.cross(in_camera);
-      speed = by_point * (across + time * w.cross(across) + motion->template tail<3>());
+      const Eigen::Vector3d velocity = across + time * w.cross(across) + motion->template tail<3>();
+      for (int row = 0; row < 2; ++row) {
+        const Eigen::Vector3d by_point = jacobian->template block<1, 3>(row, 3).transpose();
+        const Eigen::Vector3d turned = by_point.cross(w);
+        const Eigen::Vector3d by_middle =
+            by_point + time * turned + 0.5 * time * time * turned.cross(w);
+        jacobian->template block<1, 3>(row, 0) = in_camera.cross(by_middle).transpose();
+        jacobian->template block<1, 3>(row, 3) = by_middle.transpose();
+        speed[row] = by_point.dot(velocity);
+      }
     }
     jacobian->template middleCols<2>(6 + kReadoutX) =
         speed * ReadoutOrder(model, observed).transpose();

@@ -30,12 +30,26 @@ constexpr double kFocalAgain = 0.025;
 constexpr double kCentreAgain = 0.002;
 constexpr double kRadialAgain = 0.01;
 
+// Whether the readout time is known well enough to take it for none.
+bool ShutterIsGlobal(const CameraEstimate& camera) {
+  constexpr double kLongest = 0.03;  // Frame times.
+  constexpr double kUncertain = 0.015;
+  return camera.readout.cwiseAbs().maxCoeff() < kLongest &&
+         camera.covariance.diagonal().head<kShutterParameters>().maxCoeff() <
+             kUncertain * kUncertain;
+}
+
 double LongerSide(const CameraModel& model) { return std::max(model.width, model.height); }
 
 CameraMatrix Squares(double readout, double focal, double centre, double radial) {
   CameraVector deviations;
   deviations << readout, readout, focal, centre, centre, radial, radial;
   return deviations.cwiseAbs2().asDiagonal();
+}
+
+// The covariance of what may have changed since a lens was in use.
+CameraMatrix LensAgain(const CameraModel& model) {
+  return Squares(0.0, kFocalAgain, kCentreAgain * LongerSide(model), kRadialAgain);
 }
 
 CameraMatrix Sum(const CameraMatrix& covariance,
@@ -94,7 +108,13 @@ CameraEstimate CameraFilter::Predict(double frames) const {
       frames * (known_ ? Squares(kReadoutStep, 0.0, 0.0, 0.0)
                        : Squares(kReadoutStep, kFocalStep, kCentreStep * LongerSide(now_.model),
                                  kRadialStep));
+  const bool global =
+      now_.covariance.topLeftCorner<kShutterParameters, kShutterParameters>().isZero(0.0);
   predicted.covariance = Sum(now_.covariance, change, Unknown().covariance);
+  if (global) {
+    predicted.covariance.topRows<kShutterParameters>().setZero();
+    predicted.covariance.leftCols<kShutterParameters>().setZero();
+  }
   return predicted;
 }
 
@@ -128,8 +148,34 @@ void CameraFilter::Update(const CameraEstimate& estimate) {
       now_.covariance(i, i) = before.covariance(i, i);
     }
   }
+  if (ShutterIsGlobal(now_)) {
+    now_.readout.setZero();
+    now_.covariance.topRows<kShutterParameters>().setZero();
+    now_.covariance.leftCols<kShutterParameters>().setZero();
+  }
   if (!lenses_.empty()) {
     lenses_.back() = now_;
+  }
+}
+
+CameraEstimate CameraFilter::Doubted() const {
+  CameraEstimate doubted = now_;
+  doubted.covariance += LensAgain(now_.model);
+  return doubted;
+}
+
+void CameraFilter::Contradict(const CameraEstimate& estimate) {
+  constexpr int kEnough = 3;
+  constexpr double kDeviations = 5.0;
+  constexpr double kLeast = 0.003;  // Relative change of the focal length.
+  const double off = std::abs(Difference(now_, estimate)[kFocal]);
+  const bool contradicts =
+      off > kLeast && off > kDeviations * std::sqrt(estimate.covariance(kFocal, kFocal));
+  contradictions_ = contradicts ? contradictions_ + 1 : 0;
+  if (contradictions_ == kEnough) {
+    known_ = false;
+    lenses_ = {now_};
+    Update(estimate);
   }
 }
 
@@ -142,8 +188,7 @@ void CameraFilter::Found(const CameraEstimate& found) {
   constexpr int kLens = kCameraParameters - kShutterParameters;
   std::optional<size_t> same;
   double least = kSameLens;
-  const double side = LongerSide(found.model);
-  const CameraMatrix since = Squares(0.0, kFocalAgain, kCentreAgain * side, kRadialAgain);
+  const CameraMatrix since = LensAgain(found.model);
   for (size_t i = 0; i < lenses_.size(); ++i) {
     const auto off = Difference(lenses_[i], found).tail<kLens>();
     const Eigen::Matrix<double, kLens, kLens> covariance =
@@ -171,8 +216,13 @@ void CameraFilter::Found(const CameraEstimate& found) {
     lens = Changed(known, off);
     lens.covariance = covariance;
     lenses_.erase(lenses_.begin() + static_cast<std::ptrdiff_t>(*same));
-  } else if (lenses_.size() == kMostLenses) {
-    lenses_.erase(lenses_.begin());
+  } else {
+    // Another lens may have another sensor.
+    lens.covariance.topLeftCorner<kShutterParameters, kShutterParameters>() =
+        Unknown().covariance.topLeftCorner<kShutterParameters, kShutterParameters>();
+    if (lenses_.size() == kMostLenses) {
+      lenses_.erase(lenses_.begin());
+    }
   }
   lenses_.push_back(lens);
   now_ = lens;

@@ -14,7 +14,8 @@ namespace lararium::vision {
 class CameraFilter {
  public:
   // camera: the intrinsics if they are known; otherwise those of some camera that may be similar,
-  // such as the one that the map was trained with. The readout time is always estimated.
+  // such as the one that the map was trained with. The readout time is always estimated. Known
+  // intrinsics are held until the images contradict them, as they do where autofocus moves.
   CameraFilter(const geometry::CameraModel& camera, bool known);
 
   // Prepares for images of this size. A camera of unknown intrinsics is another one if its images
@@ -37,6 +38,13 @@ class CameraFilter {
 
   const CameraEstimate& now() const { return now_; }
 
+  bool known() const { return known_; }
+  // Known intrinsics as if they were those of a lens that was used some time ago.
+  CameraEstimate Doubted() const;
+  // Takes note of the camera of an image that was followed with Doubted(). Where such images go on
+  // contradicting the known intrinsics, these are not known any more.
+  void Contradict(const CameraEstimate& estimate);
+
  private:
   CameraEstimate Unknown() const;
 
@@ -44,6 +52,7 @@ class CameraFilter {
   bool known_;
   CameraEstimate now_;
   std::vector<CameraEstimate> lenses_;  // Those that were in use, the present one last.
+  int contradictions_ = 0;              // In a row.
 };
 
 }  // namespace lararium::vision

@@ -79,9 +79,7 @@ FollowedPose PatchTracker::Follow(const ImagePyramid& image,
   for (int level = coarsest; level >= finest; --level) {
     exposure_.SetPose(posed.camera_from_map);
     finest = std::min(FinestLevel(Exposed(posed)), level);
-    const CameraPrior prior{
-        camera, exposure_.motion() != nullptr ? &exposure_.motion()->during_frame : nullptr,
-        kSharedErrors};
+    const CameraPrior prior = PriorOf(camera);
     const int wanted = level == finest ? 1000 : level == coarsest ? 60 : 100;
     const int stride = std::max(1, static_cast<int>(pool_.size()) / wanted);
     PosedCamera moved = posed;
@@ -120,6 +118,22 @@ FollowedPose PatchTracker::Follow(const ImagePyramid& image,
     Settle(posed);
   }
   return result;
+}
+
+CameraPrior PatchTracker::PriorOf(const CameraEstimate& camera) const {
+  return {camera, exposure_.motion() != nullptr ? &exposure_.motion()->during_frame : nullptr,
+          kSharedErrors};
+}
+
+CameraEstimate PatchTracker::EstimateCamera(const CameraEstimate& prior) {
+  const PosedCamera start{fit_.pose.posed.camera_from_map, prior};
+  if (!EstimatePatchPose(fit_.matches, PriorOf(prior), start, kLeastPoseScale, searched_.pose)) {
+    return prior;
+  }
+  CameraEstimate camera = searched_.pose.posed.camera;
+  camera.covariance =
+      searched_.pose.covariance.bottomRightCorner<kCameraParameters, kCameraParameters>();
+  return camera;
 }
 
 void PatchTracker::Judge(const CameraEstimate& prior, FollowedPose& pose) {

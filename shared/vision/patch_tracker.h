@@ -78,6 +78,10 @@ class PatchTracker {
     pool_.Merge(image, camera, camera_from_map, points, camera_from_map_now);
   }
 
+  // The camera that explains the patches of the last image, which was followed with a reliable
+  // pose, if this is known of it before.
+  CameraEstimate EstimateCamera(const CameraEstimate& prior);
+
   // The points that agree with the last reliable pose.
   std::span<const SeenPoint> seen() const { return seen_; }
 
@@ -129,6 +133,7 @@ class PatchTracker {
   double Likeness(const ImagePyramid& image, const ExposedCamera& camera, int level) const;
   void LearnShutter(const ImagePyramid& image, const ExposedCamera& camera, int level);
   int FinestLevel(const ExposedCamera& camera) const;
+  CameraPrior PriorOf(const CameraEstimate& camera) const;
   JointMatrix<kMostJoint> Covariance() const;
   void Judge(const CameraEstimate& prior, FollowedPose& pose);
   void Settle(const PosedCamera& posed);

@@ -1,5 +1,6 @@
 #include "shared/vision/tracker.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <limits>
@@ -163,17 +164,31 @@ class Tracker final : public PoseSource {
     }
     const FollowedPose followed = patch_trackers_[map_]->Follow(
         pyramid_, camera, std::span(predictions.data(), count), &before, frames);
-    if (!followed.reliable) {
+    if (!followed.reliable ||
+        (!camera_.known() && Leaps(std::span(predictions.data(), count), followed))) {
       return false;
     }
     Report(followed, tracked);
     tracked.followed = true;
+    constexpr int64_t kDoubtInterval = 5;  // frames
+    if (camera_.known() && tracked.frame.index % kDoubtInterval == 0) {
+      camera_.Contradict(patch_trackers_[map_]->EstimateCamera(camera_.Doubted()));
+    }
     if (share_ < kFewAgree &&
         DistancePx(tracked.camera, before, followed.camera_from_map, depth_) > kLeapPx) {
       // The patches were chosen for another view.
       Refine(tracked, &before, frames);
     }
     return true;
+  }
+
+  // Whether a pose is far from all predictions. Before a plane, a lens of another focal length looks
+  // like a leap of the camera.
+  static bool Leaps(std::span<const Rigid3> predictions, const FollowedPose& followed) {
+    return std::none_of(predictions.begin(), predictions.end(), [&](const Rigid3& prediction) {
+      return DistancePx(followed.camera.model, prediction, followed.camera_from_map,
+                        followed.evidence.depths[1]) < kLeapPx;
+    });
   }
 
   std::optional<Eigen::Quaterniond> EstimateTurn(const CameraModel& camera,

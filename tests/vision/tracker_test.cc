@@ -322,6 +322,90 @@ TEST_F(TrackerAtAPeriodicWall, IsPutRightByAMapOfAnotherUnit) {
   EXPECT_GT(*corrected, kLeap);
 }
 
+// The camera of a visitor, of which the tracker is told nothing.
+class TrackerOfAnUnknownCamera : public Tracker {
+ protected:
+  static constexpr double kZoom = 1.5;
+
+  TrackerOfAnUnknownCamera() {
+    CameraModel other = kTrackedCamera;
+    other.fx = other.fy = 600.0;
+    tracker_ = *CreateTracker({map_}, other, {.known_camera = false});
+  }
+
+  // The poster is seen at a slant, because a frontal view does not tell the focal length.
+  static Rigid3 Pose(int64_t index) {
+    return PosterPose(1.0 + 0.01 * static_cast<double>(index % 40), 0.3, 1.2);
+  }
+
+  // Tracks an image of the middle of the view, as digital zoom shows it. Returns the largest error
+  // of the drawn corners of the poster in pixels; none if there is no pose.
+  std::optional<double> Track(int64_t index, double zoom) {
+    Frame frame = PhotographPoster(poster_, Pose(index), index);
+    CameraModel truth = kTrackedCamera;
+    if (zoom > 1.0) {
+      const int width = static_cast<int>(truth.width / zoom);
+      const int height = static_cast<int>(truth.height / zoom);
+      const cv::Rect middle((truth.width - width) / 2, (truth.height - height) / 2, width, height);
+      const cv::Size size(truth.width, truth.height);
+      cv::resize(frame.grey(middle).clone(), frame.grey, size, 0, 0, cv::INTER_CUBIC);
+      cv::cvtColor(frame.grey, frame.bgr, cv::COLOR_GRAY2BGR);
+      truth.fx = truth.fy = zoom * truth.fx;
+    }
+    last_ = tracker_->Track(frame);
+    if (!last_.camera_from_map) {
+      return std::nullopt;
+    }
+    double worst = 0.0;
+    for (const SeenPoint& seen : Seen()) {
+      const Eigen::Vector3d point = map_->points[seen.point].cast<double>();
+      const auto drawn = last_.camera.Project(*last_.camera_from_map * point);
+      const auto real = truth.Project(Pose(index) * point);
+      worst = std::max(worst, drawn && real ? (*drawn - *real).norm() : 1e9);
+    }
+    return worst;
+  }
+
+  double FocalError(double zoom) const {
+    return std::abs(std::log(last_.camera.Focal() / (zoom * kTrackedCamera.Focal())));
+  }
+
+  std::unique_ptr<PoseSource> tracker_;
+  TrackedFrame last_;
+
+ private:
+  std::vector<SeenPoint> Seen() const {
+    std::vector<SeenPoint> seen;
+    tracker_->Seen(seen);
+    return seen;
+  }
+};
+
+TEST_F(TrackerOfAnUnknownCamera, FindsItsFocalLengthFromTheFirstImageOn) {
+  for (int64_t index = 0; index < 30; ++index) {
+    const std::optional<double> error = Track(index, 1.0);
+    ASSERT_TRUE(error.has_value()) << index;
+    EXPECT_LT(*error, 1.5) << index;
+    EXPECT_LT(FocalError(1.0), index == 0 ? 0.05 : 0.03) << index;
+  }
+}
+
+TEST_F(TrackerOfAnUnknownCamera, ShowsNothingWrongWhenItSwitchesLenses) {
+  int untracked = 0;
+  for (int64_t index = 0; index < 60; ++index) {
+    const double zoom = index / 20 == 1 ? kZoom : 1.0;
+    const std::optional<double> error = Track(index, zoom);
+    untracked = error ? 0 : untracked + 1;
+    EXPECT_LT(untracked, 3) << index;
+    if (error) {
+      EXPECT_LT(*error, 2.0) << index;
+    }
+    if (index == 39 || index == 43) {
+      EXPECT_LT(FocalError(zoom), 0.03) << index;
+    }
+  }
+}
+
 // A wall in front of the left half of the poster that extends far up and down.
 class TrackerBehindAWall : public Tracker {
  protected:
