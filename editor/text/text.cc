@@ -18,6 +18,9 @@ namespace lararium::editor {
 namespace {
 
 constexpr const char* kDomain = "lararium";
+// A locale in which gettext follows LANGUAGE. It does not in "C" nor, in the glibc of Debian 13, in
+// "C.UTF-8". The C library finds no territory XX and takes C.UTF-8, which every system has.
+constexpr const char* kPlainLocale = "C_XX.UTF-8";
 
 std::string Variable(const char* name) {
   const char* value = std::getenv(name);
@@ -54,7 +57,7 @@ void LoadTexts(const std::filesystem::path& folder, const std::string& language)
   const std::shared_lock gate(ForkGate());
   SetLanguages(language.empty() ? of_environment : language);
   std::setlocale(LC_MESSAGES, "C");  // A change of the locale makes gettext clear its cache.
-  std::setlocale(LC_MESSAGES, "C.UTF-8");
+  std::setlocale(LC_MESSAGES, kPlainLocale);
   bindtextdomain(kDomain, folder.c_str());
   bind_textdomain_codeset(kDomain, "UTF-8");
 }
