@@ -29,6 +29,9 @@ constexpr double kRadialStep = 0.0005;
 constexpr double kFocalAgain = 0.025;
 constexpr double kCentreAgain = 0.002;
 constexpr double kRadialAgain = 0.01;
+constexpr double kFocalSame = 0.002;
+constexpr double kCentreSame = 0.002;
+constexpr double kRadialSame = 0.01;
 
 // Whether the readout time is known well enough to take it for none.
 bool ShutterIsGlobal(const CameraEstimate& camera) {
@@ -52,6 +55,24 @@ CameraMatrix LensAgain(const CameraModel& model) {
   return Squares(0.0, kFocalAgain, kCentreAgain * LongerSide(model), kRadialAgain);
 }
 
+// By how much the lens of the same camera differs where nothing has moved it.
+CameraMatrix LensOfSame(const CameraModel& model) {
+  return Squares(0.0, kFocalSame, kCentreSame * LongerSide(model), kRadialSame);
+}
+
+// The square of the difference of the five parameters of two lenses over its deviation, and its
+// 99.9 % quantile for the same lens. since: the covariance of what may have changed.
+constexpr double kSameLens = 20.5;
+double LensDistance(const CameraEstimate& known,
+                    const CameraMatrix& since,
+                    const CameraEstimate& found) {
+  constexpr int kLens = kCameraParameters - kShutterParameters;
+  const Eigen::Matrix<double, kLens, 1> off = Difference(known, found).tail<kLens>();
+  const Eigen::Matrix<double, kLens, kLens> covariance =
+      (known.covariance + since + found.covariance).bottomRightCorner<kLens, kLens>();
+  return off.dot(covariance.inverse() * off);
+}
+
 CameraMatrix Sum(const CameraMatrix& covariance,
                  const CameraMatrix& change,
                  const CameraMatrix& most) {
@@ -70,14 +91,16 @@ CameraMatrix Sum(const CameraMatrix& covariance,
 }  // namespace
 
 CameraFilter::CameraFilter(const CameraModel& camera, bool known)
-    : similar_(camera), known_(known), now_(Unknown()) {}
+    : similar_(camera), told_(known), held_(known), now_(known ? Similar() : Unknown()) {}
+
+CameraEstimate CameraFilter::Similar() const {
+  CameraEstimate camera = ExactCamera(similar_);
+  camera.covariance = Squares(kUnknownReadout, 0.0, 0.0, 0.0);
+  return camera;
+}
 
 CameraEstimate CameraFilter::Unknown() const {
   CameraEstimate camera = ExactCamera(similar_);
-  if (known_) {
-    camera.covariance = Squares(kUnknownReadout, 0.0, 0.0, 0.0);
-    return camera;
-  }
   CameraModel& model = camera.model;
   model.fx = model.fy = similar_.Focal();
   model.cx = 0.5 * (model.width - 1);
@@ -92,12 +115,13 @@ void CameraFilter::SetSize(int width, int height) {
   if (width == now_.model.width && height == now_.model.height) {
     return;
   }
-  if (known_) {
+  if (told_ && held_) {
     similar_ = similar_.Resized(width, height);
     now_.model = now_.model.Resized(width, height);
     return;
   }
   similar_ = similar_.GuessForImages(width, height);
+  held_ = false;
   now_ = Unknown();
   lenses_.clear();
 }
@@ -105,12 +129,12 @@ void CameraFilter::SetSize(int width, int height) {
 CameraEstimate CameraFilter::Predict(double frames) const {
   CameraEstimate predicted = now_;
   const CameraMatrix change =
-      frames * (known_ ? Squares(kReadoutStep, 0.0, 0.0, 0.0)
-                       : Squares(kReadoutStep, kFocalStep, kCentreStep * LongerSide(now_.model),
-                                 kRadialStep));
+      frames * (held_ ? Squares(kReadoutStep, 0.0, 0.0, 0.0)
+                      : Squares(kReadoutStep, kFocalStep, kCentreStep * LongerSide(now_.model),
+                                kRadialStep));
   const bool global =
       now_.covariance.topLeftCorner<kShutterParameters, kShutterParameters>().isZero(0.0);
-  predicted.covariance = Sum(now_.covariance, change, Unknown().covariance);
+  predicted.covariance = Sum(now_.covariance, change, (held_ ? Similar() : Unknown()).covariance);
   if (global) {
     predicted.covariance.topRows<kShutterParameters>().setZero();
     predicted.covariance.leftCols<kShutterParameters>().setZero();
@@ -119,7 +143,7 @@ CameraEstimate CameraFilter::Predict(double frames) const {
 }
 
 CameraGuess CameraFilter::Guess() const {
-  if (known_) {
+  if (!MaySwitch()) {
     return {now_};
   }
   CameraGuess guess{Unknown()};
@@ -132,7 +156,7 @@ CameraGuess CameraFilter::Guess() const {
 }
 
 CameraGuess CameraFilter::PresentGuess() const {
-  return known_ ? CameraGuess{now_} : CameraGuess{Predict(1.0), {now_.model}};
+  return held_ ? CameraGuess{now_} : CameraGuess{Predict(1.0), {now_.model}};
 }
 
 void CameraFilter::Update(const CameraEstimate& estimate) {
@@ -173,27 +197,34 @@ void CameraFilter::Contradict(const CameraEstimate& estimate) {
       off > kLeast && off > kDeviations * std::sqrt(estimate.covariance(kFocal, kFocal));
   contradictions_ = contradicts ? contradictions_ + 1 : 0;
   if (contradictions_ == kEnough) {
-    known_ = false;
+    held_ = false;
+    refuted_ = true;
     lenses_ = {now_};
     Update(estimate);
   }
 }
 
 void CameraFilter::Found(const CameraEstimate& found) {
-  if (known_) {
+  if (!MaySwitch()) {
     return;  // A single image does not show the readout time.
   }
-  // The statistic of a difference of the five parameters of the lens, and its 99.9 % quantile.
-  constexpr double kSameLens = 20.5;
-  constexpr int kLens = kCameraParameters - kShutterParameters;
+  if (!refuted_ && LensDistance(Similar(), LensOfSame(similar_), found) < kSameLens) {
+    const CameraEstimate before = now_;
+    now_ = Similar();
+    if (held_) {
+      now_.readout = before.readout;
+      now_.covariance = before.covariance;
+    }
+    held_ = true;
+    contradictions_ = 0;
+    return;
+  }
+  held_ = false;
   std::optional<size_t> same;
   double least = kSameLens;
   const CameraMatrix since = LensAgain(found.model);
   for (size_t i = 0; i < lenses_.size(); ++i) {
-    const auto off = Difference(lenses_[i], found).tail<kLens>();
-    const Eigen::Matrix<double, kLens, kLens> covariance =
-        (lenses_[i].covariance + since + found.covariance).bottomRightCorner<kLens, kLens>();
-    const double square = off.dot(covariance.inverse() * off);
+    const double square = LensDistance(lenses_[i], since, found);
     if (square < least) {
       least = square;
       same = i;

@@ -15,7 +15,8 @@ class CameraFilter {
  public:
   // camera: the intrinsics if they are known; otherwise those of some camera that may be similar,
   // such as the one that the map was trained with. The readout time is always estimated. Known
-  // intrinsics are held until the images contradict them, as they do where autofocus moves.
+  // intrinsics are held until the images contradict them, as they do where autofocus moves. Those
+  // of the similar camera are held as well, once an image was located with such a lens.
   CameraFilter(const geometry::CameraModel& camera, bool known);
 
   // Prepares for images of this size. A camera of unknown intrinsics is another one if its images
@@ -38,18 +39,25 @@ class CameraFilter {
 
   const CameraEstimate& now() const { return now_; }
 
-  bool known() const { return known_; }
-  // Known intrinsics as if they were those of a lens that was used some time ago.
+  // Whether the intrinsics are taken for exactly known.
+  bool held() const { return held_; }
+  // Whether the next image may have been taken with another lens.
+  bool MaySwitch() const { return !told_ || !held_; }
+  // Held intrinsics as if they were those of a lens that was used some time ago.
   CameraEstimate Doubted() const;
   // Takes note of the camera of an image that was followed with Doubted(). Where such images go on
-  // contradicting the known intrinsics, these are not known any more.
+  // contradicting the intrinsics, these are not held any more.
   void Contradict(const CameraEstimate& estimate);
 
  private:
   CameraEstimate Unknown() const;
+  // The similar camera, of which only the shutter is not known.
+  CameraEstimate Similar() const;
 
   geometry::CameraModel similar_;
-  bool known_;
+  bool told_;  // similar_ was given as that of the images.
+  bool held_;
+  bool refuted_ = false;  // Images contradicted similar_.
   CameraEstimate now_;
   std::vector<CameraEstimate> lenses_;  // Those that were in use, the present one last.
   int contradictions_ = 0;              // In a row.

@@ -165,13 +165,13 @@ class Tracker final : public PoseSource {
     const FollowedPose followed = patch_trackers_[map_]->Follow(
         pyramid_, camera, std::span(predictions.data(), count), &before, frames);
     if (!followed.reliable ||
-        (!camera_.known() && Leaps(std::span(predictions.data(), count), followed))) {
+        (camera_.MaySwitch() && Leaps(std::span(predictions.data(), count), followed))) {
       return false;
     }
     Report(followed, tracked);
     tracked.followed = true;
     constexpr int64_t kDoubtInterval = 5;  // frames
-    if (camera_.known() && tracked.frame.index % kDoubtInterval == 0) {
+    if (camera_.held() && tracked.frame.index % kDoubtInterval == 0) {
       camera_.Contradict(patch_trackers_[map_]->EstimateCamera(camera_.Doubted()));
     }
     if (share_ < kFewAgree &&
@@ -182,8 +182,8 @@ class Tracker final : public PoseSource {
     return true;
   }
 
-  // Whether a pose is far from all predictions. Before a plane, a lens of another focal length looks
-  // like a leap of the camera.
+  // Whether a pose is far from all predictions. Before a plane, a lens of another focal length
+  // looks like a leap of the camera.
   static bool Leaps(std::span<const Rigid3> predictions, const FollowedPose& followed) {
     return std::none_of(predictions.begin(), predictions.end(), [&](const Rigid3& prediction) {
       return DistancePx(followed.camera.model, prediction, followed.camera_from_map,

@@ -75,6 +75,23 @@ TEST(CameraFilter, RecognisesALensThatWasInUse) {
   EXPECT_EQ(filter.Guess().candidates.size(), 3u);
 }
 
+TEST(CameraFilter, HoldsTheSimilarCameraOnceAnImageLooksLikeIt) {
+  CameraFilter filter(kSimilar, false);
+  CameraEstimate found = ExactCamera(kSimilar);
+  found.model.fx = found.model.fy = 1003.0;
+  found.model.k1 += 0.01;
+  found.covariance = Certain(3.0);
+  filter.Found(found);
+  EXPECT_TRUE(filter.held());
+  EXPECT_EQ(filter.now().model, kSimilar);
+  EXPECT_EQ(filter.Predict(1.0).Unknown(), kShutterParameters);
+  // An image may still come from another lens.
+  EXPECT_EQ(filter.Guess().prior.Unknown(), kCameraParameters);
+  filter.Found(LensOf(560.0, 636.0, -0.02));
+  EXPECT_FALSE(filter.held());
+  EXPECT_NEAR(filter.now().model.fx, 560.0, 1e-9);
+}
+
 TEST(CameraFilter, KnownIntrinsicsThatImagesGoOnContradictAreGivenUp) {
   CameraFilter filter(kSimilar, true);
   CameraEstimate breathed = filter.Doubted();
@@ -85,9 +102,9 @@ TEST(CameraFilter, KnownIntrinsicsThatImagesGoOnContradictAreGivenUp) {
   filter.Contradict(filter.Doubted());  // As known, so the two before were chance.
   filter.Contradict(breathed);
   filter.Contradict(breathed);
-  EXPECT_TRUE(filter.known());
+  EXPECT_TRUE(filter.held());
   filter.Contradict(breathed);
-  EXPECT_FALSE(filter.known());
+  EXPECT_FALSE(filter.held());
   EXPECT_NEAR(filter.now().model.fx, 1015.0, 1e-9);
   EXPECT_EQ(filter.Predict(1.0).Unknown(), kCameraParameters);
 }
