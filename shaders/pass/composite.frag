@@ -17,6 +17,11 @@ uniform float caught_step;     // width and height of one pixel of caught, pixel
 // Homography to pixels of the layer of people and shadows, whose rows count from the bottom. If the
 // layer was drawn for an earlier picture, it is exact for one plane at the distance of people.
 uniform mat3 layer_from_pixel;
+// The time at which a pixel of the picture was exposed, in frame times after its middle, is the dot
+// product with (x, y, 1); 0 without a rolling shutter. Meanwhile people move in the layer as by the
+// homography to the pixels of a frame time ago.
+uniform vec3 exposure_time;
+uniform mat3 frame_ago;
 uniform float people_opacity;  // opacity of people and of their shadows and light
 
 layout(location = 0) out vec4 colour;
@@ -28,6 +33,8 @@ bool Within(vec2 cell, vec4 bounds) {
 void main() {
   vec3 in_layer = layer_from_pixel * vec3(gl_FragCoord.xy, 1.0);
   vec2 cell = in_layer.xy / in_layer.z;
+  vec3 ago = frame_ago * vec3(cell, 1.0);
+  cell -= dot(exposure_time, vec3(gl_FragCoord.xy, 1.0)) * (cell - ago.xy / ago.z);
   bool may_show = Within(cell, smeared_bounds);
 #ifdef LOOK
   // Loops replace ifs that skip much work: see SeenPast in shaders/include/sun.glsl.

@@ -83,13 +83,10 @@ PictureView ViewOf(const RenderScene& scene,
   return view;
 }
 
-glm::mat3 PreviousFromPixel(const RenderScene& scene, const PictureView& view, float depth) {
-  if (!scene.look.previous_camera_from_stage || !scene.camera_from_stage) {
-    return glm::mat3(1.0f);
-  }
+glm::mat3 PreviousFromPixel(const geometry::Rigid3& previous_from_now,
+                            const PictureView& view,
+                            float depth) {
   const Eigen::Matrix3d pixel_from_ray = PixelFromRay(view);
-  const geometry::Rigid3 previous_from_now =
-      *scene.look.previous_camera_from_stage * scene.camera_from_stage->Inverse();
   return ToGlm(pixel_from_ray * PlaneHomography(previous_from_now, depth) *
                pixel_from_ray.inverse());
 }

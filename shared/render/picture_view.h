@@ -44,9 +44,11 @@ glm::mat3 ViewFromPicture(const PictureView& view,
                           const geometry::CameraModel& display,
                           const geometry::Rigid3& camera_from_stage);
 
-// For CameraLook: homography from this picture to the one of a frame ago, for points on a plane
-// across the view at a depth in metres. Pixels of both are counted from the corner of the bottom
-// row.
-glm::mat3 PreviousFromPixel(const RenderScene& scene, const PictureView& view, float depth);
+// Homography from this picture to the one that the camera saw from an earlier pose, for points on a
+// plane across the view at a depth in metres. Pixels of both are counted from the corner of the
+// bottom row.
+glm::mat3 PreviousFromPixel(const geometry::Rigid3& previous_from_now,
+                            const PictureView& view,
+                            float depth);
 
 }  // namespace lararium::render

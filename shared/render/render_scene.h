@@ -2,6 +2,7 @@
 
 // Everything that one picture shows. Spans are borrowed during the call that draws it.
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -95,6 +96,13 @@ struct CameraLook {
   float shutter = 0.0f;
 };
 
+// A rolling shutter, whose rows see people at different times. RenderScene::camera_from_stage
+// belongs to the middle of the background.
+struct SceneShutter {
+  geometry::Rigid3 previous_camera_from_stage;        // one frame time ago
+  Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // see vision::RollingShutter
+};
+
 struct RenderScene {
   // For displays that show the real world themselves. The picture then contains people and props
   // only: sRGB-encoded colours times coverage; alpha says how much they and their shadows hide of
@@ -147,6 +155,8 @@ struct RenderScene {
   // Measured response of the camera, used instead of the knee; nullptr: not measured.
   const light::CameraResponse* response = nullptr;
   CameraLook look = {};
+  // Moves people to where each row of the background sees them; exact at their mean distance.
+  std::optional<SceneShutter> shutter = std::nullopt;
   // Opacity of people and props and of their shadows and light on real surfaces; 0: not visible.
   float people_opacity = 1.0f;
   // Lambertian reflection only, as in path-traced references.

@@ -15,6 +15,7 @@
 #include "shared/render/gl/shader_program.h"
 #include "shared/render/gl/texture.h"
 #include "shared/render/renderer_state.h"
+#include "shared/vision/rolling_shutter.h"
 
 namespace lararium::render {
 namespace {
@@ -102,6 +103,23 @@ glm::mat3 LayerFromPicture(const CompositeLayer& layer,
   return ViewFromPicture(layer.view, *layer.camera_from_stage, layer.depth,
                          scene.display.Resized(picture.width(), picture.height()),
                          *scene.camera_from_stage);
+}
+
+// The time at which a pixel of the picture is exposed, counted from the corner of the top row; see
+// shaders/pass/composite.frag. The lens hardly bends it.
+glm::vec3 ExposureTime(const RenderScene& scene, const RenderTarget& picture) {
+  const geometry::CameraModel display =
+      scene.background_display.value_or(scene.display).Resized(picture.width(), picture.height());
+  const auto time = [&](double x, double y) {
+    const Eigen::Vector2d plane = display.PlaneFromPixel({x, y});
+    return scene.shutter->readout.dot(
+        vision::ReadoutOrder(scene.camera, scene.camera.PixelFromPlane(plane)));
+  };
+  const double x = 0.5 * (display.width - 1);
+  const double y = 0.5 * (display.height - 1);
+  const double by_x = (time(1.5 * x, y) - time(0.5 * x, y)) / x;
+  const double by_y = (time(x, 1.5 * y) - time(x, 0.5 * y)) / y;
+  return {by_x, by_y, time(x, y) - by_x * (x + 0.5) - by_y * (y + 0.5)};
 }
 
 geometry::CameraModel BackgroundCamera(const RenderScene& scene) {
@@ -443,6 +461,9 @@ PixelBounds Renderer::State::ChangedBy(const RenderScene& scene, const RenderTar
   if (*layer.camera_from_stage != *scene.camera_from_stage || layer.view.margin > 0) {
     return {0, 0, target.width(), target.height()};
   }
+  if (scene.shutter) {
+    return {0, 0, target.width(), target.height()};
+  }
   const PixelBounds seen = Widened(layer.people, layer.motion_blur.reach, layer.view.size);
   const float scale =
       static_cast<float>(layer.view.size.width) / static_cast<float>(target.width());
@@ -504,6 +525,12 @@ void Renderer::State::SetLayer(const ShaderProgram& composite,
                                const RenderScene& scene,
                                const RenderTarget& target) {
   composite.Set("layer_from_pixel", LayerFromPicture(layer, scene, target));
+  composite.Set("exposure_time", scene.shutter ? ExposureTime(scene, target) : glm::vec3(0.0f));
+  composite.Set("frame_ago", scene.shutter
+                                 ? PreviousFromPixel(scene.shutter->previous_camera_from_stage *
+                                                         scene.camera_from_stage->Inverse(),
+                                                     layer.view, layer.depth)
+                                 : glm::mat3(1.0f));
   composite.Set("people_opacity", std::min(scene.people_opacity, 1.0f));
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, people.texture());

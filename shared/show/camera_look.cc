@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/vision/rolling_shutter.h"
+
 namespace lararium::show {
 
 render::CameraLook LookOf(const light::CameraTraits& traits,
@@ -28,6 +30,20 @@ render::CameraLook LookOf(const light::CameraTraits& traits,
     look.shutter = shutter / static_cast<float>(staged.camera.motion->frames);
   }
   return look;
+}
+
+std::optional<render::SceneShutter> ShutterOf(const StagedFrame& staged) {
+  const std::optional<vision::RollingShutter>& rolling = staged.tracked.rolling_shutter;
+  if (!rolling || rolling->readout.isZero(0.0) || !staged.camera.motion ||
+      !staged.camera.camera_from_stage) {
+    return std::nullopt;
+  }
+  // The tracker knows the turn at the very time of the image, but only in map units the rest.
+  const geometry::Rigid3& now = *staged.camera.camera_from_stage;
+  Eigen::Matrix<double, 6, 1> motion = rolling->motion;
+  motion.tail<3>() = (now * staged.camera.motion->before_from_stage.Inverse()).translation /
+                     static_cast<double>(staged.camera.motion->frames);
+  return render::SceneShutter{vision::PoseAfter(now, motion, -1.0), rolling->readout};
 }
 
 }  // namespace lararium::show

@@ -15,4 +15,8 @@ render::CameraLook LookOf(const light::CameraTraits& traits,
                           const StagedFrame& staged,
                           const geometry::CameraModel& display);
 
+// How people move while the rows of the camera's image are read. nullopt: not visibly, or the
+// motion is not known.
+std::optional<render::SceneShutter> ShutterOf(const StagedFrame& staged);
+
 }  // namespace lararium::show

@@ -222,6 +222,11 @@ void ShowRenderer::SetCamera(const StagedFrame& staged,
     scene.camera_from_stage = eye_from_camera * *staged.camera.camera_from_stage;
   }
   scene.people_opacity = staged.camera.opacity;
+  scene.shutter = ShutterOf(staged);
+  if (scene.shutter) {
+    scene.shutter->previous_camera_from_stage =
+        eye_from_camera * scene.shutter->previous_camera_from_stage;
+  }
   if (place.camera && !matte_) {
     const geometry::CameraModel picture = scene.display.Resized(target.width(), target.height());
     scene.look = LookOf(*place.camera, staged, picture);

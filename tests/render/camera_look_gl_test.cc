@@ -123,6 +123,39 @@ TEST_F(CameraLookTest, MotionSidewaysSmearsByTheDistanceOfPeople) {
   EXPECT_NEAR(EdgeVariance(Draw(), true) - before, pixels * pixels / 12.0, 2.7);
 }
 
+// The middle of what a row shows, pixels.
+double MiddleOfRow(const cv::Mat& picture, int row) {
+  double sum = 0.0;
+  double weighted = 0.0;
+  for (int x = 0; x < picture.cols; ++x) {
+    sum += picture.at<cv::Vec3b>(row, x)[1];
+    weighted += x * picture.at<cv::Vec3b>(row, x)[1];
+  }
+  return weighted / sum;
+}
+
+TEST_F(CameraLookTest, ARollingShutterSeesEachRowAtItsOwnTime) {
+  // Since a frame ago, the camera has turned so that all moved to the left by this many pixels.
+  const double pixels = 12.0;
+  scene_.camera = scene_.display;
+  SceneShutter& shutter = scene_.shutter.emplace();
+  shutter.previous_camera_from_stage =
+      geometry::Rigid3{geometry::RotationFromVector({0.0, pixels / 1200.0, 0.0}),
+                       Eigen::Vector3d::Zero()} *
+      *scene_.camera_from_stage;
+  const cv::Mat whole = Draw();
+  for (const double readout : {0.8, -0.8}) {  // Downwards, upwards.
+    shutter.readout = {0.0, readout};
+    const cv::Mat rolled = Draw();
+    for (const int offset : {-45, 0, 45}) {
+      const int row = kSize / 2 + offset;
+      const double time = readout * (row - 0.5 * (kSize - 1)) / kSize;
+      EXPECT_NEAR(MiddleOfRow(rolled, row) - MiddleOfRow(whole, row), -time * pixels, 0.15)
+          << readout << " " << offset;
+    }
+  }
+}
+
 TEST_F(CameraLookTest, NoiseHasTheGivenVarianceAndIsRepeatable) {
   const cv::Mat clean = Draw();
   scene_.look.noise_floor = 0.02f;

@@ -71,8 +71,10 @@ MotionBlur MotionBlurOf(const RenderScene& scene,
   }
   motion_blur.taps_along = motion_blur.taps_across;
   float longest = 0.0f;
-  if (look.previous_camera_from_stage && look.shutter > 0.0f && !people.empty()) {
-    motion_blur.previous_from_pixel = PreviousFromPixel(scene, view, depth);
+  if (look.previous_camera_from_stage && scene.camera_from_stage && look.shutter > 0.0f &&
+      !people.empty()) {
+    motion_blur.previous_from_pixel = PreviousFromPixel(
+        *look.previous_camera_from_stage * scene.camera_from_stage->Inverse(), view, depth);
     const float shutter = std::clamp(look.shutter, 0.0f, 1.0f);
     longest =
         std::min(shutter * LongestMotion(motion_blur.previous_from_pixel, people), kLongestSmear);
