@@ -27,23 +27,30 @@ constexpr double kDarkMean = 8.0;   // Darker images (mean grey level 0..255) ar
 constexpr int64_t kLongestGap = 8;  // Longest gap between frames over which motion is predicted.
 constexpr double kLeapPx = 30.0;    // The view changed if it moves more than this per frame.
 constexpr double kFewAgree = 0.5;   // Share of agreeing patches below which many do not agree.
-constexpr double kTwoMeaningsPx = 3.0;  // Poses farther apart than this contradict each other.
+constexpr float kLeastUnconfirmed = 0.97f;  // Confidence of a pose that no patches confirm.
+constexpr double kTwoMeaningsPx = 3.0;     // Poses farther apart than this contradict each other.
 
-// Mean distance, in pixels, between the projections of points at a depth by two poses.
-double DistancePx(const CameraModel& camera, const Rigid3& a, const Rigid3& b, double depth) {
+// A camera with its lens at a pose.
+struct Sight {
+  const CameraModel& camera;
+  const Rigid3& camera_from_map;
+};
+
+// Mean distance, in pixels, between what two sights show of points at a depth.
+double DistancePx(const Sight& a, const Sight& b, double depth) {
   constexpr int kSteps = 4;
-  const Rigid3 b_from_a = b * a.Inverse();
+  const Rigid3 b_from_a = b.camera_from_map * a.camera_from_map.Inverse();
   double sum = 0.0;
   for (int row = 0; row < kSteps; ++row) {
     for (int column = 0; column < kSteps; ++column) {
-      const Eigen::Vector2d pixel((column + 0.5) / kSteps * camera.width,
-                                  (row + 0.5) / kSteps * camera.height);
-      const Eigen::Vector2d plane = camera.PlaneFromPixel(pixel);
+      const Eigen::Vector2d pixel((column + 0.5) / kSteps * a.camera.width,
+                                  (row + 0.5) / kSteps * a.camera.height);
+      const Eigen::Vector2d plane = a.camera.PlaneFromPixel(pixel);
       const Eigen::Vector3d moved = b_from_a * (depth * plane.homogeneous());
       if (moved.z() <= 0.0) {
         return std::numeric_limits<double>::infinity();
       }
-      sum += camera.Focal() * (moved.hnormalized() - plane).norm();
+      sum += (b.camera.PixelFromPlane(moved.hnormalized()) - pixel).norm();
     }
   }
   return sum / (kSteps * kSteps);
@@ -134,6 +141,14 @@ class Tracker final : public PoseSource {
     if (!Follow(tracked)) {
       Find(tracked);
       anchored = tracked.camera_from_map && Anchor(tracked);
+      if (tracked.camera_from_map && !anchored && tracked.confidence < kLeastUnconfirmed) {
+        // In a mirrored or rebuilt room, matches may agree on a pose that the image contradicts.
+        tracked.camera_from_map.reset();
+        tracked.reason = TrackReason::kNoConsistentPose;
+        tracked.confidence = 0.0f;
+        tracked.inliers = 0;
+        found_in_.reset();
+      }
     }
     pyramid_.level(pyramid_.levels() - 1).copyTo(small_before_);
     if (tracked.camera_from_map) {
@@ -175,7 +190,8 @@ class Tracker final : public PoseSource {
       camera_.Contradict(patch_trackers_[map_]->EstimateCamera(camera_.Doubted()));
     }
     if (share_ < kFewAgree &&
-        DistancePx(tracked.camera, before, followed.camera_from_map, depth_) > kLeapPx) {
+        DistancePx({tracked.camera, before}, {tracked.camera, followed.camera_from_map}, depth_) >
+            kLeapPx) {
       // The patches were chosen for another view.
       Refine(tracked, &before, frames);
     }
@@ -186,7 +202,8 @@ class Tracker final : public PoseSource {
   // looks like a leap of the camera.
   static bool Leaps(std::span<const Rigid3> predictions, const FollowedPose& followed) {
     return std::none_of(predictions.begin(), predictions.end(), [&](const Rigid3& prediction) {
-      return DistancePx(followed.camera.model, prediction, followed.camera_from_map,
+      return DistancePx({followed.camera.model, prediction},
+                        {followed.camera.model, followed.camera_from_map},
                         followed.evidence.depths[1]) < kLeapPx;
     });
   }
@@ -242,12 +259,14 @@ class Tracker final : public PoseSource {
   // Chooses patches for the pose and aligns them. Returns whether they agree with it.
   bool Refine(TrackedFrame& tracked, const Rigid3* before, double frames) {
     const Rigid3 rough = *tracked.camera_from_map;
+    const CameraModel camera = tracked.camera;
     PatchTracker& patch_tracker = *patch_trackers_[map_];
     patch_tracker.Start(tracked.camera, rough);
     const FollowedPose followed =
         patch_tracker.Follow(pyramid_, camera_.now(), std::span(&rough, 1), before, frames);
-    if (followed.reliable && DistancePx(tracked.camera, rough, followed.camera_from_map,
-                                        followed.evidence.depths[1]) < kTwoMeaningsPx) {
+    if (followed.reliable &&
+        DistancePx({camera, rough}, {followed.camera.model, followed.camera_from_map},
+                   followed.evidence.depths[1]) < kTwoMeaningsPx) {
       Report(followed, tracked);
       return true;
     }
@@ -321,8 +340,9 @@ class Tracker final : public PoseSource {
       return;  // Nothing was found, or tracking was restarted in the meantime.
     }
     const Rigid3& found = *located.location.camera_from_map;
-    if (located.map == map_ && DistancePx(tracked.camera, *checked_pose_, found, depth_) <
-                                   kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
+    if (located.map == map_ &&
+        DistancePx({checked_camera_, *checked_pose_}, {located.location.camera.model, found},
+                   depth_) < kTwoMeaningsPx + 4.0 * located.location.expected_error_px) {
       constexpr double kMostBlurPx = 2.0;  // Patches of a more blurred image are not usable.
       if (checked_blur_px_ < kMostBlurPx) {
         patch_trackers_[map_]->Merge(checked_image_, checked_camera_, *checked_pose_,
