@@ -373,8 +373,8 @@ bool ReprojectionResidual(const CameraModel& fixed,
         (turning + time * turning * turning) * of_middle + motion.tail<3>();
     jacobian.rightCols<2>() = by_camera * speed * order.transpose();
   }
-  by_camera =
-      (by_camera * turned).eval();  // By the point when the middle of the image was exposed.
+  // From here on the derivative is that by the point when the middle of the image was exposed.
+  by_camera = (by_camera * turned).eval();
   if (by_pose != nullptr) {
     // R X = X + 2 w (v x X) + 2 v x (v x X), and v x (v x X) = v (v.X) - X (v.v).
     Eigen::Map<Matrix2x7> jacobian(by_pose);

@@ -490,7 +490,7 @@ class Merger {
     for (size_t k = 0; k < poses_.size(); ++k) {
       vision::Keyframe& keyframe = db.keyframes.emplace_back(session_.keyframes[k]);
       keyframe.camera_from_map = poses_[k];
-      keyframe.motion.setZero();  // It belongs to the readout time of another camera.
+      keyframe.motion.setZero();  // The map has the readout time of another camera.
       keyframe.grey = Resampled(keyframe.grey, session_.camera, map_.camera);
       for (size_t c = 0; c < 3; ++c) {
         keyframe.gain[c] *= exposure[c];

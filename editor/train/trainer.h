@@ -55,7 +55,7 @@ struct FrameReport {
   std::string name;
   bool keyframe = false;
   std::optional<geometry::Rigid3> camera_from_map;  // Set if the frame was located.
-  ImageMotion camera_motion = ImageMotion::Zero();  // As LocatedFrame::motion.
+  ImageMotion camera_motion = ImageMotion::Zero();  // See LocatedFrame::motion.
   int features = 0;
   // Number of observed map points; for keyframes, before the budget removes points.
   int observations = 0;

@@ -21,7 +21,7 @@ struct TrainedCamera {
 struct CameraChoice {
   geometry::CameraModel camera;  // scaled to the size of the source's images
   std::string origin;            // source of the calibration, for the log
-  bool known = true;             // Otherwise it is a guess.
+  bool known = true;             // False if the camera is a guess.
 };
 
 // trained: the cameras of all places, at least one; the first that fits is the guess. width and

@@ -178,9 +178,8 @@ Result<SequenceReport> BenchmarkRun::Sequence(const BenchmarkSequence& sequence)
 
 Status BenchmarkRun::ShowForeign(const std::filesystem::path& path, ForeignReport& report) const {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenForeign(path));
-  LARARIUM_ASSIGN_OR_RETURN(
-      const auto tracker,
-      MakeTracker(maps_.front()->camera.GuessForImages(source->width(), source->height())));
+  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(maps_.front()->camera.GuessForImages(
+                                                    source->width(), source->height())));
   while (!Enough(report.frames)) {
     LARARIUM_ASSIGN_OR_RETURN(const std::optional<Frame> frame, source->Next());
     if (!frame) {

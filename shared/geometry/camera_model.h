@@ -60,8 +60,8 @@ struct CameraModel {
   // than a pixel.
   Result<CameraModel> ForImages(int new_width, int new_height) const;
 
-  // Same as ForImages() where that is possible. Otherwise a guess: a camera of the same field of view
-  // along the longer side, with its principal point in the middle and without distortion.
+  // Same as ForImages() where that is possible. Otherwise a guess: a camera of the same field of
+  // view along the longer side, with its principal point in the middle and without distortion.
   CameraModel GuessForImages(int new_width, int new_height) const;
 
   // Returns the undistorted pinhole of the same size whose image is completely covered by this

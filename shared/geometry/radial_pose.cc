@@ -180,7 +180,7 @@ bool Complete(const std::array<Eigen::Vector2d, 5>& pixels,
   rotation.row(2) = rotation.row(0).cross(rotation.row(1));
   // R f + R r^2 (f division) - r t = r w, where R is the distance from the axis, w the depth
   // without t, and r the pixel's distance in units of half_size.
-  constexpr double kNoise = 2e-3;       // Of the distances.
+  constexpr double kNoise = 2e-3;       // Relative noise of the distances.
   constexpr double kDistortion = 0.15;  // Deviation of the division at the distance half_size.
   Matrix3d normal = Matrix3d::Zero();
   Vector3d right = Vector3d::Zero();

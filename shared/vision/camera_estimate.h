@@ -24,7 +24,8 @@ enum CameraParameter {
   kRadial2,  // k2
   kCameraParameters,
 };
-inline constexpr int kShutterParameters = kFocal;  // Those of the shutter, which come first.
+// The parameters of the shutter come first.
+inline constexpr int kShutterParameters = kFocal;
 
 using CameraVector = Eigen::Matrix<double, kCameraParameters, 1>;
 using CameraMatrix = Eigen::Matrix<double, kCameraParameters, kCameraParameters>;

@@ -59,8 +59,8 @@ class CameraFilter {
   bool held_;
   bool refuted_ = false;  // Images contradicted similar_.
   CameraEstimate now_;
-  std::vector<CameraEstimate> lenses_;  // Those that were in use, the present one last.
-  int contradictions_ = 0;              // In a row.
+  std::vector<CameraEstimate> lenses_;  // Lenses that were in use, the present one last.
+  int contradictions_ = 0;              // Number of contradictions in a row.
 };
 
 }  // namespace lararium::vision

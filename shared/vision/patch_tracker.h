@@ -31,7 +31,7 @@ struct FollowedPose {
   // Enough of the expected patches agree, they are spread over the image, and the error is small.
   bool reliable = false;
   geometry::Rigid3 camera_from_map;
-  CameraEstimate camera;           // As estimated with the pose, and its covariance.
+  CameraEstimate camera;           // Estimated with the pose.
   std::optional<Vector6d> motion;  // (w, v) during one frame time, if it is known.
   PoseEvidence evidence;
   int expected = 0;  // Number of patches that should be visible.

@@ -29,7 +29,7 @@ constexpr double kMaxCoordinate = 1e9;
 // Limits far beyond the exposure range of any camera.
 constexpr float kMaxColour = 1e4f;
 constexpr float kMaxGain = 1e4f;
-constexpr double kMostMotion = 1e4;   // In one frame time, radians or map units.
+constexpr double kMostMotion = 1e4;   // Radians or map units per frame time.
 constexpr double kMostReadout = 2.0;  // Frame times.
 
 // Returns false for NaN, too.

@@ -46,7 +46,7 @@ struct Observation {
 
 struct SceneDatabase {
   geometry::CameraModel camera;                       // Camera of the training images.
-  Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // Of that camera, see RollingShutter.
+  Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // See RollingShutter.
   double mean_reprojection_error_px = 0.0;
 
   // Points, in map units; parallel arrays.

@@ -38,7 +38,7 @@ std::string_view Name(TrackReason reason);
 // An image with its pose. The image shown is the image that was tracked.
 struct TrackedFrame {
   geometry::Frame frame;
-  geometry::CameraModel camera;                     // As given, or as estimated for this image.
+  geometry::CameraModel camera;  // The given one, or the estimate for this image.
   std::optional<geometry::Rigid3> camera_from_map;  // Set if and only if state is kTracking.
   uint32_t map = 0;  // Index of the map that the pose refers to, among the tracker's maps.
   TrackState state = TrackState::kSearching;

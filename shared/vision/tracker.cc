@@ -28,16 +28,16 @@ constexpr int64_t kLongestGap = 8;  // Longest gap between frames over which mot
 constexpr double kLeapPx = 30.0;    // The view changed if it moves more than this per frame.
 constexpr double kFewAgree = 0.5;   // Share of agreeing patches below which many do not agree.
 constexpr float kLeastUnconfirmed = 0.97f;  // Confidence of a pose that no patches confirm.
-constexpr double kTwoMeaningsPx = 3.0;     // Poses farther apart than this contradict each other.
+constexpr double kTwoMeaningsPx = 3.0;      // Poses farther apart than this contradict each other.
 
 // A camera with its lens at a pose.
-struct Sight {
+struct PosedModel {
   const CameraModel& camera;
   const Rigid3& camera_from_map;
 };
 
-// Mean distance, in pixels, between what two sights show of points at a depth.
-double DistancePx(const Sight& a, const Sight& b, double depth) {
+// Mean distance, in pixels, between the projections of points at a depth by two cameras.
+double DistancePx(const PosedModel& a, const PosedModel& b, double depth) {
   constexpr int kSteps = 4;
   const Rigid3 b_from_a = b.camera_from_map * a.camera_from_map.Inverse();
   double sum = 0.0;

@@ -166,7 +166,7 @@ TEST(EstimatePatchPose, FindsTheReadoutTimeOfACameraThatTurns) {
                                   {kPose, prior.camera}, 0.01, pose));
     EXPECT_LT((pose.posed.camera.readout - readout).norm(), 0.02) << readout.transpose();
     EXPECT_LT(PoseDistance(pose.posed.camera_from_map, kPose), 2e-3);
-    EXPECT_EQ(pose.posed.camera.model, kPhone);  // What is known does not change.
+    EXPECT_EQ(pose.posed.camera.model, kPhone);  // Known parameters do not change.
     EXPECT_LT(pose.covariance(6 + kReadoutY, 6 + kReadoutY), 0.01 * 0.01);
     // Without a motion nothing is learnt.
     prior.motion = nullptr;

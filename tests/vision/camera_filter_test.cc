@@ -99,7 +99,7 @@ TEST(CameraFilter, KnownIntrinsicsThatImagesGoOnContradictAreGivenUp) {
   breathed.covariance = Certain(1.0);
   filter.Contradict(breathed);
   filter.Contradict(breathed);
-  filter.Contradict(filter.Doubted());  // As known, so the two before were chance.
+  filter.Contradict(filter.Doubted());  // No contradiction: the two before were chance.
   filter.Contradict(breathed);
   filter.Contradict(breathed);
   EXPECT_TRUE(filter.held());

@@ -106,7 +106,7 @@ class FileChooser {
     std::vector<FileEntry> entries;
     std::string problem;  // Why the folder cannot be read.
     std::vector<editor::FilePlace> places;
-    std::vector<editor::RecentProject> recent;  // Those that exist.
+    std::vector<editor::RecentProject> recent;  // The recent projects that exist.
     std::optional<size_t> chosen;
     bool all = false;  // All files are listed, not only those of the type.
     bool scroll = false;
