@@ -25,7 +25,9 @@ const CameraModel kFileCamera = {.width = 640,
 
 std::vector<PoseRecord> Records() {
   const Rigid3 pose{Eigen::Quaterniond(0.5, -0.1, 0.7, 0.2).normalized(), {0.1, -2.0, 3.5}};
-  return {{"000000.png", kFileCamera, pose, true},
+  RollingShutter rolling{{0.0, 0.8}};
+  rolling.motion << 0.01, -0.02, 0.03, 0.1, 0.2, -0.3;
+  return {{"000000.png", kFileCamera, pose, true, rolling},
           {"000001.png", kFileCamera, std::nullopt, false},
           {"000002.png", kFileCamera, pose, false}};
 }
@@ -43,6 +45,11 @@ TEST(PosesFile, KeepsPosesAndCameras) {
     EXPECT_EQ(b.file, a.file);
     EXPECT_EQ(b.camera, a.camera);
     EXPECT_EQ(b.tracked, a.tracked);
+    ASSERT_EQ(b.shutter.has_value(), a.shutter.has_value());
+    if (a.shutter) {
+      EXPECT_EQ(b.shutter->readout, a.shutter->readout);
+      EXPECT_EQ(b.shutter->motion, a.shutter->motion);
+    }
     ASSERT_EQ(b.camera_from_world.has_value(), a.camera_from_world.has_value());
     if (a.camera_from_world) {
       EXPECT_LT((a.camera_from_world->Matrix3x4() - b.camera_from_world->Matrix3x4()).norm(),
@@ -66,6 +73,9 @@ TEST(PosesFile, HasTheFieldsThatOtherToolsRead) {
   EXPECT_EQ(first["world_to_camera"]["R"].size(), 9u);
   EXPECT_EQ(first["world_to_camera"]["t"].size(), 3u);
   EXPECT_EQ(first["tracked"], true);
+  EXPECT_EQ(first["rolling_shutter"]["readout"].size(), 2u);
+  EXPECT_EQ(first["rolling_shutter"]["rotation"].size(), 3u);
+  EXPECT_EQ(first["rolling_shutter"]["translation"].size(), 3u);
   EXPECT_TRUE((*json)["images"][1]["world_to_camera"].is_null());
 }
 

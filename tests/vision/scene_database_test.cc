@@ -14,6 +14,8 @@
 namespace lararium::vision {
 namespace {
 
+using geometry::Rigid3;
+
 SceneDatabase SmallDatabase() {
   test::SyntheticWorld world = test::MakeSyntheticWorld({.points = 40, .cameras = 2});
   world.camera = world.camera.Resized(64, 48);
@@ -23,6 +25,8 @@ SceneDatabase SmallDatabase() {
     database.colours.emplace_back(random.Uniform(0, 1), random.Uniform(0, 1), -1.0f);
   }
   database.keyframes[1].gain = {0.5f, 1.25f, 2.0f};
+  database.readout = {0.01, 0.7};
+  database.keyframes[0].motion << 0.01, -0.02, 0.003, 0.1, 0.02, -0.05;
   return database;
 }
 
@@ -34,6 +38,7 @@ void ForgetField(flatbuffers::Table* table, flatbuffers::voffset_t field) {
 
 void ExpectSame(const SceneDatabase& a, const SceneDatabase& b) {
   EXPECT_EQ(a.camera, b.camera);
+  EXPECT_EQ(a.readout, b.readout);
   EXPECT_EQ(a.mean_reprojection_error_px, b.mean_reprojection_error_px);
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.normals, b.normals);
@@ -53,6 +58,7 @@ void ExpectSame(const SceneDatabase& a, const SceneDatabase& b) {
     EXPECT_EQ(a.keyframes[i].camera_from_map.translation,
               b.keyframes[i].camera_from_map.translation);
     EXPECT_EQ(a.keyframes[i].gain, b.keyframes[i].gain);
+    EXPECT_EQ(a.keyframes[i].motion, b.keyframes[i].motion);
     ASSERT_EQ(a.keyframes[i].grey.size(), b.keyframes[i].grey.size());
     if (a.keyframes[i].grey.empty()) {
       continue;
@@ -74,6 +80,26 @@ TEST(SceneDatabase, SurvivesTheRoundTrip) {
   const auto loaded = LoadSceneDatabase(folder / "a.larscene");
   ASSERT_TRUE(loaded.ok()) << loaded.message();
   ExpectSame(database, *loaded);
+}
+
+TEST(SceneDatabase, AKeyframeSawAPointAtTheTimeOfItsPixel) {
+  const SceneDatabase database = SmallDatabase();
+  for (uint32_t keyframe = 0; keyframe < 2; ++keyframe) {
+    const Rigid3& middle = database.keyframes[keyframe].camera_from_map;
+    int moved = 0;
+    for (const Eigen::Vector3f& p : database.points) {
+      const Eigen::Vector3d point = p.cast<double>();
+      const auto pixel = database.PixelIn(keyframe, point);
+      if (!pixel || !database.camera.Contains(*pixel)) {
+        continue;
+      }
+      const auto again = database.camera.Project(database.PoseAt(keyframe, *pixel) * point);
+      ASSERT_TRUE(again);
+      EXPECT_LT((*again - *pixel).norm(), 1e-3);
+      moved += (*pixel - *database.camera.Project(middle * point)).norm() > 0.01 ? 1 : 0;
+    }
+    EXPECT_EQ(moved > 0, keyframe == 0);  // The motion of the other one is not known.
+  }
 }
 
 TEST(SceneDatabase, KeyframesMayHaveNoImage) {
@@ -189,6 +215,8 @@ TEST(SceneDatabase, SaysWhatIsBroken) {
   refuses("forest", [](SceneDatabase& db) { db.forest.roots.clear(); });
   refuses("pose",
           [](SceneDatabase& db) { db.keyframes[0].camera_from_map.rotation.coeffs() *= 1.1; });
+  refuses("motion", [](SceneDatabase& db) { db.keyframes[0].motion[4] = kNan; });
+  refuses("readout time", [](SceneDatabase& db) { db.readout.y() = -3.0; });
   refuses("keyframe image", [](SceneDatabase& db) {
     db.keyframes[1].grey = cv::Mat(48, 63, CV_8UC1, cv::Scalar(0));
   });
