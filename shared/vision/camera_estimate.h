@@ -33,7 +33,7 @@ using CameraMatrix = Eigen::Matrix<double, kCameraParameters, kCameraParameters>
 struct CameraEstimate {
   geometry::CameraModel model;
   Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // See RollingShutter.
-  // Of the parameters; a parameter of variance 0 is exactly known.
+  // Covariance of the parameters; a parameter of variance 0 is exactly known.
   CameraMatrix covariance = CameraMatrix::Zero();
 
   // The number of parameters, counted from the first, of which at least the last is not known.
@@ -73,8 +73,8 @@ JointMatrix<kMostJoint> WithKnownCamera(const Matrix6d& covariance);
 // as none.
 using FrameMotion = const Vector6d*;
 
-// The point that a pixel shows, in the camera frame of the middle of the image, moved to the time
-// at which the pixel was exposed.
+// A point in the camera frame of the middle of the image, moved to the camera frame of another time
+// (frame times), to second order.
 Eigen::Vector3d AtTimeOf(double time, const Eigen::Vector3d& in_camera, FrameMotion motion);
 
 // The pixel at which a point in the camera frame is seen, minus the pixel at which it was observed.

@@ -29,6 +29,7 @@ constexpr double kRadialStep = 0.0005;
 constexpr double kFocalAgain = 0.025;
 constexpr double kCentreAgain = 0.002;
 constexpr double kRadialAgain = 0.01;
+// By how much it differs in a camera whose focus does not move.
 constexpr double kFocalSame = 0.002;
 constexpr double kCentreSame = 0.002;
 constexpr double kRadialSame = 0.01;
@@ -50,12 +51,12 @@ CameraMatrix Squares(double readout, double focal, double centre, double radial)
   return deviations.cwiseAbs2().asDiagonal();
 }
 
-// The covariance of what may have changed since a lens was in use.
+// The covariance of what autofocus may have changed since a lens was in use.
 CameraMatrix LensAgain(const CameraModel& model) {
   return Squares(0.0, kFocalAgain, kCentreAgain * LongerSide(model), kRadialAgain);
 }
 
-// By how much the lens of the same camera differs where nothing has moved it.
+// The same where nothing has moved the lens.
 CameraMatrix LensOfSame(const CameraModel& model) {
   return Squares(0.0, kFocalSame, kCentreSame * LongerSide(model), kRadialSame);
 }
@@ -73,11 +74,11 @@ double LensDistance(const CameraEstimate& known,
   return off.dot(covariance.inverse() * off);
 }
 
+// The covariance after a change, which is at most that of what nothing is known of.
 CameraMatrix Sum(const CameraMatrix& covariance,
                  const CameraMatrix& change,
                  const CameraMatrix& most) {
   CameraMatrix sum = covariance + change;
-  // What is not known cannot become less known; correlations fade as well.
   for (int i = 0; i < kCameraParameters; ++i) {
     if (sum(i, i) > most(i, i)) {
       const double factor = most(i, i) > 0.0 ? std::sqrt(most(i, i) / sum(i, i)) : 0.0;
@@ -231,30 +232,28 @@ void CameraFilter::Found(const CameraEstimate& found) {
     }
   }
   CameraEstimate lens = found;
-  lens.readout = now_.readout;
+  // A single image tells nothing of the shutter, and another lens may have another sensor.
+  CameraEstimate shutter = Unknown();
+  shutter.readout = now_.readout;
+  if (same) {
+    // The two estimates are joined, each weighed by its information.
+    shutter = lenses_[*same];
+    CameraEstimate known = shutter;
+    known.covariance += since;
+    const CameraMatrix of_known = Information(known);
+    const CameraMatrix of_found = Information(found);
+    lens.covariance = (of_known + of_found).inverse();
+    const CameraVector off = lens.covariance * (of_found * Difference(known, found));
+    lens.model = Changed(known, off).model;
+    lenses_.erase(lenses_.begin() + static_cast<std::ptrdiff_t>(*same));
+  } else if (lenses_.size() == kMostLenses) {
+    lenses_.erase(lenses_.begin());
+  }
+  lens.readout = shutter.readout;
   lens.covariance.topRows<kShutterParameters>().setZero();
   lens.covariance.leftCols<kShutterParameters>().setZero();
   lens.covariance.topLeftCorner<kShutterParameters, kShutterParameters>() =
-      now_.covariance.topLeftCorner<kShutterParameters, kShutterParameters>();
-  if (same) {
-    // The two estimates are joined, each weighed by its information.
-    CameraEstimate known = lenses_[*same];
-    known.covariance += since;
-    const CameraMatrix of_known = Information(known);
-    const CameraMatrix of_found = Information(lens);
-    const CameraMatrix covariance = (of_known + of_found).inverse();
-    const CameraVector off = covariance * (of_found * Difference(known, lens));
-    lens = Changed(known, off);
-    lens.covariance = covariance;
-    lenses_.erase(lenses_.begin() + static_cast<std::ptrdiff_t>(*same));
-  } else {
-    // Another lens may have another sensor.
-    lens.covariance.topLeftCorner<kShutterParameters, kShutterParameters>() =
-        Unknown().covariance.topLeftCorner<kShutterParameters, kShutterParameters>();
-    if (lenses_.size() == kMostLenses) {
-      lenses_.erase(lenses_.begin());
-    }
-  }
+      shutter.covariance.topLeftCorner<kShutterParameters, kShutterParameters>();
   lenses_.push_back(lens);
   now_ = lens;
 }

@@ -19,11 +19,11 @@ struct RefinedCamera {
   JointMatrix<kMostJoint> information = JointMatrix<kMostJoint>::Zero();
 };
 
-// As PoseRefiner, for a camera of which only prior.covariance is known.
+// As PoseRefiner, for a camera that is estimated with the pose.
 class CameraRefiner {
  public:
-  // start may refer to refined.posed. Uses PoseMatch::pixel. With fewer than 7 inliers, information
-  // and noise are zero.
+  // prior: what is known of the camera, with its covariance. start may refer to refined.posed. Uses
+  // PoseMatch::pixel. With fewer than 7 inliers, information and noise are zero.
   void Refine(std::span<const PoseMatch> matches,
               double inlier_threshold_px,
               const PosedCamera& start,
