@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "editor/document/user_folders.h"
 #include "tests/support/test_files.h"
@@ -86,6 +87,10 @@ TEST_F(FetchCastLibraryTest, CancelledItEndsTheProgramsThatItStartedAndLeavesNot
   pid_t npm = 0;
   std::ifstream(folder_ / "started") >> npm;
   ASSERT_GT(npm, 0);
+  // The parent that inherits the ended program may take a while to collect it.
+  for (int i = 0; i < 100 && ::kill(npm, 0) == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
   EXPECT_NE(::kill(npm, 0), 0) << "npm is still running";
   EXPECT_FALSE(fs::exists(library()));
   EXPECT_FALSE(HasRest());
