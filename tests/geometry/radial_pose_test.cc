@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kHalfSize = 640.0;
 
-struct Sight {
+struct FivePointView {
   Rigid3 camera_from_world;
   double focal = 0.0;
   double division = 0.0;
@@ -32,8 +32,8 @@ Vector2d Distorted(const Vector2d& undistorted, double division) {
   return undistorted * (2.0 / (1.0 + root));
 }
 
-Sight RandomSight(Random& random, bool planar, double division) {
-  Sight c;
+FivePointView RandomView(Random& random, bool planar, double division) {
+  FivePointView c;
   c.camera_from_world.rotation =
       Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
           .normalized();
@@ -55,7 +55,7 @@ Sight RandomSight(Random& random, bool planar, double division) {
 
 // The smallest difference of a solution from the truth: of the rotation in radians, of the position
 // and of the focal length relative to its size.
-double LeastError(const Sight& c) {
+double LeastError(const FivePointView& c) {
   const RadialPoseSolutions found = SolveRadialPose(c.pixels, c.points, kHalfSize);
   double least = std::numeric_limits<double>::infinity();
   for (const RadialPose& one : found.all()) {
@@ -78,7 +78,7 @@ TEST_P(RadialPoseOf, FindsPoseAndFocalLengthOfExactPixels) {
   Random random(3);
   std::vector<double> errors;
   for (int i = 0; i < 2000; ++i) {
-    errors.push_back(LeastError(RandomSight(random, GetParam().planar, GetParam().division)));
+    errors.push_back(LeastError(RandomView(random, GetParam().planar, GetParam().division)));
   }
   std::sort(errors.begin(), errors.end());
   // Distortion is held to be improbable, so some samples trade it for another focal length.
@@ -97,7 +97,7 @@ TEST(RadialPose, AFewHundredthsOfAPixelMoveTheFocalLengthLittle) {
   Random random(5);
   std::vector<double> errors;
   for (int i = 0; i < 1000; ++i) {
-    Sight c = RandomSight(random, false, 0.0);
+    FivePointView c = RandomView(random, false, 0.0);
     for (Vector2d& pixel : c.pixels) {
       pixel += 0.03 * Vector2d(random.Normal(), random.Normal());
     }
@@ -109,7 +109,7 @@ TEST(RadialPose, AFewHundredthsOfAPixelMoveTheFocalLengthLittle) {
 
 TEST(RadialPose, PointsThatCoincideOrPixelsAtThePrincipalPointGiveNoPose) {
   Random random(9);
-  Sight c = RandomSight(random, false, 0.0);
+  FivePointView c = RandomView(random, false, 0.0);
   std::array<Vector3d, 5> same;
   same.fill(c.points[0]);
   EXPECT_EQ(SolveRadialPose(c.pixels, same, kHalfSize).count, 0);
