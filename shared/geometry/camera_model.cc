@@ -29,6 +29,17 @@ Eigen::Vector2d Distort(const CameraModel& c, const Eigen::Vector2d& p, Eigen::M
           y * radial + c.p1 * (r2 + 2.0 * y * y) + 2.0 * c.p2 * x * y};
 }
 
+// An array of four numbers that are members of their own.
+void DescribeFour(Fields& fields, const char* name, const std::array<double*, 4>& members) {
+  std::array values = {*members[0], *members[1], *members[2], *members[3]};
+  fields.Numbers(name, values);
+  if (fields.reading()) {
+    for (size_t i = 0; i < values.size(); ++i) {
+      *members[i] = values[i];
+    }
+  }
+}
+
 constexpr std::string_view kPlace = "camera intrinsics";
 
 }  // namespace
@@ -191,21 +202,6 @@ CameraModel CameraModel::DisplayPinhole() const {
   display.cy = 0.5 * (height - 1) - focal * 0.5 * (inner[2] + inner[3]);
   return display;
 }
-
-namespace {
-
-// An array of four numbers that are members of their own.
-void DescribeFour(Fields& fields, const char* name, const std::array<double*, 4>& members) {
-  std::array values = {*members[0], *members[1], *members[2], *members[3]};
-  fields.Numbers(name, values);
-  if (fields.reading()) {
-    for (size_t i = 0; i < values.size(); ++i) {
-      *members[i] = values[i];
-    }
-  }
-}
-
-}  // namespace
 
 void DescribePinhole(Fields& fields, CameraModel& camera) {
   fields.Integer("width", camera.width, 16, 16384);

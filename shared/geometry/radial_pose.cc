@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 namespace lararium::geometry {
 namespace {
@@ -40,7 +41,7 @@ int RealRoots(const std::array<double, 5>& quartic, std::array<double, 4>& roots
   }
   std::array<Complex, 4> z;
   for (int i = 0; i < 4; ++i) {
-    z[i] = std::polar(radius, 0.4 + 0.5 * 3.14159265358979 * i);
+    z[i] = std::polar(radius, 0.4 + 0.5 * std::numbers::pi * i);
   }
   for (int iteration = 0; iteration < 60; ++iteration) {
     double moved = 0.0;
@@ -77,7 +78,7 @@ int RealRoots(const std::array<double, 5>& quartic, std::array<double, 4>& roots
   return count;
 }
 
-// The polynomial p of degree 2 in b, and a product of two polynomials.
+// A polynomial of degree 2, and the product of two.
 using Quadratic = std::array<double, 3>;  // Lowest coefficient first.
 
 std::array<double, 5> Product(const Quadratic& a, const Quadratic& b) {

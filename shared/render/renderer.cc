@@ -458,10 +458,8 @@ PixelBounds Renderer::State::ChangedBy(const RenderScene& scene, const RenderTar
   if (!layer.camera_from_stage || !scene.camera_from_stage) {
     return {};
   }
-  if (*layer.camera_from_stage != *scene.camera_from_stage || layer.view.margin > 0) {
-    return {0, 0, target.width(), target.height()};
-  }
-  if (scene.shutter) {
+  if (*layer.camera_from_stage != *scene.camera_from_stage || layer.view.margin > 0 ||
+      scene.shutter) {
     return {0, 0, target.width(), target.height()};
   }
   const PixelBounds seen = Widened(layer.people, layer.motion_blur.reach, layer.view.size);

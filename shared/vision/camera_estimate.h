@@ -38,6 +38,8 @@ struct CameraEstimate {
 
   // The number of parameters, counted from the first, of which at least the last is not known.
   int Unknown() const;
+  // Whether only the shutter may be unknown.
+  bool LensKnown() const { return Unknown() <= kShutterParameters; }
 
   // The time at which a pixel is exposed, in frame times after the middle of the image.
   double TimeOf(const Eigen::Vector2d& pixel) const;

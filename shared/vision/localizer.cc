@@ -127,7 +127,6 @@ Location Localizer::Locate(const Features& features, const CameraGuess& guess) {
 bool Localizer::LocateFromMatches(const Features& features,
                                   const CameraGuess& guess,
                                   Location& location) {
-  const bool known = guess.prior.Unknown() <= kShutterParameters;
   location.matches = static_cast<int>(matches_.size());
   location.reason = TrackReason::kTooFewMatches;
   if (matches_.size() < kLeastMatches) {
@@ -135,7 +134,7 @@ bool Localizer::LocateFromMatches(const Features& features,
   }
   location.reason = TrackReason::kNoConsistentPose;
   FillPoseMatches(features, matches_);
-  if (known) {
+  if (guess.prior.LensKnown()) {
     const std::optional<Rigid3> first = FindPose(guess.prior.model);
     if (!first) {
       return false;
@@ -165,7 +164,7 @@ bool Localizer::LocateFromMatches(const Features& features,
 }
 
 void Localizer::Refine(const CameraGuess& guess) {
-  if (guess.prior.Unknown() <= kShutterParameters) {
+  if (guess.prior.LensKnown()) {
     refiner_.Refine(pose_matches_, {guess.prior.model.Focal(), options_.inlier_threshold_px},
                     posed_.camera_from_map, refined_);
     posed_.camera_from_map = refined_.camera_from_map;
@@ -183,7 +182,7 @@ void Localizer::Refine(const CameraGuess& guess) {
 // The covariance of the pose and the camera, errors that matches share included.
 JointMatrix<kMostJoint> Localizer::Covariance(const CameraGuess& guess) const {
   const double effect = DesignEffect(noise_px_, static_cast<int>(inliers_->size()));
-  if (guess.prior.Unknown() <= kShutterParameters) {
+  if (guess.prior.LensKnown()) {
     return WithKnownCamera(effect * refined_.covariance);
   }
   JointMatrix<kMostJoint> information =
@@ -221,7 +220,7 @@ void Localizer::OrderQueries(const Features& features) {
 // probable where features are dense. Matches at the same spot count once.
 bool Localizer::IsNoAccident(const Features& features, const CameraGuess& guess) {
   const CameraModel& camera = guess.prior.model;
-  const double sample = guess.prior.Unknown() <= kShutterParameters ? kSample : kCameraSample;
+  const double sample = guess.prior.LensKnown() ? kSample : kCameraSample;
   // The largest residual that an uncertain inlier may have; see SelectInliers.
   const double radius = 2.0 * options_.inlier_threshold_px;
   const TileGrid grid(features);
@@ -274,7 +273,7 @@ bool Localizer::Judge(const CameraGuess& guess, Location& location) {
   }
   location.camera_from_map = posed_.camera_from_map;
   location.camera = posed_.camera;
-  if (guess.prior.Unknown() > kShutterParameters) {
+  if (!guess.prior.LensKnown()) {
     location.camera.covariance =
         evidence.covariance.bottomRightCorner<kCameraParameters, kCameraParameters>();
   }

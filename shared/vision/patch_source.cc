@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "shared/vision/camera_estimate.h"
+#include "shared/vision/rolling_shutter.h"
 
 namespace lararium::vision {
 namespace {
@@ -197,9 +197,8 @@ bool PatchSource::View(const ExposedCamera& camera,
   if (!camera.readout.isZero(0.0) && camera.motion != nullptr) {
     // The pixel is that of the time at which it is exposed itself.
     const Eigen::Vector2d of_middle = view.pixel;
-    const CameraEstimate shutter{.model = model, .readout = camera.readout};
     for (int i = 0; i < 3; ++i) {
-      const double time = shutter.TimeOf(view.pixel);
+      const double time = camera.readout.dot(ReadoutOrder(model, view.pixel));
       view.pixel = of_middle + time * speed + 0.5 * time * time * acceleration;
     }
     const Eigen::Vector2d time_slope(camera.readout.x() / model.width,

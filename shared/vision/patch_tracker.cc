@@ -39,7 +39,7 @@ bool IsPlausible(const CameraEstimate& expected, const CameraEstimate& found) {
       return false;
     }
   }
-  return unknown <= kShutterParameters || found.model.Validate().ok();
+  return expected.LensKnown() || found.model.Validate().ok();
 }
 
 int Coarsest(const ImagePyramid& image) {
