@@ -28,6 +28,15 @@ endif()
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 
+# GCC that seldom collects its garbage is a quarter faster, and takes a gigabyte for each process.
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+cmake_host_system_information(RESULT memory_mib QUERY TOTAL_PHYSICAL_MEMORY)
+math(EXPR memory_mib "${memory_mib} / ${cores}")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND memory_mib GREATER 3000)
+  target_compile_options(lararium_options INTERFACE
+    "SHELL:--param ggc-min-expand=1000" "SHELL:--param ggc-min-heapsize=4000000")
+endif()
+
 if(LARARIUM_SANITIZE)
   target_compile_options(lararium_options INTERFACE
     -fsanitize=${LARARIUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)

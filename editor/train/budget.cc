@@ -239,6 +239,9 @@ SceneDatabase WithPoints(const SceneDatabase& db,
     if (!db.colours.empty()) {
       kept.colours.push_back(db.colours[point]);
     }
+    if (!db.lookalikes.empty()) {
+      kept.lookalikes.push_back(db.lookalikes[point]);
+    }
     for (const uint32_t descriptor : DescriptorsWithin(db, point, max_descriptors)) {
       AddDescriptor(db, descriptor, index, kept);
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "editor/train/budget.h"
+#include "editor/train/lookalikes.h"
 #include "editor/train/photometric_reference.h"
 #include "shared/core/check.h"
 
@@ -54,6 +55,7 @@ class Builder {
     vision::ForestOptions forest;
     forest.seed = options_.seed;
     database_.forest = vision::BuildForest(database_.descriptors, forest);
+    database_.lookalikes = FindLookalikes(database_, options_.seed);
     if (database_.points.size() <= static_cast<size_t>(options_.max_points)) {
       return std::move(database_);
     }

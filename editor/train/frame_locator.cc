@@ -43,7 +43,9 @@ class FrameLocator::Worker {
   explicit Worker(const vision::SceneDatabase& database)
       : database_(database), localizer_(database, {}), matcher_(database) {}
 
-  LocatedView Locate(const cv::Mat& grey, const ImageMotion& motion) {
+  LocatedView Locate(const cv::Mat& grey,
+                     const ImageMotion& motion,
+                     const std::optional<geometry::Rigid3>& prediction) {
     vision::FeatureOptions options;
     options.first_octave = 0;
     options.max_features = 1500;
@@ -52,7 +54,9 @@ class FrameLocator::Worker {
       return view;
     }
     view.features = static_cast<int>(features_.size());
-    view.camera_from_map = localizer_.Locate(features_, database_.camera).camera_from_map;
+    view.camera_from_map =
+        localizer_.Locate(features_, {vision::ExactCamera(database_.camera), {}, prediction})
+            .camera_from_map;
     if (view.camera_from_map) {
       if (!database_.readout.isZero(0.0) && !motion.isZero(0.0)) {
         view.camera_from_map = WhileReading(*view.camera_from_map, motion);
@@ -119,12 +123,14 @@ FrameLocator::FrameLocator(const vision::SceneDatabase& database) {
 
 FrameLocator::~FrameLocator() = default;
 
-std::vector<LocatedView> FrameLocator::Locate(std::span<const geometry::Frame> frames,
-                                              std::span<const ImageMotion> motions) {
+std::vector<LocatedView> FrameLocator::Locate(
+    std::span<const geometry::Frame> frames,
+    std::span<const ImageMotion> motions,
+    std::span<const std::optional<geometry::Rigid3>> predictions) {
   std::vector<LocatedView> views(frames.size());
   ParallelFor(kWorkers, [&](size_t worker) {
     for (size_t i = worker; i < frames.size(); i += kWorkers) {
-      views[i] = workers_[worker]->Locate(frames[i].grey, motions[i]);
+      views[i] = workers_[worker]->Locate(frames[i].grey, motions[i], predictions[i]);
     }
   });
   return views;

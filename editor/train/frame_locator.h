@@ -34,12 +34,13 @@ class FrameLocator {
   explicit FrameLocator(const vision::SceneDatabase& database);
   ~FrameLocator();
 
-  // Takes the motion of each frame into account, if the camera has a rolling shutter; zero if it is
-  // not known. motions[i] belongs to frames[i].
-  // Result i describes frames[i]. Uses all cores. Deterministic: the same frame gives the same
-  // view, independent of earlier calls.
+  // motions[i] is how the camera moved in frames[i], zero if it is not known; it matters if the
+  // shutter rolls. predictions[i] is where the camera probably was, for images that do not say
+  // which of several parts that look alike they show. Result i describes frames[i]. Uses all cores.
+  // Deterministic: the same frame gives the same view, independent of earlier calls.
   std::vector<LocatedView> Locate(std::span<const geometry::Frame> frames,
-                                  std::span<const ImageMotion> motions);
+                                  std::span<const ImageMotion> motions,
+                                  std::span<const std::optional<geometry::Rigid3>> predictions);
 
  private:
   class Worker;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "editor/train/loop_closures.h"
 #include "editor/train/pair_selection.h"
 #include "editor/train/survey.h"
 #include "editor/train/tracks.h"
@@ -135,6 +136,65 @@ VerifiedPairs Verify(std::span<const Features> features,
                                  options.focal_prior_px, verification, progress);
 }
 
+// A map of the images from some of the pairs; none if no pair can start one.
+std::optional<SparseMap> MapPairs(std::span<const TrainingImage> images,
+                                  const geometry::CameraModel& camera,
+                                  std::span<const VerifiedPair> pairs,
+                                  const MapperOptions& options,
+                                  Progress& progress,
+                                  Log& log) {
+  std::vector<uint32_t> feature_counts;
+  std::vector<std::vector<Eigen::Vector2d>> pixels;
+  for (const TrainingImage& image : images) {
+    feature_counts.push_back(static_cast<uint32_t>(image.features.size()));
+    std::vector<Eigen::Vector2d>& of_image = pixels.emplace_back();
+    for (const vision::Keypoint& keypoint : image.features.keypoints) {
+      of_image.emplace_back(keypoint.x, keypoint.y);
+    }
+  }
+  SparseMap map;
+  map.reconstruction = std::make_unique<Reconstruction>(camera, std::move(pixels),
+                                                        BuildTracks(feature_counts, pairs));
+  const std::optional<InitialPair> anchors =
+      MapIncrementally(*map.reconstruction, pairs, options, progress, log);
+  if (!anchors) {
+    return std::nullopt;
+  }
+  map.anchors = *anchors;
+  return map;
+}
+
+// The pairs of a film without those of views that only look alike. The map of neighbours alone says
+// where the camera went.
+std::vector<VerifiedPair> WithoutLookalikes(std::span<const TrainingImage> images,
+                                            const VerifiedPairs& verified,
+                                            MapperOptions options,
+                                            Progress& progress,
+                                            Log& log) {
+  std::vector<VerifiedPair> neighbours;
+  for (const VerifiedPair& pair : verified.pairs) {
+    if (verified.film_gap && pair.images.b - pair.images.a <= *verified.film_gap) {
+      neighbours.push_back(pair);
+    }
+  }
+  if (!verified.film_gap || neighbours.size() == verified.pairs.size()) {
+    return verified.pairs;
+  }
+  options.draft = true;
+  const std::optional<SparseMap> chain =
+      MapPairs(images, verified.camera, neighbours, options, progress, log);
+  if (!chain) {
+    return verified.pairs;
+  }
+  LoopClosures closures =
+      JudgeLoopClosures(verified.pairs, *verified.film_gap, *chain->reconstruction);
+  if (closures.lookalikes > 0) {
+    log.info("{} of {} image pairs look alike, but show different parts of the place",
+             closures.lookalikes, verified.pairs.size());
+  }
+  return std::move(closures.pairs);
+}
+
 }  // namespace
 
 Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
@@ -147,7 +207,8 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
   }
   PairOptions pair_options;
   pair_options.seed = options.seed;
-  const std::vector<ImagePair> candidates = SelectPairs(features, pair_options);
+  const PairSelection selection = SelectPairs(features, pair_options);
+  const std::vector<ImagePair>& candidates = selection.pairs;
   VerificationOptions verification;
   verification.trusted_gap = images.size() <= pair_options.exhaustive_up_to
                                  ? pair_options.exhaustive_up_to
@@ -159,6 +220,9 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
   }
   if (progress.Cancelled()) {
     return CancelledStatus();
+  }
+  if (selection.ordered) {
+    verified.film_gap = pair_options.gaps.back();
   }
   if (!options.intrinsics) {
     log.info("starting with a focal length of {:.0f} pixels", verified.camera.fx);
@@ -178,33 +242,21 @@ Result<SparseMap> MapImages(std::span<const TrainingImage> images,
                             const ImageMappingOptions& options,
                             Progress& progress,
                             Log& log) {
-  std::vector<uint32_t> feature_counts;
-  std::vector<std::vector<Eigen::Vector2d>> pixels;
-  for (const TrainingImage& image : images) {
-    feature_counts.push_back(static_cast<uint32_t>(image.features.size()));
-    std::vector<Eigen::Vector2d>& of_image = pixels.emplace_back();
-    for (const vision::Keypoint& keypoint : image.features.keypoints) {
-      of_image.emplace_back(keypoint.x, keypoint.y);
-    }
-  }
-  SparseMap map;
-  map.reconstruction = std::make_unique<Reconstruction>(
-      verified.camera, std::move(pixels), BuildTracks(feature_counts, verified.pairs));
   MapperOptions mapper;
   mapper.refine_intrinsics = !options.intrinsics;
-  const std::optional<InitialPair> anchors =
-      MapIncrementally(*map.reconstruction, verified.pairs, mapper, progress, log);
+  const std::vector<VerifiedPair> pairs =
+      WithoutLookalikes(images, verified, mapper, progress, log);
+  std::optional<SparseMap> map = MapPairs(images, verified.camera, pairs, mapper, progress, log);
   if (progress.Cancelled()) {
     return CancelledStatus();
   }
-  if (!anchors) {
+  if (!map) {
     return WhyNoMap(images, verified);
   }
-  map.anchors = *anchors;
-  LARARIUM_RETURN_IF_ERROR(CheckShare(images, *map.reconstruction));
-  Normalise(*map.reconstruction);
-  WarnOfGaps(images, verified.pairs, *map.reconstruction, log);
-  return map;
+  LARARIUM_RETURN_IF_ERROR(CheckShare(images, *map->reconstruction));
+  Normalise(*map->reconstruction);
+  WarnOfGaps(images, pairs, *map->reconstruction, log);
+  return std::move(*map);
 }
 
 }  // namespace lararium::train

@@ -41,7 +41,9 @@ class Mapper {
         continue;
       }
       Grow();
-      Finish();
+      if (!options_.draft) {
+        Finish();
+      }
       if (progress_.Cancelled()) {
         return std::nullopt;
       }

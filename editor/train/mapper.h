@@ -22,6 +22,7 @@ struct MapperOptions {
   ResectionOptions resection;
   double min_initial_angle = 0.035;  // Median over the initial pair's points, radians (2 degrees).
   size_t min_initial_points = 40;
+  bool draft = false;  // Leaves out the final refinement.
 };
 
 // The two images from which a map started.

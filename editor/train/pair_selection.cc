@@ -157,8 +157,10 @@ std::vector<uint32_t> ChooseSimilar(uint32_t image,
 
 }  // namespace
 
-std::vector<ImagePair> SelectPairs(std::span<const Features> images, const PairOptions& options) {
+PairSelection SelectPairs(std::span<const Features> images, const PairOptions& options) {
   const auto count = static_cast<uint32_t>(images.size());
+  const Rankings rankings = RankByAppearance(images, options.seed);
+  const bool ordered = Ordered(rankings);
   std::vector<ImagePair> pairs;
   const auto add = [&](uint32_t i, uint32_t j) {
     pairs.push_back({std::min(i, j), std::max(i, j)});
@@ -169,10 +171,8 @@ std::vector<ImagePair> SelectPairs(std::span<const Features> images, const PairO
         add(i, j);
       }
     }
-    return pairs;
+    return {std::move(pairs), ordered};
   }
-  const Rankings rankings = RankByAppearance(images, options.seed);
-  const bool ordered = Ordered(rankings);
   for (uint32_t i = 0; i < count; ++i) {
     if (!ordered) {
       for (const uint32_t j : ChooseSimilar(i, rankings[i], 0, 0, options.similar_unordered)) {
@@ -192,7 +192,7 @@ std::vector<ImagePair> SelectPairs(std::span<const Features> images, const PairO
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
+  return {std::move(pairs), ordered};
 }
 
 }  // namespace lararium::train

@@ -17,6 +17,11 @@ struct ImagePair {
   friend auto operator<=>(const ImagePair&, const ImagePair&) = default;
 };
 
+struct PairSelection {
+  std::vector<ImagePair> pairs;  // Sorted, without duplicates.
+  bool ordered = false;          // Most images look like the next one, as in a film.
+};
+
 struct PairOptions {
   uint32_t exhaustive_up_to = 50;  // Up to this many images, all pairs are matched.
   // The following three apply to a source in which neighbouring images look alike, such as a video.
@@ -30,8 +35,7 @@ struct PairOptions {
 
 // Selects neighbours in the source, if neighbours look alike, and pairs of similar appearance by
 // vectors of locally aggregated descriptors (Jegou et al., "Aggregating local descriptors into a
-// compact image representation", CVPR 2010). The result is sorted, without duplicates.
-std::vector<ImagePair> SelectPairs(std::span<const vision::Features> images,
-                                   const PairOptions& options);
+// compact image representation", CVPR 2010).
+PairSelection SelectPairs(std::span<const vision::Features> images, const PairOptions& options);
 
 }  // namespace lararium::train

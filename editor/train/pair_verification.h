@@ -26,6 +26,9 @@ struct VerificationOptions {
 struct VerifiedPairs {
   std::vector<VerifiedPair> pairs;  // Ordered as the candidates.
   geometry::CameraModel camera;
+  // Images of a film whose index differs by no more than this follow one another and overlap. None
+  // if the images are unordered.
+  std::optional<uint32_t> film_gap = std::nullopt;
 };
 
 // Verifies pairs with known intrinsics.

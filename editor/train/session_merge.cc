@@ -12,6 +12,7 @@
 
 #include "editor/train/budget.h"
 #include "editor/train/database_builder.h"
+#include "editor/train/lookalikes.h"
 #include "editor/train/session_adjustment.h"
 #include "editor/train/survey.h"
 #include "shared/core/check.h"
@@ -507,6 +508,7 @@ class Merger {
     vision::ForestOptions forest;
     forest.seed = options_.seed;
     db.forest = vision::BuildForest(db.descriptors, forest);
+    db.lookalikes = FindLookalikes(db, options_.seed);
     return db;
   }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/train/lookalikes.h"
 #include "editor/train/session_adjustment.h"
 
 namespace lararium::train {
@@ -33,6 +34,7 @@ class Remover {
     vision::ForestOptions forest;
     forest.seed = seed;
     db_.forest = vision::BuildForest(db_.descriptors, forest);
+    db_.lookalikes = FindLookalikes(db_, seed);
     removed_.database = std::move(db_);
     return std::move(removed_);
   }

@@ -138,6 +138,7 @@ class Trainer {
         source_, survey_, progress_, log_, [&](std::span<const geometry::Frame> batch) {
           std::vector<FrameReport*> of_batch;
           std::vector<ImageMotion> motions;
+          std::vector<std::optional<geometry::Rigid3>> predictions;
           for (const geometry::Frame& frame : batch) {
             while (next < reports.size() && reports[next].frame_index < frame.index) {
               ++next;
@@ -146,14 +147,37 @@ class Trainer {
             const bool known = next < reports.size() && reports[next].frame_index == frame.index;
             of_batch.push_back(known ? &reports[next] : nullptr);
             motions.push_back(known ? reports[next].camera_motion : ImageMotion::Zero());
+            predictions.push_back(BetweenKeyframes(frame.index));
           }
-          const std::vector<LocatedView> views = locator.Locate(batch, motions);
+          const std::vector<LocatedView> views = locator.Locate(batch, motions, predictions);
           for (size_t i = 0; i < batch.size(); ++i) {
             if (of_batch[i] != nullptr) {
               Fill(*of_batch[i], views[i]);
             }
           }
         });
+  }
+
+  // The pose between those of the keyframes before and after a frame.
+  std::optional<geometry::Rigid3> BetweenKeyframes(int64_t frame_index) const {
+    const auto after = std::lower_bound(
+        survey_.keyframes.begin(), survey_.keyframes.end(), frame_index,
+        [](const TrainingImage& image, int64_t index) { return image.frame_index < index; });
+    if (after == survey_.keyframes.begin() || after == survey_.keyframes.end()) {
+      return std::nullopt;
+    }
+    const auto image = static_cast<uint32_t>(after - survey_.keyframes.begin());
+    if (!map_.reconstruction->Located(image - 1) || !map_.reconstruction->Located(image)) {
+      return std::nullopt;
+    }
+    const int64_t begin = survey_.keyframes[image - 1].frame_index;
+    const double share =
+        static_cast<double>(frame_index - begin) / static_cast<double>(after->frame_index - begin);
+    const geometry::Rigid3& from = map_.reconstruction->camera_from_map(image - 1);
+    const geometry::Rigid3& to = map_.reconstruction->camera_from_map(image);
+    const Eigen::Quaterniond rotation = from.rotation.slerp(share, to.rotation);
+    return geometry::Rigid3{rotation,
+                            -(rotation * ((1.0 - share) * from.Center() + share * to.Center()))};
   }
 
   static void Fill(FrameReport& report, const LocatedView& view) {

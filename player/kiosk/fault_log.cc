@@ -13,6 +13,8 @@ std::string_view Explained(TrackReason reason) {
       return "too few features: a covered lens, blur or a bare wall";
     case TrackReason::kTooFewMatches:
       return "too few matches: another place, or another light";
+    case TrackReason::kAmbiguous:
+      return "ambiguous: parts of the place look alike; something unique has to be in view";
     default:
       return vision::Name(reason);
   }

@@ -13,10 +13,11 @@ constexpr int kPictureWidth = 480;
 // points.
 constexpr double kGoodShare = 0.5;
 
+// [keyframes]: Number of observed points that tell where the camera is; 0 without an image.
 std::vector<size_t> CountObservations(const vision::SceneDatabase& map) {
   std::vector<size_t> counts(map.keyframes.size(), 0);
   for (const vision::Observation& observation : map.observations) {
-    ++counts[observation.keyframe];
+    counts[observation.keyframe] += map.HasLookalike(observation.point) ? 0 : 1;
   }
   for (size_t i = 0; i < counts.size(); ++i) {
     counts[i] = map.keyframes[i].grey.empty() ? 0 : counts[i];

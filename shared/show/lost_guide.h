@@ -1,7 +1,7 @@
 #pragma once
 
 // Chooses the picture that guides a visitor whose tracking is lost: of the keyframes that are easy
-// to find, the one nearest to the last pose.
+// to find and that no other part of the place looks like, the one nearest to the last pose.
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -28,7 +28,7 @@ struct StagedGuide {
 };
 
 // Returns the keyframe to show; nullopt if the map has no images. Without a last pose it is the
-// keyframe that observes most points.
+// keyframe that observes most points without look-alikes.
 std::optional<size_t> ChooseGuideView(const vision::SceneDatabase& map,
                                       const std::optional<geometry::Rigid3>& last_camera_from_map);
 

@@ -63,11 +63,16 @@ struct PosedCamera {
 CameraMatrix Information(const CameraEstimate& camera);
 
 // A pose and the first N - 6 parameters of the camera.
+inline constexpr int kMostJoint = 6 + kCameraParameters;
 template <int N>
 using JointVector = Eigen::Matrix<double, N, 1>;
 template <int N>
 using JointMatrix = Eigen::Matrix<double, N, N>;
-inline constexpr int kMostJoint = 6 + kCameraParameters;
+// The same of a size that is known at run time only, without memory from the heap. Eigen's
+// decompositions are slow to compile; of these types they are compiled once, not for each N.
+using BoundedVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostJoint, 1>;
+using BoundedMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostJoint, kMostJoint>;
 // The covariance of a pose and of a camera that is exactly known.
 JointMatrix<kMostJoint> WithKnownCamera(const Matrix6d& covariance);
 

@@ -65,14 +65,14 @@ JointMatrix<N> MeanSquareOfMotion(const CameraModel& model, const std::array<dou
 // the identity and M is diagonal, it is a sum of squares.
 template <int N>
 RegistrationVariance VarianceOf(const CameraModel& camera, const PoseEvidence& evidence) {
-  const Eigen::SelfAdjointEigenSolver<JointMatrix<N>> covariance(
+  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> covariance(
       evidence.covariance.topLeftCorner<N, N>());
   const JointMatrix<N> root =
       covariance.eigenvectors() *
       covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
   const JointMatrix<N> turned =
       root.transpose() * MeanSquareOfMotion<N>(camera, evidence.depths) * root;
-  const Eigen::SelfAdjointEigenSolver<JointMatrix<N>> parts(turned, Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> parts(turned, Eigen::EigenvaluesOnly);
   RegistrationVariance variance;
   for (int i = 0; i < N; ++i) {
     variance.parts[i] = std::max(parts.eigenvalues()[N - 1 - i], 0.0);

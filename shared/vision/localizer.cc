@@ -23,7 +23,10 @@ constexpr size_t kLeastMatches = 6;    // Below this number, agreement proves no
 constexpr size_t kFirstQueries = 400;  // Number of features that are searched first.
 constexpr int kPlentyOfInliers = 50;   // Enough inliers to skip the search for the other features.
 constexpr double kGuidedRadiusPx = 3.0;
-constexpr size_t kSample = 3;              // Number of matches that determine a pose.
+constexpr double kPredictedRadiusPx = 16.0;
+constexpr size_t kManyLookalikes = 30;           // Fewer features say nothing of the place.
+constexpr uint32_t kSameAppearance = 180 * 180;  // Squared distance of descriptors.
+constexpr size_t kSample = 3;                    // Number of matches that determine a pose.
 constexpr size_t kCameraSample = 5;        // The same with an unknown focal length and distortion.
 constexpr double kPosesOfSample = 4.0;     // Maximum number of solutions of a sample.
 constexpr double kMostFalseAlarms = 1e-6;  // Expected number of accidental poses per image.
@@ -121,18 +124,41 @@ Location Localizer::Locate(const Features& features, const CameraGuess& guess) {
       location = full;
     }
   }
+  if (!location.camera_from_map && location.reason == TrackReason::kAmbiguous && guess.predicted) {
+    LocateAtPrediction(features, guess, location);
+  }
   return location;
+}
+
+bool Localizer::LocateAtPrediction(const Features& features,
+                                   const CameraGuess& guess,
+                                   Location& location) {
+  posed_ = {*guess.predicted, guess.prior};
+  for (const double radius : {kPredictedRadiusPx, kGuidedRadiusPx}) {
+    guided_.Match(posed_.camera.model, posed_.camera_from_map, features, radius, guided_matches_);
+    FillPoseMatches(features, guided_matches_);
+    Refine(guess);
+    if (static_cast<int>(inliers_->size()) < kPlentyOfInliers ||
+        !posed_.camera.model.Validate().ok()) {
+      return false;
+    }
+  }
+  if (!Judge(guess, location)) {
+    return false;
+  }
+  FillPoints(features);
+  return true;
 }
 
 bool Localizer::LocateFromMatches(const Features& features,
                                   const CameraGuess& guess,
                                   Location& location) {
   location.matches = static_cast<int>(matches_.size());
-  location.reason = TrackReason::kTooFewMatches;
+  location.reason = IsAmbiguous() ? TrackReason::kAmbiguous : TrackReason::kTooFewMatches;
   if (matches_.size() < kLeastMatches) {
     return false;
   }
-  location.reason = TrackReason::kNoConsistentPose;
+  location.reason = IsAmbiguous() ? TrackReason::kAmbiguous : TrackReason::kNoConsistentPose;
   FillPoseMatches(features, matches_);
   if (guess.prior.LensKnown()) {
     const std::optional<Rigid3> first = FindPose(guess.prior.model);
@@ -188,7 +214,7 @@ JointMatrix<kMostJoint> Localizer::Covariance(const CameraGuess& guess) const {
   JointMatrix<kMostJoint> information =
       refined_camera_.information / (effect * noise_px_ * noise_px_);
   information.bottomRightCorner<kCameraParameters, kCameraParameters>() += Information(guess.prior);
-  return information.inverse();
+  return BoundedMatrix(information).inverse();
 }
 
 // Orders the features by their rank within their tile: first the strongest feature of every tile,
@@ -231,6 +257,9 @@ bool Localizer::IsNoAccident(const Features& features, const CameraGuess& guess)
   spots_.clear();
   double log_chance = 0.0;
   for (const uint32_t i : *inliers_) {
+    if (database_.HasLookalike(matches_[i].point)) {
+      continue;
+    }
     const Keypoint& keypoint = features.keypoints[matches_[i].feature];
     const auto column = static_cast<uint32_t>(std::max(keypoint.x, 0.0f) / kSpotPx);
     const auto row = static_cast<uint32_t>(std::max(keypoint.y, 0.0f) / kSpotPx);
@@ -242,12 +271,15 @@ bool Localizer::IsNoAccident(const Features& features, const CameraGuess& guess)
     log_chance += std::log(std::min(std::numbers::pi * radius * radius * density, 1.0));
   }
   const auto inliers = static_cast<double>(spots_.size());
-  log_chance /= inliers;
+  log_chance /= std::max(inliers, 1.0);
   std::sort(spots_.begin(), spots_.end());
   spots_.erase(std::unique(spots_.begin(), spots_.end()), spots_.end());
   const auto k = static_cast<double>(spots_.size());
   // Inliers that share a spot with another inlier are not counted as matches either.
-  const double n = static_cast<double>(matches_.size()) - (inliers - k);
+  const auto distinct = std::count_if(matches_.begin(), matches_.end(), [&](const Match& match) {
+    return !database_.HasLookalike(match.point);
+  });
+  const double n = static_cast<double>(distinct) - (inliers - k);
   if (k <= sample) {
     return false;
   }
@@ -331,7 +363,9 @@ std::optional<Localizer::Match> Localizer::SearchMatch(const Features& features,
   }
   const float ratio =
       static_cast<float>(neighbours[0].squared_distance) / static_cast<float>(std::max(other, 1u));
-  if (ratio >= options_.ratio * options_.ratio) {
+  // A feature whose point has look-alikes is not distinctive, but says that the place is in view.
+  if (ratio >= options_.ratio * options_.ratio &&
+      !(database_.HasLookalike(point) && neighbours[0].squared_distance < kSameAppearance)) {
     return std::nullopt;
   }
   return Match{{feature, point, neighbours[0].squared_distance}, ratio};
@@ -345,16 +379,22 @@ void Localizer::SearchMatches(const Features& features, size_t begin, size_t end
       found_[feature] = SearchMatch(features, feature, searchers_[job]);
     }
   });
-  KeepBestOfEachPoint();
+  KeepMatches();
   std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {
     return a.ratio != b.ratio ? a.ratio < b.ratio : a.feature < b.feature;
   });
 }
 
-void Localizer::KeepBestOfEachPoint() {
+// Keeps the distinctive matches, the best of each point, and counts the others.
+void Localizer::KeepMatches() {
   matches_.clear();
+  lookalikes_ = 0;
   for (const std::optional<Match>& match : found_) {
     if (!match) {
+      continue;
+    }
+    if (match->ratio >= options_.ratio * options_.ratio) {
+      ++lookalikes_;
       continue;
     }
     uint32_t& known = match_of_point_[match->point];
@@ -488,6 +528,14 @@ std::optional<PosedCamera> Localizer::FindPosedCamera(const CameraGuess& guess) 
   posed.camera.model.k1 = winner->division * winner->focal * winner->focal;
   posed.camera.model.k2 = posed.camera.model.p1 = posed.camera.model.p2 = 0.0;
   return posed;
+}
+
+bool Localizer::IsAmbiguous() const {
+  size_t with = lookalikes_;
+  for (const Match& match : matches_) {
+    with += database_.HasLookalike(match.point) ? 1 : 0;
+  }
+  return with >= kManyLookalikes && with > matches_.size() + lookalikes_ - with;
 }
 
 // Quartiles of the inliers' depths.

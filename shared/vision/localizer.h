@@ -41,6 +41,8 @@ struct CameraGuess {
   CameraEstimate prior;
   // Cameras that may have taken the image, if not all is known. They only propose poses.
   std::vector<geometry::CameraModel> candidates = {};
+  // Where the camera probably is. Used only if the image is ambiguous.
+  std::optional<geometry::Rigid3> predicted = std::nullopt;
 };
 
 struct Location {
@@ -97,14 +99,20 @@ class Localizer {
   void SearchMatches(const Features& features, size_t begin, size_t end);
   // Estimates the pose from matches_. Returns whether there is a pose.
   bool LocateFromMatches(const Features& features, const CameraGuess& guess, Location& location);
+  // Estimates the pose from the points near the predicted one. Returns whether there is a pose.
+  bool LocateAtPrediction(const Features& features, const CameraGuess& guess, Location& location);
   // Refines the pose of pose_matches_, and with it the camera unless it is known. Fills in
   // inliers_, noise_px_ and posed_.
   void Refine(const CameraGuess& guess);
+  // Whether the inliers can hardly agree by chance. Points that have look-alikes do not count,
+  // because they would agree with another pose as well.
   bool IsNoAccident(const Features& features, const CameraGuess& guess);
+  // Whether most of what was recognised has look-alikes.
+  bool IsAmbiguous() const;
   std::optional<Match> SearchMatch(const Features& features,
                                    uint32_t feature,
                                    ForestSearcher& searcher) const;
-  void KeepBestOfEachPoint();
+  void KeepMatches();
   template <typename M>
   void FillPoseMatches(const Features& features, const std::vector<M>& matches);
   std::optional<geometry::Rigid3> FindPose(const geometry::CameraModel& camera);
@@ -129,6 +137,7 @@ class Localizer {
   std::vector<uint32_t> counts_;             // [tiles]: Number of features.
   std::vector<std::optional<Match>> found_;  // [features]
   std::vector<Match> matches_;               // Most distinctive match first.
+  size_t lookalikes_ = 0;                    // Number of features that only tell a look-alike.
   std::vector<uint32_t> match_of_point_;     // [points]: Index into matches_, or kNoMatch.
   std::vector<FeatureMatch> guided_matches_;
   std::vector<PoseMatch> pose_matches_;

@@ -88,7 +88,7 @@ bool Estimate(std::span<const PatchMatch> matches,
     }
     JointMatrix<N> damped = information;
     damped.diagonal() *= 1.0 + 1e-9;
-    const JointVector<N> step = damped.ldlt().solve(right);
+    const JointVector<N> step = BoundedMatrix(damped).ldlt().solve(BoundedVector(right));
     if (!step.allFinite()) {
       return false;
     }
@@ -109,7 +109,7 @@ bool Estimate(std::span<const PatchMatch> matches,
     square /= scale2;
     pose.inliers += square < kInlierSquare ? 1 : 0;
   }
-  const JointMatrix<N> inverse = information.inverse();
+  const JointMatrix<N> inverse = BoundedMatrix(information).inverse();
   if (!inverse.allFinite()) {
     return false;
   }

@@ -66,6 +66,9 @@ Status ValidatePoints(const SceneDatabase& db) {
   if (!db.colours.empty() && db.colours.size() != count) {
     return Broken("the number of colours differs from the number of points");
   }
+  if (!db.lookalikes.empty() && db.lookalikes.size() != count) {
+    return Broken("the number of look-alike marks differs from the number of points");
+  }
   for (const Eigen::Vector3f& colour : db.colours) {
     if (!(colour.array().abs() <= kMaxColour).all()) {
       return Broken("a point's colour is out of range");
@@ -411,6 +414,9 @@ Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
   if (scene.colours() != nullptr) {
     db.colours = VectorsFrom(*scene.colours());
   }
+  if (scene.lookalikes() != nullptr) {
+    db.lookalikes.assign(scene.lookalikes()->begin(), scene.lookalikes()->end());
+  }
   if (scene.descriptor_sessions() != nullptr) {
     db.descriptor_sessions = NumbersFrom(*scene.descriptor_sessions());
   }
@@ -457,11 +463,15 @@ std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
   if (!db.descriptor_sessions.empty()) {
     descriptor_sessions = builder.CreateVector(db.descriptor_sessions);
   }
+  flatbuffers::Offset<flatbuffers::Vector<uint8_t>> lookalikes;
+  if (!db.lookalikes.empty()) {
+    lookalikes = builder.CreateVector(db.lookalikes);
+  }
   fb::FinishSceneBuffer(
       builder, fb::CreateScene(builder, kVersion, &camera, db.mean_reprojection_error_px, points,
                                normals, counts, sessions, descriptor_begin, descriptors, keyframes,
                                observations, roots, nodes, order, colours, descriptor_sessions,
-                               db.readout.isZero(0.0) ? nullptr : &readout));
+                               db.readout.isZero(0.0) ? nullptr : &readout, lookalikes));
   const auto* begin = reinterpret_cast<const std::byte*>(builder.GetBufferPointer());
   return {begin, begin + builder.GetSize()};
 }

@@ -58,6 +58,9 @@ struct SceneDatabase {
   // gain 1, linear R, G, B. Values above 1 would clip in such an image. A channel is negative if no
   // image shows it well. Empty in maps that were trained without colour.
   std::vector<Eigen::Vector3f> colours;
+  // 1 if another part of the place has a point that looks the same, with the same surroundings. Such
+  // points do not tell in which part the camera is. Empty if there are none.
+  std::vector<uint8_t> lookalikes;
   std::vector<uint32_t> descriptor_begin;  // [points + 1]: Ranges of `descriptors`.
   std::vector<Descriptor> descriptors;     // Several views of each point.
   std::vector<uint32_t> descriptor_point;  // [descriptors]: Index of the point.
@@ -75,6 +78,8 @@ struct SceneDatabase {
     return descriptor_sessions.empty() ? session_masks[descriptor_point[descriptor]]
                                        : descriptor_sessions[descriptor];
   }
+
+  bool HasLookalike(uint32_t point) const { return !lookalikes.empty() && lookalikes[point] != 0; }
 
   // The pose with which a keyframe saw a pixel.
   geometry::Rigid3 PoseAt(uint32_t keyframe, const Eigen::Vector2d& pixel) const;

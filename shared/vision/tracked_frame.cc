@@ -26,6 +26,8 @@ std::string_view Name(TrackReason reason) {
       return "too few matches";
     case TrackReason::kNoConsistentPose:
       return "no consistent pose";
+    case TrackReason::kAmbiguous:
+      return "ambiguous";
   }
   return "unknown";
 }

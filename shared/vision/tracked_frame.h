@@ -25,11 +25,12 @@ enum class TrackState {
 
 // Why a frame has no pose.
 enum class TrackReason {
-  kNone,             // the frame has a pose
-  kTooDark,          // hardly any light
-  kTooFewFeatures,   // covered lens, blur, a blank wall
-  kTooFewMatches,    // another place, or another light
-  kNoConsistentPose  // the matches do not agree on one pose
+  kNone,              // the frame has a pose
+  kTooDark,           // hardly any light
+  kTooFewFeatures,    // covered lens, blur, a blank wall
+  kTooFewMatches,     // another place, or another light
+  kNoConsistentPose,  // the matches do not agree on one pose
+  kAmbiguous          // several parts of the place look like the image
 };
 
 std::string_view Name(TrackState state);

@@ -134,12 +134,12 @@ PairOptions Choosing() {
 }
 
 TEST(SelectPairs, TakesAllOfFewImages) {
-  EXPECT_EQ(SelectPairs(ImagesOfWall({0, 100, 200, 300}), {}).size(), 6u);
+  EXPECT_EQ(SelectPairs(ImagesOfWall({0, 100, 200, 300}), {}).pairs.size(), 6u);
 }
 
 TEST(SelectPairs, TakesNeighboursInAVideoAndWhereItComesBack) {
   const std::vector<vision::Features> images = ImagesOfWall(ThereAndBack());
-  const std::vector<ImagePair> pairs = SelectPairs(images, Choosing());
+  const std::vector<ImagePair> pairs = SelectPairs(images, Choosing()).pairs;
   for (uint32_t i = 0; i + 2 < images.size(); ++i) {
     EXPECT_TRUE(Contains(pairs, i, i + 1)) << i;
     EXPECT_TRUE(Contains(pairs, i, i + 2)) << i;
@@ -149,7 +149,7 @@ TEST(SelectPairs, TakesNeighboursInAVideoAndWhereItComesBack) {
   }
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
   EXPECT_LT(pairs.size(), images.size() * 9);
-  EXPECT_EQ(pairs, SelectPairs(images, Choosing()));
+  EXPECT_EQ(pairs, SelectPairs(images, Choosing()).pairs);
 }
 
 TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
@@ -160,7 +160,7 @@ TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
   }
   PairOptions options = Choosing();
   options.similar_unordered = 8;
-  const std::vector<ImagePair> pairs = SelectPairs(ImagesOfWall(shuffled), options);
+  const std::vector<ImagePair> pairs = SelectPairs(ImagesOfWall(shuffled), options).pairs;
   for (uint32_t i = 0; i < shuffled.size(); ++i) {
     for (uint32_t j = i + 1; j < shuffled.size(); ++j) {
       if (std::abs(shuffled[i] - shuffled[j]) <= 12) {
@@ -174,8 +174,8 @@ TEST(SelectPairs, FindsWhatBelongsTogetherInAShuffledHeap) {
 TEST(SelectPairs, CopesWithImagesWithoutFeatures) {
   std::vector<vision::Features> images = ImagesOfWall(ThereAndBack());
   images[2] = {};
-  EXPECT_TRUE(Contains(SelectPairs(images, Choosing()), 1, 2));
-  EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), Choosing()).size(), 30u * 29u / 2u);
+  EXPECT_TRUE(Contains(SelectPairs(images, Choosing()).pairs, 1, 2));
+  EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), Choosing()).pairs.size(), 30u * 29u / 2u);
 }
 
 TEST(EstimateTurning, LeavesNothingForATurnAndNotForASidestep) {

@@ -143,6 +143,39 @@ TEST(Localizer, FindsNoPoseWhereAllMatchesAreWrong) {
   }
 }
 
+TEST(Localizer, DoesNotChooseAmongPartsThatLookAlike) {
+  const SyntheticWorld world = MakeSyntheticWorld({});
+  SceneDatabase database = MakeSceneDatabase(world);
+  database.lookalikes.assign(database.points.size(), 1);
+  Localizer localizer(database, {});
+  const Rigid3 truth = TestPoses()[2];
+  const SyntheticView view = RenderView(world, truth, {.noise_px = 0.3});
+  const Location location = localizer.Locate(view.features, world.camera);
+  EXPECT_FALSE(location.camera_from_map.has_value());
+  EXPECT_EQ(location.reason, TrackReason::kAmbiguous);
+
+  CameraGuess guess{ExactCamera(world.camera)};
+  guess.predicted = Rigid3{truth.rotation, truth.translation + Eigen::Vector3d(0.02, 0.0, 0.0)};
+  const Location near = localizer.Locate(view.features, guess);
+  ASSERT_TRUE(near.camera_from_map.has_value());
+  EXPECT_LT(RegistrationError(world, *near.camera_from_map, truth), 1.0);
+}
+
+TEST(Localizer, LocatesByPointsThatNothingElseLooksLike) {
+  const SyntheticWorld world = MakeSyntheticWorld({});
+  SceneDatabase database = MakeSceneDatabase(world);
+  database.lookalikes.assign(database.points.size(), 1);
+  for (size_t i = 0; i < database.points.size(); i += 4) {
+    database.lookalikes[i] = 0;
+  }
+  Localizer localizer(database, {});
+  const Rigid3 truth = TestPoses()[2];
+  const SyntheticView view = RenderView(world, truth, {.noise_px = 0.3});
+  const Location location = localizer.Locate(view.features, world.camera);
+  ASSERT_TRUE(location.camera_from_map.has_value());
+  EXPECT_LT(RegistrationError(world, *location.camera_from_map, truth), 1.0);
+}
+
 TEST(Localizer, FindsNoPoseFromFewFeatures) {
   const SyntheticWorld world = MakeSyntheticWorld({});
   const SceneDatabase database = MakeSceneDatabase(world);

@@ -68,6 +68,8 @@ const char* ReasonText(vision::TrackReason reason) {
       return Tr("does not look like this place");
     case vision::TrackReason::kNoConsistentPose:
       return Tr("no consistent pose");
+    case vision::TrackReason::kAmbiguous:
+      return Tr("several parts of the place look like this; show something unique");
   }
   return "";
 }
