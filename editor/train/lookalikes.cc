@@ -21,7 +21,7 @@ using geometry::Similarity3;
 using vision::Observation;
 using vision::SceneDatabase;
 
-constexpr uint32_t kSimilar = 160 * 160;  // Squared distance of similar descriptors.
+constexpr uint32_t kSimilar = 200 * 200;  // Squared distance of similar descriptors.
 constexpr size_t kNeighbours = 48;        // Descriptors that are looked at for each point.
 constexpr int kChecks = 256;
 constexpr int kMostMotions = 8;         // Number of motions that are searched for each keyframe.

@@ -207,6 +207,7 @@ void GuidedMatcher::Match(const CameraModel& camera,
     least_scale_ = std::min(least_scale_, keypoint.scale);
   }
   best_of_feature_.assign(features.size(), {kNone, 0, kNone});
+  searched_ = {0, 0};
   const Eigen::Matrix3f rotation = camera_from_map.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f translation = camera_from_map.translation.cast<float>();
   const Eigen::Vector3f camera_in_map = camera_from_map.Center().cast<float>();
@@ -228,6 +229,7 @@ void GuidedMatcher::Match(const CameraModel& camera,
       if (!pixel || !camera.Contains(*pixel)) {
         continue;
       }
+      ++searched_[database_.HasLookalike(candidate.point) ? 1 : 0];
       const FeatureMatch match = BestNear(candidate.point, pixel->cast<float>(), expected_scale,
                                           static_cast<float>(radius_px), features);
       if (match.feature == kNone) {

@@ -37,6 +37,9 @@ class GuidedMatcher {
              double radius_px,
              std::vector<FeatureMatch>& matches);
 
+  // Number of points with or without a look-alike that the last Match() looked for in the image.
+  size_t searched(bool lookalikes) const { return searched_[lookalikes ? 1 : 0]; }
+
  private:
   // A copy of the properties that decide whether a point may be visible.
   struct Candidate {
@@ -85,6 +88,7 @@ class GuidedMatcher {
   std::vector<uint32_t> first_;
   std::vector<uint32_t> next_;
   std::vector<FeatureMatch> best_of_feature_;
+  std::array<size_t, 2> searched_ = {0, 0};
 };
 
 }  // namespace lararium::vision

@@ -180,6 +180,10 @@ bool Localizer::LocateFromMatches(const Features& features,
   }
   guided_.Match(posed_.camera.model, posed_.camera_from_map, features, kGuidedRadiusPx,
                 guided_matches_);
+  if (!ShowsUniquePoints()) {
+    location.reason = TrackReason::kAmbiguous;
+    return false;
+  }
   FillPoseMatches(features, guided_matches_);
   Refine(guess);
   if (!posed_.camera.model.Validate().ok() || !Judge(guess, location)) {
@@ -528,6 +532,18 @@ std::optional<PosedCamera> Localizer::FindPosedCamera(const CameraGuess& guess) 
   posed.camera.model.k1 = winner->division * winner->focal * winner->focal;
   posed.camera.model.k2 = posed.camera.model.p1 = posed.camera.model.p2 = 0.0;
   return posed;
+}
+
+bool Localizer::ShowsUniquePoints() const {
+  constexpr double kLeastShare = 0.5;
+  constexpr double kFew = 20.0;  // Shares of fewer points say nothing.
+  const auto found = static_cast<double>(guided_matches_.size());
+  const auto lookalikes = static_cast<double>(std::count_if(
+      guided_matches_.begin(), guided_matches_.end(),
+      [&](const FeatureMatch& match) { return database_.HasLookalike(match.point); }));
+  const auto sought = static_cast<double>(guided_.searched(true));
+  const auto unique = static_cast<double>(guided_.searched(false));
+  return lookalikes < kFew || (found - lookalikes) * sought >= kLeastShare * lookalikes * unique;
 }
 
 bool Localizer::IsAmbiguous() const {

@@ -107,6 +107,9 @@ class Localizer {
   // Whether the inliers can hardly agree by chance. Points that have look-alikes do not count,
   // because they would agree with another pose as well.
   bool IsNoAccident(const Features& features, const CameraGuess& guess);
+  // Whether the points without look-alikes were found about as often as the others, of
+  // guided_matches_. In another part of the place they are missing.
+  bool ShowsUniquePoints() const;
   // Whether most of what was recognised has look-alikes.
   bool IsAmbiguous() const;
   std::optional<Match> SearchMatch(const Features& features,
