@@ -22,14 +22,16 @@ using vision::Observation;
 using vision::SceneDatabase;
 
 constexpr uint32_t kSimilar = 200 * 200;  // Squared distance of similar descriptors.
-constexpr size_t kNeighbours = 48;        // Descriptors that are looked at for each point.
+constexpr size_t kNeighbours = 48;        // Number of descriptors that are compared for each point.
 constexpr int kChecks = 256;
-constexpr int kMostMotions = 8;         // Number of motions that are searched for each keyframe.
-constexpr int kSamples = 1500;          // Number of triples that are tried for each motion.
-constexpr size_t kLeastPoints = 24;     // Number of points that a motion must explain,
-constexpr double kLeastShare = 0.15;    // and their share of those that the keyframe observed.
+constexpr int kMostMotions = 8;  // Number of motions that are searched for each keyframe.
+constexpr int kSamples = 1500;   // Number of triples that are tried for each motion.
+// A motion must explain this number of points and this share of those that the keyframe observed.
+constexpr size_t kLeastPoints = 24;
+constexpr double kLeastShare = 0.15;
 constexpr double kLargestError = 0.02;  // Largest error of a point, as a share of the depth.
-constexpr double kLeastShift = 0.1;  // Least way of a point, likewise: others are the same point.
+// A point that moves by a smaller share of the depth is the same point.
+constexpr double kLeastShift = 0.1;
 constexpr double kScaleTolerance = 0.05;
 constexpr int kCellPx = 32;
 

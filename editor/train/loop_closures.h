@@ -18,10 +18,10 @@ struct LoopClosures {
   size_t lookalikes = 0;            // Number of pairs that show different parts of the place.
 };
 
-// chain is a map of the pairs whose indices differ by no more than film_gap. It drifts slowly,
-// whatever the place looks like. A pair farther apart closes a loop if both of its images place
-// what they have in common where the drift allows it. If some pairs only look alike, pairs that the
-// chain cannot judge are left out too.
+// chain is a map of the pairs whose indices differ by no more than film_gap. Such a map drifts
+// slowly, because neighbouring images show the same part of the place. A pair farther apart closes
+// a loop if both of its images place what they have in common where the drift allows it. If some
+// pairs only look alike, pairs that the chain cannot judge are left out too.
 LoopClosures JudgeLoopClosures(std::span<const VerifiedPair> pairs,
                                uint32_t film_gap,
                                const Reconstruction& chain);

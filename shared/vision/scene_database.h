@@ -58,8 +58,8 @@ struct SceneDatabase {
   // gain 1, linear R, G, B. Values above 1 would clip in such an image. A channel is negative if no
   // image shows it well. Empty in maps that were trained without colour.
   std::vector<Eigen::Vector3f> colours;
-  // 1 if another part of the place has a point that looks the same, with the same surroundings. Such
-  // points do not tell in which part the camera is. Empty if there are none.
+  // 1 if another part of the place has a point that looks the same, with the same surroundings.
+  // Such points do not tell in which part the camera is. Empty if there are none.
   std::vector<uint8_t> lookalikes;
   std::vector<uint32_t> descriptor_begin;  // [points + 1]: Ranges of `descriptors`.
   std::vector<Descriptor> descriptors;     // Several views of each point.

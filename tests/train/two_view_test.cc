@@ -175,7 +175,8 @@ TEST(SelectPairs, CopesWithImagesWithoutFeatures) {
   std::vector<vision::Features> images = ImagesOfWall(ThereAndBack());
   images[2] = {};
   EXPECT_TRUE(Contains(SelectPairs(images, Choosing()).pairs, 1, 2));
-  EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), Choosing()).pairs.size(), 30u * 29u / 2u);
+  EXPECT_LE(SelectPairs(std::vector<vision::Features>(30), Choosing()).pairs.size(),
+            30u * 29u / 2u);
 }
 
 TEST(EstimateTurning, LeavesNothingForATurnAndNotForASidestep) {
