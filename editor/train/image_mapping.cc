@@ -171,13 +171,27 @@ std::vector<VerifiedPair> WithoutLookalikes(std::span<const TrainingImage> image
                                             MapperOptions options,
                                             Progress& progress,
                                             Log& log) {
-  std::vector<VerifiedPair> neighbours;
-  for (const VerifiedPair& pair : verified.pairs) {
-    if (verified.film_gap && pair.images.b - pair.images.a <= *verified.film_gap) {
-      neighbours.push_back(pair);
+  if (!verified.film_gap) {
+    return verified.pairs;
+  }
+  // The chain needs few points, and time grows with them.
+  constexpr size_t kChainFeatures = 1500;
+  std::vector<std::vector<bool>> strong;  // [image][feature]
+  for (const TrainingImage& image : images) {
+    std::vector<bool>& of_image = strong.emplace_back(image.features.size(), false);
+    for (const uint32_t feature : StrongestFeatures(image.features, kChainFeatures)) {
+      of_image[feature] = true;
     }
   }
-  if (!verified.film_gap || neighbours.size() == verified.pairs.size()) {
+  std::vector<VerifiedPair> neighbours;
+  for (const VerifiedPair& pair : verified.pairs) {
+    if (pair.images.b - pair.images.a <= *verified.film_gap) {
+      std::erase_if(neighbours.emplace_back(pair).matches, [&](const FeatureMatch& match) {
+        return !strong[pair.images.a][match.a] || !strong[pair.images.b][match.b];
+      });
+    }
+  }
+  if (neighbours.size() == verified.pairs.size()) {
     return verified.pairs;
   }
   options.draft = true;

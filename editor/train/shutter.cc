@@ -24,28 +24,39 @@ std::vector<ImageMotion> EstimateMotions(std::span<const TimedPose> poses) {
   std::vector<ImageMotion> motions(poses.size(), ImageMotion::Zero());
   for (size_t i = 0; i < poses.size(); ++i) {
     const Rigid3 map_from_camera = poses[i].camera_from_map.Inverse();
-    ImageMotion sum = ImageMotion::Zero();
-    double squares = 0.0;
+    // Least squares for the linear part of a cubic: hands tremble so fast that a line through the
+    // poses of five frames has a third less of the motion.
+    ImageMotion first = ImageMotion::Zero();  // Sums over time^1 and time^3 times the way.
+    ImageMotion third = ImageMotion::Zero();
+    double second = 0.0;  // Sums over time^2, time^4 and time^6.
+    double fourth = 0.0;
+    double sixth = 0.0;
     // Frames before and after count in equal numbers, so that an acceleration cancels.
     for (int64_t gap = 1; gap <= kReach; ++gap) {
-      if (i < static_cast<size_t>(gap) || i + static_cast<size_t>(gap) >= poses.size()) {
+      const auto step = static_cast<size_t>(gap);
+      if (i < step || i + step >= poses.size() ||
+          poses[i].frame_index - poses[i - step].frame_index > kReach ||
+          poses[i + step].frame_index - poses[i].frame_index > kReach) {
         break;
       }
-      for (const TimedPose& other :
-           {poses[i - static_cast<size_t>(gap)], poses[i + static_cast<size_t>(gap)]}) {
+      for (const TimedPose& other : {poses[i - step], poses[i + step]}) {
         const auto time = static_cast<double>(other.frame_index - poses[i].frame_index);
-        if (std::abs(time) > static_cast<double>(kReach)) {
-          continue;
-        }
         const Rigid3 since = other.camera_from_map * map_from_camera;
         ImageMotion moved;
         moved << geometry::VectorFromRotation(since.rotation), since.translation;
-        sum += time * moved;
-        squares += time * time;
+        const double square = time * time;
+        first += time * moved;
+        third += time * square * moved;
+        second += square;
+        fourth += square * square;
+        sixth += square * square * square;
       }
     }
-    if (squares > 0.0) {
-      motions[i] = sum / squares;
+    const double determinant = second * sixth - fourth * fourth;
+    if (determinant > 1e-9) {
+      motions[i] = (sixth * first - fourth * third) / determinant;
+    } else if (second > 0.0) {
+      motions[i] = first / second;  // The frames nearest in time only.
     }
   }
   return motions;

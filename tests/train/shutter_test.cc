@@ -60,6 +60,25 @@ struct Film {
   }
 };
 
+TEST(EstimateMotions, FollowsATremblingHand) {
+  constexpr double kFrequency = 0.8;  // Radians per frame: 4 Hz at 30 frames a second.
+  constexpr double kAmplitude = 0.02;
+  std::vector<TimedPose> poses;
+  for (int64_t frame = 0; frame < 40; ++frame) {
+    const double phase = kFrequency * static_cast<double>(frame);
+    const Eigen::Vector3d turn(0.0, kAmplitude * std::sin(phase), 0.0);
+    poses.push_back({frame,
+                     {geometry::RotationFromVector(turn),
+                      Eigen::Vector3d(kAmplitude * std::cos(phase), 0.0, 0.0)}});
+  }
+  const std::vector<ImageMotion> motions = EstimateMotions(poses);
+  for (size_t i = 2; i + 2 < poses.size(); ++i) {
+    const double phase = kFrequency * static_cast<double>(i);
+    EXPECT_NEAR(motions[i][1], kAmplitude * kFrequency * std::cos(phase),
+                0.03 * kAmplitude * kFrequency);
+  }
+}
+
 class ReadoutOf : public testing::TestWithParam<std::pair<double, double>> {};
 
 TEST_P(ReadoutOf, IsFoundAndStraightensTheMap) {
