@@ -25,10 +25,10 @@ constexpr size_t kMostAdvice = 1000;
 using train::CaptureAdvice;
 
 // Indexed by CaptureAdvice::Kind; kWritten has no name.
-constexpr std::array<std::string_view, 13> kKinds = {
+constexpr std::array<std::string_view, 14> kKinds = {
     "enough",     "not_located",   "short_gaps", "one_side",  "step_left",
     "step_right", "step_nearer",   "step_back",  "turn_left", "turn_right",
-    "focal",      "few_keyframes", "exposure"};
+    "focal",      "few_keyframes", "exposure",   "lookalikes"};
 // Indexed by CaptureAdvice::End; kNone is not written.
 constexpr std::array<std::string_view, 5> kPathEnds = {"", "left", "right", "near", "far"};
 constexpr std::array<std::string_view, 5> kReasons = {"few_features", "blur", "fast_motion",

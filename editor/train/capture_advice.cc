@@ -168,6 +168,12 @@ Sentence AdviceSentence(const CaptureAdvice& advice) {
           "Exposure changed by %s stops while filming session %s: lock it, and keep bright windows "
           "out of the image.",
           {Fixed(advice.value, 1), std::to_string(advice.session)});
+    case Kind::kLookalikes:
+      return Sentence(
+          "Other parts of the place look like what %s show%s: visitors are located there only "
+          "after they saw something unique. Put up something unique, such as a notice, or let them "
+          "begin elsewhere.",
+          {Frames(advice), Where(advice.end)});
     case Kind::kWritten:
       break;
   }

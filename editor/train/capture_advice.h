@@ -46,6 +46,7 @@ struct CaptureAdvice {
     kFocal,         // value: standard deviation of the focal length, percent
     kFewKeyframes,  // value: number of keyframes in the map
     kExposure,      // value: change of the exposure in stops; session
+    kLookalikes,    // Nothing in the stretch tells it from other parts. first, last, end
     kWritten,       // The field `text` is a whole sentence; the report has no name for the kind.
   };
   // The end of the plan at which a stretch lies.

@@ -301,6 +301,7 @@ class Adviser {
     AdviseOnGaps();
     AdviseOnParallax();
     AdviseOnSteps();
+    AdviseOnLookalikes();
     AdviseOnCamera();
     AdviseOnExposure();
     if (advice_.empty()) {
@@ -467,6 +468,26 @@ class Adviser {
     const Eigen::Vector3d right = (axis - up * up.dot(axis)).stableNormalized();
     const Eigen::Vector3d ahead = up.cross(right);
     return Turned(Displaced(pose, right * offset.x() + ahead * offset.y()), turn);
+  }
+
+  // Advises on stretches that show only what other parts of the place have too.
+  void AdviseOnLookalikes() {
+    constexpr size_t kFew = 15;
+    std::vector<size_t> unique(stops_.size(), 0);
+    std::vector<size_t> lookalikes(stops_.size(), 0);
+    for (const Observation& o : database_.observations) {
+      ++(database_.HasLookalike(o.point) ? lookalikes : unique)[o.keyframe];
+    }
+    std::vector<bool> ambiguous;
+    for (size_t i = 0; i < stops_.size(); ++i) {
+      ambiguous.push_back(unique[i] < kFew && lookalikes[i] >= kFew);
+    }
+    ForRuns(ambiguous, 2, [&](size_t first, size_t last) {
+      advice_.push_back({.kind = AdviceKind::kLookalikes,
+                         .first = stops_[first].name,
+                         .last = stops_[last].name,
+                         .end = Where(first, last)});
+    });
   }
 
   void AdviseOnCamera() {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -123,6 +124,17 @@ TEST(CaptureReport, NumbersAreThoseOfTheMapAndTheTraining) {
   EXPECT_EQ(ValueOf(html, "bytes"), "123456");
   EXPECT_EQ(std::stod(ValueOf(html, "focal")), db.camera.Focal());
   EXPECT_THAT(html, HasSubstr("3.8 s"));  // Total time.
+}
+
+TEST(CaptureReport, NamesStretchesThatLookLikeOtherParts) {
+  vision::SceneDatabase db = MakeDatabase();
+  db.lookalikes.assign(db.points.size(), 1);
+  const std::vector<CaptureAdvice> advice = AnalyseCapture(MakeReport(db), db, std::nullopt).advice;
+  EXPECT_EQ(std::ranges::count(advice, CaptureAdvice::Kind::kLookalikes, &CaptureAdvice::kind), 1);
+  db.lookalikes.assign(db.points.size(), 0);
+  for (const CaptureAdvice& other : AnalyseCapture(MakeReport(db), db, std::nullopt).advice) {
+    EXPECT_NE(other.kind, CaptureAdvice::Kind::kLookalikes);
+  }
 }
 
 TEST(CaptureReport, HistogramsCountEveryObservationAndPoint) {
