@@ -240,7 +240,7 @@ class Mapper {
       DropWeakImages();
     }
     BundleOptions bundle = Growing();
-    bundle.points_per_image = 0;
+    bundle.points_per_image = kFinalPointsPerImage;
     bundle.max_iterations = 50;
     bundle.function_tolerance = 1e-6;
     AdjustAll(reconstruction_, anchors_, bundle);

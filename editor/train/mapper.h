@@ -15,6 +15,10 @@
 
 namespace lararium::train {
 
+// Number of points that each image contributes to the last bundle adjustments; see BundleOptions.
+// More points hardly change the poses, and adjusting all of them takes three times as long.
+inline constexpr size_t kFinalPointsPerImage = 1500;
+
 struct MapperOptions {
   bool refine_intrinsics = false;
   TriangulationOptions triangulation;  // Limits while the map grows.

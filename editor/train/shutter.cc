@@ -80,7 +80,7 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
   TriangulationOptions limits = mapper.triangulation;
   limits.max_error_px = mapper.final_max_error_px;
   bool adjusted = true;
-  for (const size_t points : {size_t{600}, size_t{0}}) {
+  for (const size_t points : {size_t{600}, kFinalPointsPerImage}) {
     options.points_per_image = points;
     adjusted = adjusted && AdjustAll(reconstruction, anchors, options);
     FilterAll(reconstruction, limits);
