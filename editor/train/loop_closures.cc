@@ -10,7 +10,7 @@ namespace lararium::train {
 namespace {
 
 constexpr double kDrift = 0.05;       // Largest drift, as a share of the way between two images.
-constexpr double kDepthError = 0.03;  // The same as a share of the depth of what is seen.
+constexpr double kDepthError = 0.03;  // Error of a point, as a share of its depth.
 constexpr size_t kFewPoints = 8;      // Fewer common points prove nothing.
 
 class Judge {

@@ -28,7 +28,7 @@ std::vector<ImageMotion> EstimateMotions(std::span<const TimedPose> poses) {
     // poses of five frames has a third less of the motion.
     ImageMotion first = ImageMotion::Zero();  // Sums over time^1 and time^3 times the way.
     ImageMotion third = ImageMotion::Zero();
-    double second = 0.0;  // Sums over time^2, time^4 and time^6.
+    double second = 0.0;  // Sum of time^2; the next two are those of time^4 and time^6.
     double fourth = 0.0;
     double sixth = 0.0;
     // Frames before and after count in equal numbers, so that an acceleration cancels.
