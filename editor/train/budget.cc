@@ -258,14 +258,6 @@ SceneDatabase WithPoints(const SceneDatabase& db,
 
 // ------------------------------------------------------------ recall
 
-std::span<const Observation> ObservationsOf(const SceneDatabase& db, uint32_t keyframe) {
-  const auto less = [](const Observation& o, uint32_t wanted) { return o.keyframe < wanted; };
-  const auto first =
-      std::lower_bound(db.observations.begin(), db.observations.end(), keyframe, less);
-  const auto last = std::lower_bound(first, db.observations.end(), keyframe + 1, less);
-  return {first, last};
-}
-
 struct HeldOutView {
   uint32_t keyframe = 0;
   vision::Features finest;  // Features as training extracts them.
@@ -431,6 +423,14 @@ Status BudgetOptions::Validate() const {
     return Status::Error(kOptions, "image_coverage must lie between 0 and 1");
   }
   return Status();
+}
+
+std::span<const Observation> ObservationsOf(const SceneDatabase& db, uint32_t keyframe) {
+  const auto less = [](const Observation& o, uint32_t wanted) { return o.keyframe < wanted; };
+  const auto first =
+      std::lower_bound(db.observations.begin(), db.observations.end(), keyframe, less);
+  const auto last = std::lower_bound(first, db.observations.end(), keyframe + 1, less);
+  return {first, last};
 }
 
 std::vector<uint32_t> ChoosePoints(const SceneDatabase& database, size_t count) {

@@ -14,6 +14,10 @@
 
 namespace lararium::train {
 
+// The observations of one keyframe, in the order of points.
+std::span<const vision::Observation> ObservationsOf(const vision::SceneDatabase& database,
+                                                    uint32_t keyframe);
+
 struct BudgetOptions {
   int max_points = 60'000;
   int max_descriptors_per_point = 0;  // 0 keeps all.

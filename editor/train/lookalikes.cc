@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "editor/train/budget.h"
 #include "shared/core/median.h"
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
@@ -140,21 +141,6 @@ class MotionSearch {
   Similarity3 best_motion_;
 };
 
-// The observations of each keyframe.
-std::vector<std::span<const Observation>> ByKeyframe(const SceneDatabase& db) {
-  std::vector<std::span<const Observation>> views(db.keyframes.size());
-  for (size_t begin = 0; begin < db.observations.size();) {
-    size_t end = begin;
-    while (end < db.observations.size() &&
-           db.observations[end].keyframe == db.observations[begin].keyframe) {
-      ++end;
-    }
-    views[db.observations[begin].keyframe] = std::span(db.observations).subspan(begin, end - begin);
-    begin = end;
-  }
-  return views;
-}
-
 double MedianDepth(const SceneDatabase& db, std::span<const Observation> view) {
   std::vector<double> depths;
   for (const Observation& o : view) {
@@ -230,7 +216,10 @@ void MarkAmongMarked(const SceneDatabase& db,
 
 std::vector<uint8_t> FindLookalikes(const SceneDatabase& db, uint64_t seed) {
   const std::vector<std::vector<uint32_t>> similar = SimilarPoints(db);
-  const std::vector<std::span<const Observation>> views = ByKeyframe(db);
+  std::vector<std::span<const Observation>> views;
+  for (uint32_t keyframe = 0; keyframe < db.keyframes.size(); ++keyframe) {
+    views.push_back(ObservationsOf(db, keyframe));
+  }
   std::vector<std::vector<uint32_t>> explained(views.size());  // [keyframes]
   ParallelFor(views.size(), [&](size_t view) {
     std::vector<Twin> twins;
