@@ -17,7 +17,7 @@
 #include "editor/jobs/training_report.h"
 #include "editor/text/text.h"
 #include "editor/train/budget.h"
-#include "editor/train/colmap_exchange.h"
+#include "editor/colmap/colmap_exchange.h"
 #include "editor/train/map_statistics.h"
 #include "shared/vision/poses_file.h"
 #include "shared/vision/scene_database.h"

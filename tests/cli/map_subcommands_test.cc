@@ -4,9 +4,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "editor/cli/subcommands.h"
+#include "editor/colmap/colmap_model.h"
 #include "editor/jobs/staging.h"
 #include "editor/jobs/training.h"
-#include "editor/train/colmap_model.h"
 #include "shared/bundle/bundle.h"
 #include "shared/core/file.h"
 #include "tests/support/synthetic_world.h"

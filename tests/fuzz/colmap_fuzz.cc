@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "editor/train/colmap_model.h"
+#include "editor/colmap/colmap_model.h"
 #include "shared/core/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

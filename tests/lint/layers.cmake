@@ -9,7 +9,7 @@ set(floors
   "shared/drama shared/bundle shared/render shared/audio"
   "shared/show"
   "editor/desktop editor/text editor/train editor/import editor/export player/kiosk player/benchmark"
-  "editor/bake player/staff player/openxr"
+  "editor/bake editor/colmap player/staff player/openxr"
   "editor/document player/app"
   "editor/jobs"
   "editor/check"

@@ -1,4 +1,4 @@
-#include "editor/train/colmap_model.h"
+#include "editor/colmap/colmap_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "editor/train/colmap_binary.h"
+#include "editor/colmap/colmap_binary.h"
 
 #include <bit>
 #include <cstring>

@@ -1,10 +1,10 @@
-#include "editor/train/colmap_model.h"
+#include "editor/colmap/colmap_model.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "editor/train/colmap_binary.h"
-#include "editor/train/colmap_text.h"
+#include "editor/colmap/colmap_binary.h"
+#include "editor/colmap/colmap_text.h"
 #include "shared/core/file.h"
 
 namespace lararium::train {

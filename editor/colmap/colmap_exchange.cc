@@ -1,4 +1,4 @@
-#include "editor/train/colmap_exchange.h"
+#include "editor/colmap/colmap_exchange.h"
 
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "editor/train/colmap_model.h"
+#include "editor/colmap/colmap_model.h"
 
 namespace lararium::train {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "editor/train/colmap_model.h"
+#include "editor/colmap/colmap_model.h"
 #include "shared/core/log.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"

@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <regex>
 
-#include "editor/train/colmap_exchange.h"
+#include "editor/colmap/colmap_exchange.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/random.h"

@@ -1,4 +1,4 @@
-#include "editor/train/colmap_text.h"
+#include "editor/colmap/colmap_text.h"
 
 #include <charconv>
 #include <optional>
