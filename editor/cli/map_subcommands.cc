@@ -7,6 +7,7 @@
 
 #include "editor/check/stage_report.h"
 #include "editor/cli/subcommands.h"
+#include "editor/colmap/colmap_exchange.h"
 #include "editor/document/named_entries.h"
 #include "editor/document/project.h"
 #include "editor/jobs/camera_measure.h"
@@ -17,7 +18,6 @@
 #include "editor/jobs/training_report.h"
 #include "editor/text/text.h"
 #include "editor/train/budget.h"
-#include "editor/colmap/colmap_exchange.h"
 #include "editor/train/map_statistics.h"
 #include "shared/vision/poses_file.h"
 #include "shared/vision/scene_database.h"
@@ -164,6 +164,16 @@ std::string CameraSummary(const train::TrainReport& report) {
                 report.camera.k2, report.k2_deviation, report.camera.cx, report.camera.cy,
                 report.principal_point_estimated ? "" : " (assumed)");
   std::string summary = text;
+  if (report.cameras.size() > 1) {
+    summary = "photographs by " + std::to_string(report.cameras.size()) +
+              " cameras; that of most, then all:\n" + summary;
+    for (const train::CameraReport& of : report.cameras) {
+      std::snprintf(text, sizeof(text),
+                    "  %d keyframes: focal length %.1f px, k1 %.4f, k2 %.4f%s\n", of.keyframes,
+                    of.camera.fx, of.camera.k1, of.camera.k2, of.given ? " (given)" : "");
+      summary += text;
+    }
+  }
   if (report.shutter) {
     const Eigen::Vector2d& readout = report.shutter->readout;
     std::snprintf(text, sizeof(text),

@@ -17,17 +17,10 @@ namespace {
 
 using vision::SceneDatabase;
 
-train::TrainOptions OptionsFor(const ProjectPaths& paths,
-                               const SessionDocument& session,
-                               const capture::FrameSource& source,
-                               const TrainingOptions& options) {
+train::TrainOptions OptionsFor(const SessionDocument& session, const TrainingOptions& options) {
   train::TrainOptions train;
   train.intrinsics = session.intrinsics;
   train.max_points = options.max_points.value_or(train.max_points);
-  if (!train.intrinsics && session.source.kind == SourceDocument::Kind::kImages) {
-    train.focal_prior_px = capture::ExifFocalPixels(
-        paths.Resolve(session.source.path) / source.FrameName(0), source.width(), source.height());
-  }
   return train;
 }
 
@@ -42,7 +35,7 @@ Result<train::TrainResult> MergeSession(const ProjectPaths& paths,
   const uint32_t number = train::NextSession(map);
   LARARIUM_ASSIGN_OR_RETURN(
       train::TrainResult result,
-      train::AddSession(map, *source, OptionsFor(paths, session, *source, options), progress, log));
+      train::AddSession(map, *source, OptionsFor(session, options), progress, log));
   LARARIUM_RETURN_IF_ERROR(
       KeepPickedFrames(place, number, result.report, *source, result.database));
   return result;
@@ -138,9 +131,8 @@ Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                                       Log& log) {
   const SessionDocument first{place.training, place.intrinsics};
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, first.source));
-  LARARIUM_ASSIGN_OR_RETURN(
-      train::TrainResult result,
-      train::Train(*source, OptionsFor(paths, first, *source, options), progress, log));
+  LARARIUM_ASSIGN_OR_RETURN(train::TrainResult result,
+                            train::Train(*source, OptionsFor(first, options), progress, log));
   LARARIUM_RETURN_IF_ERROR(KeepPickedFrames(place, 0, result.report, *source, result.database));
   for (const SessionDocument& session : place.added) {
     log.info("adding {}", session.source.path);
@@ -221,7 +213,7 @@ std::vector<vision::PoseRecord> PosesOf(const train::TrainReport& report) {
   std::map<std::string, vision::PoseRecord> records;
   for (const train::LocatedFrame& frame : report.located) {
     vision::PoseRecord& record = records[frame.name];
-    record = {frame.name, report.camera, frame.camera_from_map, true};
+    record = {frame.name, frame.camera, frame.camera_from_map, true};
     if (report.shutter) {
       record.shutter = {report.shutter->readout, frame.motion};
     }
@@ -242,6 +234,14 @@ Json ReportJson(const train::TrainReport& report) {
   for (const auto& [step, duration] : report.seconds) {
     seconds[step] = seconds.value(step, 0.0) + duration;  // Some steps are done twice.
   }
+  Json cameras = Json::array();
+  for (const train::CameraReport& of : report.cameras) {
+    const geometry::CameraModel& c = of.camera;
+    cameras.push_back({{"keyframes", of.keyframes},
+                       {"given", of.given},
+                       {"K", Json::array({c.fx, c.fy, c.cx, c.cy})},
+                       {"k1_k2_p1_p2", Json::array({c.k1, c.k2, c.p1, c.p2})}});
+  }
   return {{"frames", report.frames},
           {"keyframes", report.keyframes},
           {"located", report.located.size()},
@@ -257,6 +257,7 @@ Json ReportJson(const train::TrainReport& report) {
            Json::array({report.cx_deviation_px, report.cy_deviation_px})},
           {"K", Json::array({camera.fx, camera.fy, camera.cx, camera.cy})},
           {"k1_k2_p1_p2", Json::array({camera.k1, camera.k2, camera.p1, camera.p2})},
+          {"cameras", cameras},
           {"seconds", seconds}};
 }
 

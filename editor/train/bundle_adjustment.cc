@@ -36,11 +36,13 @@ CameraModel WithIntrinsics(CameraModel camera, const IntrinsicsBlock& block) {
 }
 
 // Indices of the parameters that are not adjusted.
-std::vector<int> ConstantIntrinsics(const BundleOptions& options) {
+std::vector<int> ConstantIntrinsics(const TrainingCamera& camera, const BundleOptions& options) {
   std::vector<int> constant;
+  const bool refine_lens = options.refine_intrinsics && !camera.given;
   for (int i = 0; i < kIntrinsics; ++i) {
-    const bool refined = i < 3   ? options.refine_intrinsics
-                         : i < 5 ? options.refine_intrinsics && options.refine_centre
+    const bool refined = i < 1   ? refine_lens
+                         : i < 3 ? refine_lens && options.refine_radial
+                         : i < 5 ? refine_lens && options.refine_centre
                                  : options.refine_readout;
     if (!refined) {
       constant.push_back(i);
@@ -72,22 +74,65 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7, 3> {
   Eigen::Vector2d pixel_;
 };
 
+// What is known of a camera without looking at the images: its focal length to a share, and that
+// lenses distort little. Keeps the intrinsics of a camera plausible that took only few images.
+class PriorCost : public ceres::SizedCostFunction<3, kIntrinsics> {
+ public:
+  explicit PriorCost(const TrainingCamera& camera) {
+    constexpr double kUnknownFocalDoubt = 0.4;
+    known_focal_ = camera.FocalKnown() ? camera.known_focal_px : camera.model.fx;
+    focal_weight_ = 1.0 / (camera.FocalKnown() ? camera.focal_doubt : kUnknownFocalDoubt);
+  }
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    constexpr double kRadialWeight = 1.0 / 0.15;
+    const double* intrinsics = parameters[0];
+    if (!(intrinsics[0] > 0.0)) {
+      return false;
+    }
+    residuals[0] = focal_weight_ * std::log(intrinsics[0] / known_focal_);
+    residuals[1] = kRadialWeight * intrinsics[1];
+    residuals[2] = kRadialWeight * intrinsics[2];
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 3, kIntrinsics, Eigen::RowMajor>> jacobian(jacobians[0]);
+      jacobian.setZero();
+      jacobian(0, 0) = focal_weight_ / intrinsics[0];
+      jacobian(1, 1) = jacobian(2, 2) = kRadialWeight;
+    }
+    return true;
+  }
+
+ private:
+  double known_focal_ = 0.0;
+  double focal_weight_ = 0.0;
+};
+
 // A ceres::Problem together with its parameter blocks.
 class Bundle {
  public:
-  Bundle(const CameraModel& camera, const Eigen::Vector2d& readout, const BundleOptions& options)
+  Bundle(std::span<const TrainingCamera> cameras,
+         const Eigen::Vector2d& readout,
+         const BundleOptions& options)
       : options_(options),
-        camera_(camera),
+        cameras_(cameras.begin(), cameras.end()),
         loss_(options.loss_scale_px),
         problem_(BorrowingOptions()),
-        intrinsics_(ToIntrinsicsBlock(camera, readout)) {
-    problem_.AddParameterBlock(intrinsics_.data(), kIntrinsics);
-    const std::vector<int> constant = ConstantIntrinsics(options);
-    if (constant.size() == kIntrinsics) {
-      problem_.SetParameterBlockConstant(intrinsics_.data());
-    } else if (!constant.empty()) {
-      intrinsics_manifold_.emplace(kIntrinsics, constant);
-      problem_.SetManifold(intrinsics_.data(), &*intrinsics_manifold_);
+        manifolds_(cameras.size()) {
+    for (const TrainingCamera& camera : cameras_) {
+      intrinsics_.push_back(ToIntrinsicsBlock(camera.model, readout));
+    }
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      double* block = intrinsics_[i].data();
+      problem_.AddParameterBlock(block, kIntrinsics);
+      const std::vector<int> constant = ConstantIntrinsics(cameras_[i], options);
+      if (constant.size() == kIntrinsics) {
+        problem_.SetParameterBlockConstant(block);
+      } else if (!constant.empty()) {
+        manifolds_[i].emplace(kIntrinsics, constant);
+        problem_.SetManifold(block, &*manifolds_[i]);
+      }
     }
   }
   Bundle(const Bundle&) = delete;
@@ -119,13 +164,23 @@ class Bundle {
     return block;
   }
 
-  void AddObservation(const ImageMotion& motion,
+  // The problem owns its cost functions.
+  void AddObservation(uint32_t camera,
+                      const ImageMotion& motion,
                       const Eigen::Vector2d& pixel,
                       double* pose,
                       double* point) {
-    // The problem owns its cost functions.
-    problem_.AddResidualBlock(new ReprojectionCost(camera_, motion, pixel), &loss_,
-                              intrinsics_.data(), pose, point);
+    problem_.AddResidualBlock(new ReprojectionCost(cameras_[camera].model, motion, pixel), &loss_,
+                              intrinsics_[camera].data(), pose, point);
+  }
+
+  // Adds what is known of the cameras whose intrinsics are adjusted.
+  void AddPriors() {
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      if (!problem_.IsParameterBlockConstant(intrinsics_[i].data())) {
+        problem_.AddResidualBlock(new PriorCost(cameras_[i]), nullptr, intrinsics_[i].data());
+      }
+    }
   }
 
   bool Solve() {
@@ -146,14 +201,26 @@ class Bundle {
     return summary.IsSolutionUsable();
   }
 
-  CameraModel camera() const { return WithIntrinsics(camera_, intrinsics_); }
-  Eigen::Vector2d readout() const { return {intrinsics_[5], intrinsics_[6]}; }
+  size_t camera_count() const { return cameras_.size(); }
+  double* intrinsics(size_t camera) { return intrinsics_[camera].data(); }
+  CameraModel camera(size_t i) const { return WithIntrinsics(cameras_[i].model, intrinsics_[i]); }
+  // Whether the intrinsics are those of a camera, where it has images.
+  bool Possible(size_t i) const {
+    TrainingCamera adjusted = cameras_[i];
+    adjusted.model = camera(i);
+    return ModelOfArea(adjusted).Validate().ok();
+  }
+  // A rolling shutter is that of the only camera.
+  Eigen::Vector2d readout() const { return {intrinsics_[0][5], intrinsics_[0][6]}; }
   Rigid3 pose(size_t i) const { return ToPose(poses_[i]); }
   const Eigen::Vector3d& point(size_t i) const { return points_[i]; }
   ceres::Problem& problem() { return problem_; }
   // All blocks that are not constant: intrinsics, poses, points.
   std::vector<double*> VariableBlocks() {
-    std::vector<double*> blocks = {intrinsics_.data()};
+    std::vector<double*> blocks;
+    for (IntrinsicsBlock& camera : intrinsics_) {
+      blocks.push_back(camera.data());
+    }
     for (PoseBlock& pose : poses_) {
       blocks.push_back(pose.data());
     }
@@ -174,7 +241,7 @@ class Bundle {
   }
 
   // Elimination order: points first. Within a group, Ceres orders blocks by address, which follows
-  // the index in a vector. The intrinsics are not in these vectors and get a group of their own.
+  // the index in a vector. The intrinsics get a group of their own.
   std::shared_ptr<ceres::ParameterBlockOrdering> PointsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (Eigen::Vector3d& point : points_) {
@@ -183,17 +250,20 @@ class Bundle {
     for (PoseBlock& pose : poses_) {
       ordering->AddElementToGroup(pose.data(), 1);
     }
-    ordering->AddElementToGroup(intrinsics_.data(), 2);
+    for (IntrinsicsBlock& camera : intrinsics_) {
+      ordering->AddElementToGroup(camera.data(), 2);
+    }
     return ordering;
   }
 
   BundleOptions options_;
-  CameraModel camera_;
+  std::vector<TrainingCamera> cameras_;
   ceres::CauchyLoss loss_;
   PoseManifold pose_manifold_;
-  std::optional<ceres::SubsetManifold> intrinsics_manifold_;  // Some are not adjusted.
   ceres::Problem problem_;
-  IntrinsicsBlock intrinsics_;
+  // [camera]: Set if some of its intrinsics are not adjusted.
+  std::vector<std::optional<ceres::SubsetManifold>> manifolds_;
+  std::vector<IntrinsicsBlock> intrinsics_;  // [camera]
   std::vector<PoseBlock> poses_;
   std::vector<Eigen::Vector3d> points_;
 };
@@ -230,7 +300,7 @@ struct ReconstructionBundle {
                        const std::vector<bool>& variable,  // [image]
                        const BundleOptions& options,
                        size_t firm_observations = std::numeric_limits<size_t>::max())
-      : bundle(reconstruction.camera(), reconstruction.readout(), options),
+      : bundle(reconstruction.cameras(), reconstruction.readout(), options),
         tracks(std::move(bundled_tracks)) {
     bundle.Reserve(reconstruction.image_count(), tracks.size());
     std::vector<double*> poses(reconstruction.image_count(), nullptr);
@@ -247,9 +317,13 @@ struct ReconstructionBundle {
           poses[image] = bundle.AddPose(reconstruction.camera_from_map(image), variable[image]);
           images.push_back(image);
         }
-        bundle.AddObservation(reconstruction.motion(image), reconstruction.Pixel(element),
-                              poses[image], point);
+        bundle.AddObservation(reconstruction.CameraOf(image), reconstruction.motion(image),
+                              reconstruction.Pixel(element), poses[image], point);
       }
+    }
+    // One camera that took all images needs no help.
+    if (bundle.camera_count() > 1) {
+      bundle.AddPriors();
     }
   }
 
@@ -410,11 +484,14 @@ bool AdjustAll(Reconstruction& reconstruction,
     return false;
   }
   if (options.refine_intrinsics) {
-    const CameraModel camera = adjusted.bundle.camera();
-    if (!camera.Validate().ok()) {
-      return false;
+    for (size_t i = 0; i < adjusted.bundle.camera_count(); ++i) {
+      if (!adjusted.bundle.Possible(i)) {
+        return false;
+      }
     }
-    reconstruction.SetCamera(camera);
+    for (uint32_t i = 0; i < adjusted.bundle.camera_count(); ++i) {
+      reconstruction.SetCamera(i, adjusted.bundle.camera(i));
+    }
   }
   if (options.refine_readout) {
     reconstruction.SetReadout(adjusted.bundle.readout());
@@ -459,30 +536,32 @@ bool AdjustLocally(Reconstruction& reconstruction,
   return true;
 }
 
-std::optional<Rigid3> AdjustPose(const CameraModel& camera,
-                                 std::span<const Eigen::Vector2d> pixels,
-                                 std::span<const Eigen::Vector3d> points,
-                                 const Rigid3& start,
-                                 const BundleOptions& options) {
+std::optional<PosedView> AdjustView(const TrainingCamera& camera,
+                                    std::span<const Eigen::Vector2d> pixels,
+                                    std::span<const Eigen::Vector3d> points,
+                                    const Rigid3& start,
+                                    const BundleOptions& options) {
   CHECK(pixels.size() == points.size());
-  Bundle bundle(camera, Eigen::Vector2d::Zero(), options);
+  Bundle bundle(std::span(&camera, 1), Eigen::Vector2d::Zero(), options);
   bundle.Reserve(1, points.size());
   double* pose = bundle.AddPose(start, true);
   for (size_t i = 0; i < pixels.size(); ++i) {
     if ((start * points[i]).z() > 1e-6) {
-      bundle.AddObservation(ImageMotion::Zero(), pixels[i], pose,
+      bundle.AddObservation(0, ImageMotion::Zero(), pixels[i], pose,
                             bundle.AddPoint(points[i], false));
     }
   }
-  if (!bundle.Solve()) {
+  bundle.AddPriors();
+  if (!bundle.Solve() || !bundle.Possible(0)) {
     return std::nullopt;
   }
-  return bundle.pose(0);
+  return PosedView{bundle.pose(0), bundle.camera(0)};
 }
 
-IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
-                                      uint32_t anchor,
-                                      BundleOptions options) {
+std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& reconstruction,
+                                                    uint32_t anchor,
+                                                    BundleOptions options) {
+  std::vector<IntrinsicsDeviation> deviations(reconstruction.cameras().size());
   std::vector<bool> variable(reconstruction.image_count(), true);
   variable[anchor] = false;
   options.points_per_image = 0;
@@ -494,7 +573,7 @@ IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
   double cost = 0.0;
   ceres::CRSMatrix crs;
   if (!problem.Evaluate(evaluate, &cost, nullptr, nullptr, &crs) || crs.num_rows <= crs.num_cols) {
-    return {};
+    return deviations;
   }
   const Eigen::SparseMatrix<double> jacobian =
       Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
@@ -508,25 +587,36 @@ IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(normal);
   if (factors.info() != Eigen::Success) {
-    return {};
+    return deviations;
   }
   const double variance_of_residuals = 2.0 * cost / (crs.num_rows - crs.num_cols);
-  // Standard deviation of a parameter of the first block, the intrinsics.
+  // Standard deviation of a parameter by its column; the intrinsics are the first blocks.
   const auto deviation = [&](int parameter) {
     Eigen::VectorXd unit = Eigen::VectorXd::Zero(normal.cols());
     unit[parameter] = 1.0;
     const double variance = factors.solve(unit)[parameter] * variance_of_residuals;
     return variance > 0.0 ? std::sqrt(variance) : 0.0;
   };
-  const std::vector<int> constant = ConstantIntrinsics(options);
-  std::array<double, kIntrinsics> found{};
   int column = 0;
-  for (int i = 0; i < kIntrinsics; ++i) {
-    if (std::find(constant.begin(), constant.end(), i) == constant.end()) {
-      found[i] = deviation(column++);
+  for (size_t camera = 0; camera < deviations.size(); ++camera) {
+    const std::vector<int> constant = ConstantIntrinsics(reconstruction.cameras()[camera], options);
+    if (!problem.IsParameterBlockConstant(evaluated.bundle.intrinsics(camera))) {
+      std::array<double, kIntrinsics> found{};
+      for (int i = 0; i < kIntrinsics; ++i) {
+        if (std::find(constant.begin(), constant.end(), i) == constant.end()) {
+          found[i] = deviation(column++);
+        }
+      }
+      deviations[camera] = {found[0], found[1], found[2], found[3], found[4], found[5], found[6]};
     }
   }
-  return {found[0], found[1], found[2], found[3], found[4], found[5], found[6]};
+  return deviations;
+}
+
+IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
+                                      uint32_t anchor,
+                                      BundleOptions options) {
+  return EstimateDeviations(reconstruction, anchor, options)[reconstruction.MainCamera()];
 }
 
 }  // namespace lararium::train

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "editor/train/reconstruction.h"
 
@@ -42,9 +43,11 @@ struct BundleOptions {
   int max_iterations = 30;
   double loss_scale_px = 1.5;  // Scale of Cauchy's loss.
   double function_tolerance = 1e-6;
-  bool refine_intrinsics = false;  // Also adjusts focal length and two radial terms.
-  bool refine_centre = false;      // Also adjusts the principal point; needs refine_intrinsics.
-  bool refine_readout = false;     // Also adjusts the readout time.
+  // Also adjusts focal length and two radial terms of each camera whose intrinsics are not given.
+  bool refine_intrinsics = false;
+  bool refine_radial = true;    // If false, the radial terms stay; needs refine_intrinsics.
+  bool refine_centre = false;   // Also adjusts the principal point; needs refine_intrinsics.
+  bool refine_readout = false;  // Also adjusts the readout time.
   // If not 0, only the most observed points take part, enough of them that each image sees this
   // many. AdjustAll triangulates the other points again afterwards. 0: all points take part.
   size_t points_per_image = 0;
@@ -64,15 +67,22 @@ bool AdjustLocally(Reconstruction& reconstruction,
                    std::span<const uint32_t> images,
                    const BundleOptions& options);
 
-// Adjusts one pose to fixed points by robust least squares.
-std::optional<geometry::Rigid3> AdjustPose(const geometry::CameraModel& camera,
-                                           std::span<const Eigen::Vector2d> pixels,
-                                           std::span<const Eigen::Vector3d> points,
-                                           const geometry::Rigid3& start,
-                                           const BundleOptions& options);
+struct PosedView {
+  geometry::Rigid3 camera_from_map;
+  geometry::CameraModel camera;
+};
 
-// Standard deviations of the estimated intrinsics, from the residuals and the normal equations of
-// AdjustAll. 0 for parameters that were not refined, and if the equations are singular.
+// Adjusts one pose, and the intrinsics if the options say so, to fixed points by robust least
+// squares.
+std::optional<PosedView> AdjustView(const TrainingCamera& camera,
+                                    std::span<const Eigen::Vector2d> pixels,
+                                    std::span<const Eigen::Vector3d> points,
+                                    const geometry::Rigid3& start,
+                                    const BundleOptions& options);
+
+// Standard deviations of the estimated intrinsics of a camera, from the residuals and the normal
+// equations of AdjustAll. 0 for parameters that were not refined, and if the equations are
+// singular.
 struct IntrinsicsDeviation {
   double focal_px = 0.0;
   double k1 = 0.0;
@@ -82,7 +92,11 @@ struct IntrinsicsDeviation {
   double readout_x = 0.0;
   double readout_y = 0.0;
 };
-// options: as those with which the parameters were refined.
+// options: as those with which the parameters were refined. One result for each camera.
+std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& reconstruction,
+                                                    uint32_t anchor,
+                                                    BundleOptions options);
+// That of the main camera.
 IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
                                       uint32_t anchor,
                                       BundleOptions options);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "editor/train/budget.h"
+#include "editor/train/camera_transfer.h"
 #include "editor/train/lookalikes.h"
 #include "editor/train/photometric_reference.h"
 #include "shared/core/check.h"
@@ -35,7 +37,9 @@ class Builder {
       : reconstruction_(reconstruction), images_(images), options_(options) {}
 
   vision::SceneDatabase Build() {
-    database_.camera = reconstruction_.camera();
+    const TrainingCamera& camera = reconstruction_.cameras()[reconstruction_.MainCamera()];
+    // Where its images do not reach, its distortion may fold back.
+    database_.camera = camera.model.Validate().ok() ? camera.model : ModelOfArea(camera);
     database_.readout = reconstruction_.readout();
     AddKeyframes();
     database_.descriptor_begin.push_back(0);
@@ -47,6 +51,7 @@ class Builder {
               [](const vision::Observation& a, const vision::Observation& b) {
                 return a.keyframe != b.keyframe ? a.keyframe < b.keyframe : a.point < b.point;
               });
+    ConvertToMainCamera();
     if (!database_.observations.empty()) {
       database_.mean_reprojection_error_px =
           error_sum / static_cast<double>(database_.observations.size());
@@ -70,6 +75,7 @@ class Builder {
     keyframe_of_image_.resize(images_.size());
     for (const uint32_t image : reconstruction_.LocatedImages()) {
       keyframe_of_image_[image] = static_cast<uint32_t>(database_.keyframes.size());
+      image_of_keyframe_.push_back(image);
       vision::Keyframe& keyframe = database_.keyframes.emplace_back();
       keyframe.frame_index = images_[image].frame_index;
       keyframe.name = images_[image].name;
@@ -79,6 +85,31 @@ class Builder {
       keyframe.grey = images_[image].grey;
       bgr_.push_back(images_[image].bgr);
     }
+  }
+
+  // Converts what other cameras saw. Observations that the main camera could not have made go.
+  void ConvertToMainCamera() {
+    if (reconstruction_.cameras().size() == 1) {
+      return;
+    }
+    std::vector<vision::Observation> converted;
+    auto begin = database_.observations.begin();
+    for (uint32_t k = 0; k < database_.keyframes.size(); ++k) {
+      const auto end = std::find_if(begin, database_.observations.end(),
+                                    [&](const vision::Observation& o) { return o.keyframe != k; });
+      std::vector<vision::Observation> of_keyframe(begin, end);
+      begin = end;
+      const uint32_t image = image_of_keyframe_[k];
+      const geometry::CameraModel& camera = reconstruction_.camera(image);
+      if (camera != database_.camera) {
+        of_keyframe = ObservationsIn(database_.camera, camera, std::move(of_keyframe));
+        cv::Mat& grey = database_.keyframes[k].grey;
+        grey = Resampled(grey, camera, database_.camera);
+        bgr_[k] = Resampled(bgr_[k], camera, database_.camera);
+      }
+      converted.insert(converted.end(), of_keyframe.begin(), of_keyframe.end());
+    }
+    database_.observations = std::move(converted);
   }
 
   // Adds the point of a track. Returns the sum of its reprojection errors.
@@ -126,6 +157,7 @@ class Builder {
   DatabaseOptions options_;
   vision::SceneDatabase database_;
   std::vector<uint32_t> keyframe_of_image_;  // [image]
+  std::vector<uint32_t> image_of_keyframe_;  // [keyframe]
   std::vector<cv::Mat> bgr_;                 // [keyframe]
 };
 

@@ -17,8 +17,10 @@ namespace lararium::train {
 struct TrainingImage {
   int64_t frame_index = -1;
   std::string name;
-  cv::Mat bgr;   // CV_8UC3, see geometry::Frame.
-  cv::Mat grey;  // CV_8UC1, the same image.
+  uint32_t camera = 0;  // See FrameSource::CameraOf.
+  cv::Rect area;        // See SourceCamera::area; empty if all of the image shows something.
+  cv::Mat bgr;          // CV_8UC3, see geometry::Frame.
+  cv::Mat grey;         // CV_8UC1, the same image.
   vision::Features features;
 };
 

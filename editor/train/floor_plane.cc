@@ -25,10 +25,10 @@ using vision::SceneDatabase;
 constexpr double kMaxFromCameraUp = 35.0 * kRadiansPerDegree;
 constexpr double kMaxBetweenLevels = 3.0 * kRadiansPerDegree;  // Tolerance of parallel surfaces.
 // Lengths are relative to the median distance of points from the cameras.
-constexpr double kPatch = 0.015;      // Points in a cube of this size count once.
-constexpr double kTolerance = 0.008;  // Largest distance of a surface's points from its plane.
-constexpr double kNeighbours = 0.2;   // Largest distance between the three points of a sample.
-constexpr double kBlock = 0.15;       // Errors within a cube of this size are correlated.
+constexpr double kPatch = 0.015;        // Points in a cube of this size count once.
+constexpr double kTolerance = 0.008;    // Largest distance of a surface's points from its plane.
+constexpr double kNeighbourhood = 0.2;  // Largest distance between the three points of a sample.
+constexpr double kBlock = 0.15;         // Errors within a cube of this size are correlated.
 constexpr int kHypotheses = 400;
 constexpr size_t kMinPatches = 40;    // Minimum number of patches of a horizontal surface.
 constexpr double kMinShare = 0.2;     // Minimum area, relative to the largest horizontal surface.
@@ -168,7 +168,7 @@ std::optional<Plane> LocalPlane(const Scene& scene, Random& random) {
     return from[random.Below(static_cast<uint32_t>(from.size()))];
   };
   const Vector3d seed = draw(patches);
-  const double radius = kNeighbours * scene.distance;
+  const double radius = kNeighbourhood * scene.distance;
   std::vector<Vector3d> around;
   for (const Vector3d& patch : patches) {
     if ((patch - seed).squaredNorm() < radius * radius) {

@@ -43,25 +43,25 @@ class FrameLocator::Worker {
   explicit Worker(const vision::SceneDatabase& database)
       : database_(database), localizer_(database, {}), matcher_(database) {}
 
-  LocatedView Locate(const cv::Mat& grey,
-                     const ImageMotion& motion,
-                     const std::optional<geometry::Rigid3>& prediction) {
+  LocatedView Locate(const FrameToLocate& wanted) {
+    const ImageMotion& motion = wanted.motion;
     vision::FeatureOptions options;
     options.first_octave = 0;
     options.max_features = 1500;
     LocatedView view;
-    if (!extractor_.Extract(grey, options, features_).ok()) {
+    if (!extractor_.Extract(wanted.frame->grey, options, features_).ok()) {
       return view;
     }
     view.features = static_cast<int>(features_.size());
     view.camera_from_map =
-        localizer_.Locate(features_, {vision::ExactCamera(database_.camera), {}, prediction})
+        localizer_.Locate(features_, {vision::ExactCamera(wanted.camera), {}, wanted.prediction})
             .camera_from_map;
     if (view.camera_from_map) {
       if (!database_.readout.isZero(0.0) && !motion.isZero(0.0)) {
-        view.camera_from_map = WhileReading(*view.camera_from_map, motion);
+        view.camera_from_map = WhileReading(wanted.camera, *view.camera_from_map, motion);
       }
-      std::vector<double> errors = ErrorsOfObservations(*view.camera_from_map, motion);
+      std::vector<double> errors =
+          ErrorsOfObservations(wanted.camera, *view.camera_from_map, motion);
       view.observations = static_cast<int>(errors.size());
       view.median_error_px = Median(std::move(errors));
     }
@@ -70,7 +70,8 @@ class FrameLocator::Worker {
 
  private:
   // Refines a pose by the points that support it, each at the time of its pixel.
-  geometry::Rigid3 WhileReading(const geometry::Rigid3& camera_from_map,
+  geometry::Rigid3 WhileReading(const geometry::CameraModel& camera,
+                                const geometry::Rigid3& camera_from_map,
                                 const ImageMotion& motion) {
     std::vector<vision::PatchMatch> matches;
     for (const vision::LocatedPoint& located : localizer_.points()) {
@@ -78,7 +79,7 @@ class FrameLocator::Worker {
                          located.pixel.cast<double>(),
                          Eigen::Matrix2d::Identity() / std::max(located.sigma_px, 1e-3f)});
     }
-    vision::CameraPrior prior{vision::ExactCamera(database_.camera), &motion};
+    vision::CameraPrior prior{vision::ExactCamera(camera), &motion};
     prior.camera.readout = database_.readout;
     // As good as known; an unknown readout is what makes the estimation look at the time.
     prior.camera.covariance(vision::kReadoutX, vision::kReadoutX) = 1e-12;
@@ -89,17 +90,17 @@ class FrameLocator::Worker {
                : camera_from_map;
   }
 
-  std::vector<double> ErrorsOfObservations(const geometry::Rigid3& camera_from_map,
+  std::vector<double> ErrorsOfObservations(const geometry::CameraModel& camera,
+                                           const geometry::Rigid3& camera_from_map,
                                            const ImageMotion& motion) {
-    matcher_.Match(database_.camera, camera_from_map, features_, kMatchingReachPx, matches_);
+    matcher_.Match(camera, camera_from_map, features_, kMatchingReachPx, matches_);
     std::vector<double> errors;
     for (const vision::FeatureMatch& match : matches_) {
       const vision::Keypoint& keypoint = features_.keypoints[match.feature];
       const Eigen::Vector2d pixel(keypoint.x, keypoint.y);
-      const double time = database_.readout.dot(vision::ReadoutOrder(database_.camera, pixel));
-      const auto projected =
-          database_.camera.Project(vision::PoseAfter(camera_from_map, motion, time) *
-                                   database_.points[match.point].cast<double>());
+      const double time = database_.readout.dot(vision::ReadoutOrder(camera, pixel));
+      const auto projected = camera.Project(vision::PoseAfter(camera_from_map, motion, time) *
+                                            database_.points[match.point].cast<double>());
       if (projected && (*projected - pixel).norm() < kLargestErrorPx) {
         errors.push_back((*projected - pixel).norm());
       }
@@ -123,14 +124,11 @@ FrameLocator::FrameLocator(const vision::SceneDatabase& database) {
 
 FrameLocator::~FrameLocator() = default;
 
-std::vector<LocatedView> FrameLocator::Locate(
-    std::span<const geometry::Frame> frames,
-    std::span<const ImageMotion> motions,
-    std::span<const std::optional<geometry::Rigid3>> predictions) {
+std::vector<LocatedView> FrameLocator::Locate(std::span<const FrameToLocate> frames) {
   std::vector<LocatedView> views(frames.size());
   ParallelFor(kWorkers, [&](size_t worker) {
     for (size_t i = worker; i < frames.size(); i += kWorkers) {
-      views[i] = workers_[worker]->Locate(frames[i].grey, motions[i], predictions[i]);
+      views[i] = workers_[worker]->Locate(frames[i]);
     }
   });
   return views;

@@ -26,21 +26,27 @@ struct LocatedView {
 // Describes an image of the reconstruction; leaves LocatedView::features 0.
 LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image);
 
+struct FrameToLocate {
+  const geometry::Frame* frame = nullptr;
+  geometry::CameraModel camera;  // The camera that took it.
+  // How the camera moved in the frame, zero if it is not known; it matters if the shutter rolls.
+  ImageMotion motion = ImageMotion::Zero();
+  // Where the camera probably was, for images that do not say which of several parts that look
+  // alike they show.
+  std::optional<geometry::Rigid3> prediction;
+};
+
 // Locates images in a map by vision::Localizer. The time per image hardly depends on the size of
 // the map or the number of its keyframes.
 class FrameLocator {
  public:
-  // The database must outlive this. The images must come from the database's camera.
+  // The database must outlive this.
   explicit FrameLocator(const vision::SceneDatabase& database);
   ~FrameLocator();
 
-  // motions[i] is how the camera moved in frames[i], zero if it is not known; it matters if the
-  // shutter rolls. predictions[i] is where the camera probably was, for images that do not say
-  // which of several parts that look alike they show. Result i describes frames[i]. Uses all cores.
-  // Deterministic: the same frame gives the same view, independent of earlier calls.
-  std::vector<LocatedView> Locate(std::span<const geometry::Frame> frames,
-                                  std::span<const ImageMotion> motions,
-                                  std::span<const std::optional<geometry::Rigid3>> predictions);
+  // Result i describes frames[i]. Uses all cores. Deterministic: the same frame gives the same
+  // view, independent of earlier calls.
+  std::vector<LocatedView> Locate(std::span<const FrameToLocate> frames);
 
  private:
   class Worker;

@@ -19,15 +19,17 @@ using vision::Features;
 // Motion of the matches in pixels that a pure rotation of the camera does not explain.
 double ParallaxPx(std::span<const TrainingImage> images,
                   const VerifiedPair& pair,
-                  const geometry::CameraModel& camera) {
+                  std::span<const TrainingCamera> cameras) {
+  const geometry::CameraModel& of_a = cameras[images[pair.images.a].camera].model;
+  const geometry::CameraModel& of_b = cameras[images[pair.images.b].camera].model;
   PointPairs points;
   for (const FeatureMatch& match : pair.matches) {
     const vision::Keypoint& a = images[pair.images.a].features.keypoints[match.a];
     const vision::Keypoint& b = images[pair.images.b].features.keypoints[match.b];
-    points.a.push_back(camera.PlaneFromPixel({a.x, a.y}));
-    points.b.push_back(camera.PlaneFromPixel({b.x, b.y}));
+    points.a.push_back(of_a.PlaneFromPixel({a.x, a.y}));
+    points.b.push_back(of_b.PlaneFromPixel({b.x, b.y}));
   }
-  return EstimateTurning(points).median_angle * camera.Focal();
+  return EstimateTurning(points).median_angle * of_a.Focal();
 }
 
 Status WhyNoMap(std::span<const TrainingImage> images, const VerifiedPairs& verified) {
@@ -35,7 +37,7 @@ Status WhyNoMap(std::span<const TrainingImage> images, const VerifiedPairs& veri
   const VerifiedPair* widest = nullptr;
   double most = -1.0;
   for (const VerifiedPair& pair : verified.pairs) {
-    const double parallax = ParallaxPx(images, pair, verified.camera);
+    const double parallax = ParallaxPx(images, pair, verified.cameras);
     if (parallax > most) {
       most = parallax;
       widest = &pair;
@@ -122,23 +124,17 @@ void WarnOfGaps(std::span<const TrainingImage> images,
   }
 }
 
-VerifiedPairs Verify(std::span<const Features> features,
-                     std::span<const ImagePair> candidates,
-                     const cv::Size& size,
-                     const ImageMappingOptions& options,
-                     const VerificationOptions& verification,
-                     Progress& progress) {
-  if (options.intrinsics) {
-    return {VerifyPairs(features, candidates, *options.intrinsics, verification, progress),
-            *options.intrinsics};
+std::vector<uint32_t> CamerasOfImages(std::span<const TrainingImage> images) {
+  std::vector<uint32_t> cameras;
+  for (const TrainingImage& image : images) {
+    cameras.push_back(image.camera);
   }
-  return VerifyPairsUncalibrated(features, candidates, size.width, size.height,
-                                 options.focal_prior_px, verification, progress);
+  return cameras;
 }
 
 // A map of the images from some of the pairs; none if no pair can start one.
 std::optional<SparseMap> MapPairs(std::span<const TrainingImage> images,
-                                  const geometry::CameraModel& camera,
+                                  std::span<const TrainingCamera> cameras,
                                   std::span<const VerifiedPair> pairs,
                                   const MapperOptions& options,
                                   Progress& progress,
@@ -153,8 +149,9 @@ std::optional<SparseMap> MapPairs(std::span<const TrainingImage> images,
     }
   }
   SparseMap map;
-  map.reconstruction = std::make_unique<Reconstruction>(camera, std::move(pixels),
-                                                        BuildTracks(feature_counts, pairs));
+  map.reconstruction = std::make_unique<Reconstruction>(
+      std::vector<TrainingCamera>(cameras.begin(), cameras.end()), CamerasOfImages(images),
+      std::move(pixels), BuildTracks(feature_counts, pairs));
   const std::optional<InitialPair> anchors =
       MapIncrementally(*map.reconstruction, pairs, options, progress, log);
   if (!anchors) {
@@ -196,7 +193,7 @@ std::vector<VerifiedPair> WithoutLookalikes(std::span<const TrainingImage> image
   }
   options.draft = true;
   const std::optional<SparseMap> chain =
-      MapPairs(images, verified.camera, neighbours, options, progress, log);
+      MapPairs(images, verified.cameras, neighbours, options, progress, log);
   if (!chain) {
     return verified.pairs;
   }
@@ -227,8 +224,9 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
   verification.trusted_gap = images.size() <= pair_options.exhaustive_up_to
                                  ? pair_options.exhaustive_up_to
                                  : pair_options.gaps.back();
+  const std::vector<uint32_t> camera_of_image = CamerasOfImages(images);
   VerifiedPairs verified =
-      Verify(features, candidates, images.front().grey.size(), options, verification, progress);
+      VerifyPairs({features, options.cameras, camera_of_image}, candidates, verification, progress);
   for (size_t i = 0; i < images.size(); ++i) {
     images[i].features = std::move(features[i]);
   }
@@ -238,8 +236,10 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
   if (selection.ordered) {
     verified.film_gap = pair_options.gaps.back();
   }
-  if (!options.intrinsics) {
-    log.info("starting with a focal length of {:.0f} pixels", verified.camera.fx);
+  for (const TrainingCamera& camera : verified.cameras) {
+    if (!camera.given) {
+      log.info("starting with a focal length of {:.0f} pixels", camera.model.fx);
+    }
   }
   log.info("{} of {} image pairs show the same objects", verified.pairs.size(), candidates.size());
   if (verified.pairs.empty()) {
@@ -257,10 +257,16 @@ Result<SparseMap> MapImages(std::span<const TrainingImage> images,
                             Progress& progress,
                             Log& log) {
   MapperOptions mapper;
-  mapper.refine_intrinsics = !options.intrinsics;
+  mapper.refine_intrinsics =
+      std::any_of(options.cameras.begin(), options.cameras.end(),
+                  [](const TrainingCamera& camera) { return !camera.given; });
+  // Many images of one size, each of which looks like the next, are frames of a film.
+  constexpr size_t kFilm = 50;
+  mapper.tell_cameras_apart =
+      !verified.film_gap || options.cameras.size() > 1 || images.size() <= kFilm;
   const std::vector<VerifiedPair> pairs =
       WithoutLookalikes(images, verified, mapper, progress, log);
-  std::optional<SparseMap> map = MapPairs(images, verified.camera, pairs, mapper, progress, log);
+  std::optional<SparseMap> map = MapPairs(images, verified.cameras, pairs, mapper, progress, log);
   if (progress.Cancelled()) {
     return CancelledStatus();
   }

@@ -17,13 +17,12 @@
 namespace lararium::train {
 
 struct ImageMappingOptions {
-  // Given intrinsics are kept. Otherwise they are estimated, starting from focal_prior_px.
-  std::optional<geometry::CameraModel> intrinsics;
-  std::optional<double> focal_prior_px;
+  // TrainingImage::camera is an index into these. Intrinsics that are not given are estimated.
+  std::vector<TrainingCamera> cameras;
   uint64_t seed = 1;
 };
 
-// Finds pairs of images that show the same part of the scene, and the camera to start from. All
+// Finds pairs of images that show the same part of the scene, and the intrinsics to start from. All
 // images must have the same size. Fails if there is no such pair, or if cancelled.
 Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
                                   const ImageMappingOptions& options,

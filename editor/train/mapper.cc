@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "editor/train/bundle_adjustment.h"
@@ -12,6 +15,42 @@ namespace lararium::train {
 namespace {
 
 using geometry::Rigid3;
+
+// The logarithm of a focal length, and its standard deviation.
+struct KnownFocal {
+  double log = 0.0;
+  double deviation = 0.0;
+};
+
+// Sets of focal lengths that may be one and the same, the largest first. Autofocus changes them by
+// a few percent.
+std::vector<std::vector<uint32_t>> AgreeingFocals(std::span<const KnownFocal> focals) {
+  constexpr double kBreathing = 0.03;
+  constexpr double kDeviations = 3.0;
+  std::vector<uint32_t> left(focals.size());
+  std::iota(left.begin(), left.end(), 0);
+  std::vector<std::vector<uint32_t>> sets;
+  while (!left.empty()) {
+    std::vector<uint32_t> best;
+    for (const uint32_t middle : left) {
+      std::vector<uint32_t> set;
+      for (const uint32_t other : left) {
+        const double doubt = std::hypot(focals[middle].deviation, focals[other].deviation);
+        if (other == middle || std::abs(focals[other].log - focals[middle].log) <
+                                   std::max(kBreathing, kDeviations * doubt)) {
+          set.push_back(other);
+        }
+      }
+      if (set.size() > best.size()) {
+        best = std::move(set);
+      }
+    }
+    std::erase_if(left,
+                  [&](uint32_t i) { return std::binary_search(best.begin(), best.end(), i); });
+    sets.push_back(std::move(best));
+  }
+  return sets;
+}
 
 class Mapper {
  public:
@@ -25,7 +64,8 @@ class Mapper {
         options_(options),
         progress_(progress),
         log_(log),
-        first_camera_(reconstruction.camera()) {}
+        first_cameras_(reconstruction.cameras().begin(), reconstruction.cameras().end()),
+        first_camera_of_image_(reconstruction.camera_of_image()) {}
 
   std::optional<InitialPair> Run() {
     constexpr size_t kMaxStarts = 20;
@@ -108,9 +148,7 @@ class Mapper {
     for (const uint32_t image : reconstruction_.LocatedImages()) {
       reconstruction_.Unlocate(image);
     }
-    if (reconstruction_.camera() != first_camera_) {
-      reconstruction_.SetCamera(first_camera_);
-    }
+    reconstruction_.SetCameras(first_cameras_, first_camera_of_image_);
   }
 
   // Two views of a plane allow two maps. Further images decide which one is right.
@@ -141,10 +179,10 @@ class Mapper {
   std::vector<Rigid3> PossiblePoses(const VerifiedPair& pair) const {
     constexpr double kPlanarShare = 0.8;
     constexpr double kThresholdPx = 2.0;
-    const geometry::CameraModel& camera = reconstruction_.camera();
+    const double focal = 0.5 * (reconstruction_.camera(pair.images.a).Focal() +
+                                reconstruction_.camera(pair.images.b).Focal());
     std::vector<Rigid3> poses = {pair.b_from_a};
-    const PlanarGeometry planar =
-        EstimatePlanarGeometry(CommonPoints(pair), kThresholdPx / camera.Focal());
+    const PlanarGeometry planar = EstimatePlanarGeometry(CommonPoints(pair), kThresholdPx / focal);
     if (planar.share > kPlanarShare) {
       poses.insert(poses.end(), planar.b_from_a.begin(), planar.b_from_a.end());
     }
@@ -182,6 +220,7 @@ class Mapper {
 
   bool Start(const VerifiedPair& pair, const Rigid3& b_from_a) {
     Forget();
+    finishing_ = false;
     anchors_ = {pair.images.a, pair.images.b};
     reconstruction_.Locate(anchors_[0], Rigid3{});
     reconstruction_.Locate(anchors_[1], b_from_a);
@@ -226,7 +265,11 @@ class Mapper {
 
   void Finish() {
     constexpr int kRounds = 2;
+    finishing_ = true;
     TriangulationOptions limits = options_.triangulation;
+    if (options_.tell_cameras_apart) {
+      TellCamerasApart();
+    }
     for (int round = 0; round < kRounds && !progress_.Cancelled(); ++round) {
       progress_.Report("refining", static_cast<double>(round) / kRounds);
       CompleteAll(limits.max_error_px);
@@ -246,7 +289,9 @@ class Mapper {
     AdjustAll(reconstruction_, anchors_, bundle);
     FilterAll(limits);
     DropMoving();
-    if (bundle.refine_intrinsics && !progress_.Cancelled()) {
+    // Photographs by several cameras hardly determine the principal point of each.
+    if (bundle.refine_intrinsics && reconstruction_.cameras().size() == 1 &&
+        !progress_.Cancelled()) {
       FreeCentre(bundle, limits);
     }
   }
@@ -279,6 +324,78 @@ class Mapper {
     }
   }
 
+  // Whether it is only assumed which camera took an image.
+  bool Assumed(uint32_t image) const {
+    const TrainingCamera& camera = first_cameras_[first_camera_of_image_[image]];
+    return camera.assumed && !camera.given;
+  }
+
+  // Finds out by which cameras the images were taken of which it is only assumed: estimates the
+  // intrinsics of each image by themselves, then joins those whose focal lengths agree.
+  void TellCamerasApart() {
+    std::map<uint32_t, std::vector<uint32_t>> groups;  // Key: the camera that was assumed.
+    for (const uint32_t image : reconstruction_.LocatedImages()) {
+      if (Assumed(image)) {
+        groups[first_camera_of_image_[image]].push_back(image);
+      }
+    }
+    std::erase_if(groups, [](const auto& group) { return group.second.size() < 2; });
+    if (groups.empty()) {
+      return;
+    }
+    for (const auto& [camera, images] : groups) {
+      for (const uint32_t image : images) {
+        reconstruction_.GiveOwnCamera(image, reconstruction_.camera(image));
+      }
+    }
+    BundleOptions bundle = Growing();
+    bundle.max_iterations = 100;
+    bundle.function_tolerance = 1e-6;
+    bundle.points_per_image = 600;
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds && !progress_.Cancelled(); ++round) {
+      AdjustAll(reconstruction_, anchors_, bundle);
+      FilterAll(options_.triangulation);
+      CompleteAll(options_.triangulation.max_error_px);
+      Retriangulate();
+    }
+    const std::vector<IntrinsicsDeviation> deviations =
+        EstimateDeviations(reconstruction_, anchors_[0], bundle);
+    std::vector<TrainingCamera> cameras = first_cameras_;
+    std::vector<uint32_t> camera_of_image = first_camera_of_image_;
+    for (uint32_t i = 0; i < cameras.size(); ++i) {
+      cameras[i].model = reconstruction_.cameras()[i].model;
+    }
+    for (const auto& [camera, images] : groups) {
+      std::vector<KnownFocal> focals;
+      for (const uint32_t image : images) {
+        const double focal = reconstruction_.camera(image).fx;
+        const double deviation = deviations[reconstruction_.CameraOf(image)].focal_px / focal;
+        focals.push_back({std::log(focal), deviation});
+      }
+      const std::vector<std::vector<uint32_t>> sets = AgreeingFocals(focals);
+      for (size_t set = 0; set < sets.size(); ++set) {
+        // The largest set keeps the camera that was assumed.
+        const auto index = set == 0 ? camera : static_cast<uint32_t>(cameras.size());
+        if (set > 0) {
+          cameras.push_back(first_cameras_[camera]);
+        }
+        // Begins with the intrinsics that are known best.
+        const uint32_t best = *std::min_element(
+            sets[set].begin(), sets[set].end(),
+            [&](uint32_t a, uint32_t b) { return focals[a].deviation < focals[b].deviation; });
+        cameras[index].model = reconstruction_.camera(images[best]);
+        for (const uint32_t member : sets[set]) {
+          camera_of_image[images[member]] = index;
+        }
+      }
+      log_.info("{} images of one size were taken by {} cameras", images.size(), sets.size());
+    }
+    reconstruction_.SetCameras(std::move(cameras), std::move(camera_of_image));
+    AdjustAll(reconstruction_, anchors_, bundle);
+    FilterAll(options_.triangulation);
+  }
+
   BundleOptions Growing() const {
     constexpr size_t kImagesForIntrinsics = 4;
     BundleOptions bundle;
@@ -287,6 +404,8 @@ class Mapper {
     bundle.points_per_image = 300;
     bundle.refine_intrinsics = options_.refine_intrinsics &&
                                reconstruction_.LocatedImages().size() >= kImagesForIntrinsics;
+    // A few images hardly determine the distortion of many cameras.
+    bundle.refine_radial = reconstruction_.cameras().size() == 1 || finishing_;
     return bundle;
   }
 
@@ -294,7 +413,7 @@ class Mapper {
   // grids from 2x2 to 16x16 (Schoenberger & Frahm, CVPR 2016, section 4.2).
   size_t VisibilityScore(uint32_t image) const {
     constexpr int kLevels = 4;
-    const geometry::CameraModel& camera = reconstruction_.camera();
+    const geometry::CameraModel& camera = reconstruction_.camera(image);
     size_t score = 0;
     std::vector<uint8_t> occupied;
     for (int level = 1; level <= kLevels; ++level) {
@@ -346,8 +465,11 @@ class Mapper {
         points.push_back(reconstruction_.Point(reconstruction_.TrackOf(element)));
       }
     }
-    const std::optional<Resection> resection =
-        LocateImage(reconstruction_.camera(), pixels, points, options_.resection);
+    std::optional<Resection> resection =
+        LocateImage(reconstruction_.camera(image), pixels, points, options_.resection);
+    if (options_.tell_cameras_apart && Assumed(image)) {
+      SolveLens(image, pixels, points, resection);
+    }
     if (!resection) {
       return false;
     }
@@ -358,6 +480,44 @@ class Mapper {
     log_.debug("located image {}: {} of {} points, {} in the map", image, resection->inliers.size(),
                points.size(), reconstruction_.PointCount());
     return true;
+  }
+
+  // Solves for the intrinsics too if those of the image's camera are a mere guess or explain the
+  // image badly. If the solution explains clearly more, it belongs to the camera or, if others were
+  // located with that one already, to a camera of its own.
+  void SolveLens(uint32_t image,
+                 std::span<const Eigen::Vector2d> pixels,
+                 std::span<const Eigen::Vector3d> points,
+                 std::optional<Resection>& resection) {
+    constexpr double kExplained = 0.7;     // Share of the points.
+    constexpr double kClearlyMore = 1.15;  // Ratio of numbers of points.
+    constexpr double kOtherFocal = 0.03;
+    const uint32_t camera = reconstruction_.CameraOf(image);
+    const std::vector<uint32_t> located = reconstruction_.LocatedImages();
+    const bool seen = std::any_of(located.begin(), located.end(), [&](uint32_t i) {
+      return reconstruction_.CameraOf(i) == camera;
+    });
+    const double inliers = resection ? static_cast<double>(resection->inliers.size()) : 0.0;
+    if (reconstruction_.cameras()[camera].given ||
+        ((seen || reconstruction_.cameras()[camera].FocalKnown()) &&
+         inliers > kExplained * static_cast<double>(pixels.size()))) {
+      return;
+    }
+    const geometry::CameraModel before = reconstruction_.camera(image);
+    std::optional<LensResection> found =
+        LocateImageAndLens(reconstruction_.cameras()[camera], pixels, points, options_.resection);
+    if (!found || static_cast<double>(found->resection.inliers.size()) < kClearlyMore * inliers ||
+        std::abs(std::log(found->camera.fx / before.fx)) < kOtherFocal) {
+      return;
+    }
+    resection = std::move(found->resection);
+    log_.debug("image {}: focal length {:.0f} instead of {:.0f} pixels", image, found->camera.fx,
+               before.fx);
+    if (seen) {
+      reconstruction_.GiveOwnCamera(image, found->camera);
+    } else {
+      reconstruction_.SetCamera(camera, found->camera);
+    }
   }
 
   // Adds observations of known points in a new image, then new points.
@@ -456,11 +616,13 @@ class Mapper {
   MapperOptions options_;
   Progress& progress_;
   Log& log_;
-  geometry::CameraModel first_camera_;
+  std::vector<TrainingCamera> first_cameras_;
+  std::vector<uint32_t> first_camera_of_image_;
   InitialPair anchors_ = {0, 0};
   std::optional<Reconstruction> best_;
   InitialPair best_anchors_ = {0, 0};
   size_t last_global_ = 0;
+  bool finishing_ = false;  // The map has grown, and is refined.
 };
 
 }  // namespace

@@ -21,6 +21,9 @@ inline constexpr size_t kFinalPointsPerImage = 1500;
 
 struct MapperOptions {
   bool refine_intrinsics = false;
+  // Images whose camera is only assumed may have been taken by several cameras. Not so for the
+  // frames of a film.
+  bool tell_cameras_apart = false;
   TriangulationOptions triangulation;  // Limits while the map grows.
   double final_max_error_px = 2.5;     // Largest observation error in the finished map.
   ResectionOptions resection;

@@ -25,10 +25,12 @@ std::vector<Eigen::Vector2d> Undistort(const Features& features, const CameraMod
   return points;
 }
 
-std::vector<std::vector<Eigen::Vector2d>> UndistortAll(std::span<const Features> images,
-                                                       const CameraModel& camera) {
-  std::vector<std::vector<Eigen::Vector2d>> plane_points(images.size());
-  ParallelFor(images.size(), [&](size_t i) { plane_points[i] = Undistort(images[i], camera); });
+std::vector<std::vector<Eigen::Vector2d>> UndistortAll(const CameraImages& images,
+                                                       std::span<const TrainingCamera> cameras) {
+  std::vector<std::vector<Eigen::Vector2d>> plane_points(images.features.size());
+  ParallelFor(plane_points.size(), [&](size_t i) {
+    plane_points[i] = Undistort(images.features[i], cameras[images.camera_of_image[i]].model);
+  });
   return plane_points;
 }
 
@@ -70,7 +72,8 @@ struct TwoViewGeometry {
   geometry::Rigid3 b_from_a;
   double median_angle = 0.0;
 };
-using EstimateGeometry = std::function<std::optional<TwoViewGeometry>(const PointPairs&)>;
+using EstimateGeometry =
+    std::function<std::optional<TwoViewGeometry>(const ImagePair&, const PointPairs&)>;
 
 // Matches pairs of images, beginning with the strongest features. If these determine the two-view
 // geometry, the other features are searched along their epipolar lines only.
@@ -163,7 +166,7 @@ class PairMatcher {
     if (matches.size() < options_.min_matches) {
       return std::nullopt;
     }
-    std::optional<TwoViewGeometry> geometry = estimate_(PointsOf(pair, matches));
+    std::optional<TwoViewGeometry> geometry = estimate_(pair, PointsOf(pair, matches));
     if (!geometry || geometry->inliers.size() < options_.min_matches) {
       return std::nullopt;
     }
@@ -202,29 +205,25 @@ std::vector<VerifiedPair> Compact(std::vector<std::optional<VerifiedPair>> found
   return pairs;
 }
 
-CameraModel CentredCamera(int width, int height, double focal) {
-  CameraModel camera;
-  camera.width = width;
-  camera.height = height;
-  camera.fx = camera.fy = focal;
-  camera.cx = 0.5 * (width - 1);
-  camera.cy = 0.5 * (height - 1);
-  return camera;
+// The mean focal length of the cameras of a pair: turns pixels into lengths on the plane z = 1.
+double FocalOf(const CameraImages& images,
+               std::span<const TrainingCamera> cameras,
+               const ImagePair& pair) {
+  return 0.5 * (cameras[images.camera_of_image[pair.a]].model.Focal() +
+                cameras[images.camera_of_image[pair.b]].model.Focal());
 }
 
-}  // namespace
-
-std::vector<VerifiedPair> VerifyPairs(std::span<const Features> images,
-                                      std::span<const ImagePair> candidates,
-                                      const CameraModel& camera,
-                                      const VerificationOptions& options,
-                                      Progress& progress) {
-  const auto plane_points = UndistortAll(images, camera);
-  const double threshold = options.threshold_px / camera.Focal();
+VerifiedPairs VerifyCalibrated(const CameraImages& images,
+                               std::span<const ImagePair> candidates,
+                               const VerificationOptions& options,
+                               Progress& progress) {
+  const auto plane_points = UndistortAll(images, images.cameras);
   const PairMatcher matcher(
-      images, plane_points, options.band_px / camera.Focal(), options,
-      [&](const PointPairs& points) -> std::optional<TwoViewGeometry> {
-        std::optional<RelativePose> pose = EstimateRelativePose(points, threshold);
+      images.features, plane_points, options.band_px / images.cameras.front().model.Focal(),
+      options,
+      [&](const ImagePair& pair, const PointPairs& points) -> std::optional<TwoViewGeometry> {
+        std::optional<RelativePose> pose = EstimateRelativePose(
+            points, options.threshold_px / FocalOf(images, images.cameras, pair));
         if (!pose) {
           return std::nullopt;
         }
@@ -239,20 +238,42 @@ std::vector<VerifiedPair> VerifyPairs(std::span<const Features> images,
                               match->geometry.median_angle};
     }
   });
-  return Compact(std::move(found));
+  return {Compact(std::move(found)), {images.cameras.begin(), images.cameras.end()}};
 }
 
-VerifiedPairs VerifyPairsUncalibrated(std::span<const Features> images,
-                                      std::span<const ImagePair> candidates,
-                                      int width,
-                                      int height,
-                                      std::optional<double> focal_prior_px,
-                                      const VerificationOptions& options,
-                                      Progress& progress) {
-  const auto pixels = PixelsOf(images);
+double LongerSide(const TrainingCamera& camera) {
+  const CameraModel model = ModelOfArea(camera);
+  return std::max(model.width, model.height);
+}
+
+// A fundamental matrix of pixels, as one of positions relative to the principal points, in units of
+// the images' longer sides.
+Eigen::Matrix3d InSides(const Eigen::Matrix3d& fundamental,
+                        const TrainingCamera& a,
+                        const TrainingCamera& b) {
+  const auto pixel_from_share = [](const TrainingCamera& camera) {
+    const double side = LongerSide(camera);
+    Eigen::Matrix3d k;
+    k << side, 0, camera.model.cx, 0, side, camera.model.cy, 0, 0, 1;
+    return k;
+  };
+  return pixel_from_share(b).transpose() * fundamental * pixel_from_share(a);
+}
+
+}  // namespace
+
+VerifiedPairs VerifyPairs(const CameraImages& images,
+                          std::span<const ImagePair> candidates,
+                          const VerificationOptions& options,
+                          Progress& progress) {
+  if (std::all_of(images.cameras.begin(), images.cameras.end(),
+                  [](const TrainingCamera& camera) { return camera.given; })) {
+    return VerifyCalibrated(images, candidates, options, progress);
+  }
+  const auto pixels = PixelsOf(images.features);
   const PairMatcher matcher(
-      images, pixels, options.band_px, options,
-      [&](const PointPairs& points) -> std::optional<TwoViewGeometry> {
+      images.features, pixels, options.band_px, options,
+      [&](const ImagePair&, const PointPairs& points) -> std::optional<TwoViewGeometry> {
         std::optional<Fundamental> fundamental = EstimateFundamental(points, options.threshold_px);
         if (!fundamental) {
           return std::nullopt;
@@ -269,32 +290,39 @@ VerifiedPairs VerifyPairsUncalibrated(std::span<const Features> images,
           Fundamental{match->geometry.fundamental, std::move(match->geometry.inliers)};
     }
   });
+  std::vector<TrainingCamera> cameras(images.cameras.begin(), images.cameras.end());
   std::vector<Fundamental> votes;
   for (size_t i = 0; i < found.size(); ++i) {
     if (found[i]) {
-      votes.push_back(*fundamentals[i]);
+      const TrainingCamera& a = cameras[images.camera_of_image[candidates[i].a]];
+      const TrainingCamera& b = cameras[images.camera_of_image[candidates[i].b]];
+      if (!a.FocalKnown() && !b.FocalKnown()) {
+        votes.push_back(*std::move(fundamentals[i]));
+        votes.back().matrix = InSides(votes.back().matrix, a, b);
+      }
     }
   }
-  if (!focal_prior_px) {
-    focal_prior_px = EstimateFocal(votes, width, height);
+  const double share = EstimateFocal(votes).value_or(1.2);
+  for (TrainingCamera& camera : cameras) {
+    if (!camera.FocalKnown()) {
+      camera.model.fx = camera.model.fy = share * LongerSide(camera);
+    }
   }
-  const CameraModel camera =
-      CentredCamera(width, height, focal_prior_px.value_or(1.2 * std::max(width, height)));
-  const auto plane_points = UndistortAll(images, camera);
+  const auto plane_points = UndistortAll(images, cameras);
   ParallelFor(found.size(), [&](size_t i) {
     if (!found[i]) {
       return;
     }
     // The threshold allows for the effect of a wrong focal length and distortion on true matches.
-    const std::optional<RelativePose> pose =
-        EstimateRelativePose(PairUp(plane_points, found[i]->images, found[i]->matches),
-                             2.0 * options.threshold_px / camera.Focal());
+    const std::optional<RelativePose> pose = EstimateRelativePose(
+        PairUp(plane_points, found[i]->images, found[i]->matches),
+        2.0 * options.threshold_px / FocalOf(images, cameras, found[i]->images));
     if (pose && 2 * pose->inliers.size() >= found[i]->matches.size()) {
       found[i]->b_from_a = pose->b_from_a;
       found[i]->median_angle = pose->median_angle;
     }
   });
-  return {Compact(std::move(found)), camera};
+  return {Compact(std::move(found)), std::move(cameras)};
 }
 
 }  // namespace lararium::train

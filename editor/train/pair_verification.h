@@ -8,6 +8,7 @@
 
 #include "editor/train/pair_selection.h"
 #include "editor/train/tracks.h"
+#include "editor/train/training_camera.h"
 #include "shared/core/progress.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/vision/features.h"
@@ -24,29 +25,27 @@ struct VerificationOptions {
 };
 
 struct VerifiedPairs {
-  std::vector<VerifiedPair> pairs;  // Ordered as the candidates.
-  geometry::CameraModel camera;
+  std::vector<VerifiedPair> pairs;      // Ordered as the candidates.
+  std::vector<TrainingCamera> cameras;  // The mapping begins with their intrinsics.
   // Images of a film whose index differs by no more than this follow one another and overlap. None
   // if the images are unordered.
   std::optional<uint32_t> film_gap = std::nullopt;
 };
 
-// Verifies pairs with known intrinsics.
-std::vector<VerifiedPair> VerifyPairs(std::span<const vision::Features> images,
-                                      std::span<const ImagePair> candidates,
-                                      const geometry::CameraModel& camera,
-                                      const VerificationOptions& options,
-                                      Progress& progress);
+// The images and the cameras that took them; camera_of_image[image] is an index into cameras.
+struct CameraImages {
+  std::span<const vision::Features> features;
+  std::span<const TrainingCamera> cameras;
+  std::span<const uint32_t> camera_of_image;
+};
 
-// Verifies pairs without intrinsics, by fundamental matrices. The focal length is the prior if
-// given, otherwise the one that the matrices agree on, otherwise 1.2 times the longer side. The
-// poses are computed with it.
-VerifiedPairs VerifyPairsUncalibrated(std::span<const vision::Features> images,
-                                      std::span<const ImagePair> candidates,
-                                      int width,
-                                      int height,
-                                      std::optional<double> focal_prior_px,
-                                      const VerificationOptions& options,
-                                      Progress& progress);
+// Verifies pairs. If the intrinsics of all cameras are given, this is done by essential matrices.
+// Otherwise it is done by fundamental matrices; a focal length that is not known is then the one
+// that the matrices agree on, as a share of the image's longer side, otherwise 1.2 times that side.
+// Principal points are those of the models. The poses are computed with these intrinsics.
+VerifiedPairs VerifyPairs(const CameraImages& images,
+                          std::span<const ImagePair> candidates,
+                          const VerificationOptions& options,
+                          Progress& progress);
 
 }  // namespace lararium::train

@@ -13,11 +13,11 @@ namespace lararium::train {
 
 using geometry::Rigid3;
 
-Reconstruction::Reconstruction(const geometry::CameraModel& camera,
+Reconstruction::Reconstruction(std::vector<TrainingCamera> cameras,
+                               std::vector<uint32_t> camera_of_image,
                                std::vector<std::vector<Eigen::Vector2d>> pixels,
                                Tracks tracks)
-    : camera_(camera),
-      pixels_(std::move(pixels)),
+    : pixels_(std::move(pixels)),
       tracks_(std::move(tracks)),
       element_track_(tracks_.elements.size()),
       image_elements_(pixels_.size()),
@@ -31,15 +31,51 @@ Reconstruction::Reconstruction(const geometry::CameraModel& camera,
       image_elements_[ImageOf(element)].push_back(element);
     }
   }
-  SetCamera(camera);
+  plane_points_.resize(tracks_.elements.size());
+  camera_of_image.resize(pixels_.size(), 0);
+  SetCameras(std::move(cameras), std::move(camera_of_image));
 }
 
-void Reconstruction::SetCamera(const geometry::CameraModel& camera) {
-  camera_ = camera;
-  plane_points_.resize(tracks_.elements.size());
-  for (uint32_t element = 0; element < plane_points_.size(); ++element) {
-    plane_points_[element] = camera_.PlaneFromPixel(Pixel(element));
+void Reconstruction::SetCameras(std::vector<TrainingCamera> cameras,
+                                std::vector<uint32_t> camera_of_image) {
+  CHECK(camera_of_image.size() == pixels_.size());
+  cameras_ = std::move(cameras);
+  camera_of_image_ = std::move(camera_of_image);
+  for (uint32_t image = 0; image < image_count(); ++image) {
+    CHECK(CameraOf(image) < cameras_.size());
+    FillPlanePoints(image);
   }
+}
+
+void Reconstruction::SetCamera(uint32_t index, const geometry::CameraModel& camera) {
+  cameras_[index].model = camera;
+  for (uint32_t image = 0; image < image_count(); ++image) {
+    if (CameraOf(image) == index) {
+      FillPlanePoints(image);
+    }
+  }
+}
+
+void Reconstruction::GiveOwnCamera(uint32_t image, const geometry::CameraModel& camera) {
+  TrainingCamera own = cameras_[CameraOf(image)];
+  own.model = camera;
+  camera_of_image_[image] = static_cast<uint32_t>(cameras_.size());
+  cameras_.push_back(own);
+  FillPlanePoints(image);
+}
+
+void Reconstruction::FillPlanePoints(uint32_t image) {
+  for (const uint32_t element : ElementsOf(image)) {
+    plane_points_[element] = camera(image).PlaneFromPixel(Pixel(element));
+  }
+}
+
+uint32_t Reconstruction::MainCamera() const {
+  std::vector<size_t> images(cameras_.size(), 0);
+  for (const uint32_t image : LocatedImages()) {
+    ++images[CameraOf(image)];
+  }
+  return static_cast<uint32_t>(std::max_element(images.begin(), images.end()) - images.begin());
 }
 
 Rigid3 Reconstruction::PoseOf(uint32_t element) const {
@@ -48,7 +84,7 @@ Rigid3 Reconstruction::PoseOf(uint32_t element) const {
     return camera_from_map(image);
   }
   return vision::PoseAfter(camera_from_map(image), motions_[image],
-                           readout_.dot(vision::ReadoutOrder(camera_, Pixel(element))));
+                           readout_.dot(vision::ReadoutOrder(camera(image), Pixel(element))));
 }
 
 std::vector<uint32_t> Reconstruction::LocatedImages() const {
@@ -82,7 +118,8 @@ size_t Reconstruction::PointCount() const {
 }
 
 double Reconstruction::SquaredErrorPx(uint32_t element, const Eigen::Vector3d& point) const {
-  const std::optional<Eigen::Vector2d> pixel = camera_.Project(PoseOf(element) * point);
+  const std::optional<Eigen::Vector2d> pixel =
+      camera(ImageOf(element)).Project(PoseOf(element) * point);
   return pixel ? (*pixel - Pixel(element)).squaredNorm() : std::numeric_limits<double>::infinity();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "editor/train/tracks.h"
+#include "editor/train/training_camera.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 
@@ -26,13 +27,33 @@ struct TriangulationOptions {
 
 class Reconstruction {
  public:
+  // camera_of_image[image] is an index into cameras; empty if one camera took all images.
   // pixels[image][feature] are raw pixels. The elements of tracks are indices into them.
-  Reconstruction(const geometry::CameraModel& camera,
+  Reconstruction(std::vector<TrainingCamera> cameras,
+                 std::vector<uint32_t> camera_of_image,
                  std::vector<std::vector<Eigen::Vector2d>> pixels,
                  Tracks tracks);
+  Reconstruction(const geometry::CameraModel& camera,
+                 std::vector<std::vector<Eigen::Vector2d>> pixels,
+                 Tracks tracks)
+      : Reconstruction({{camera}}, {}, std::move(pixels), std::move(tracks)) {}
 
-  const geometry::CameraModel& camera() const { return camera_; }
-  void SetCamera(const geometry::CameraModel& camera);
+  std::span<const TrainingCamera> cameras() const { return cameras_; }
+  uint32_t CameraOf(uint32_t image) const { return camera_of_image_[image]; }
+  // The camera that took an image.
+  const geometry::CameraModel& camera(uint32_t image) const {
+    return cameras_[CameraOf(image)].model;
+  }
+  // The camera that took most of the located images; of equals, the first.
+  uint32_t MainCamera() const;
+  // The camera that took most of the located images.
+  const geometry::CameraModel& camera() const { return cameras_[MainCamera()].model; }
+  void SetCamera(uint32_t index, const geometry::CameraModel& camera);
+  // Adds a camera of its own for an image that turned out not to be taken by its camera.
+  void GiveOwnCamera(uint32_t image, const geometry::CameraModel& camera);
+  // Goes back to cameras and images as they were given to the constructor.
+  void SetCameras(std::vector<TrainingCamera> cameras, std::vector<uint32_t> camera_of_image);
+  const std::vector<uint32_t>& camera_of_image() const { return camera_of_image_; }
 
   // The shutter of the camera: its readout time and, for each image, the motion meanwhile; see
   // vision::RollingShutter. A global shutter unless set.
@@ -113,8 +134,10 @@ class Reconstruction {
                                       const TriangulationOptions& options) const;
   std::vector<uint32_t> LocatedElements(uint32_t track) const;
   void DropPoint(uint32_t track);
+  void FillPlanePoints(uint32_t image);
 
-  geometry::CameraModel camera_;
+  std::vector<TrainingCamera> cameras_;
+  std::vector<uint32_t> camera_of_image_;
   Eigen::Vector2d readout_ = Eigen::Vector2d::Zero();
   std::vector<ImageMotion> motions_;  // [image], or empty
   std::vector<std::vector<Eigen::Vector2d>> pixels_;

@@ -88,6 +88,47 @@ std::vector<uint32_t> Inliers(const CameraModel& camera,
   return inliers;
 }
 
+// Adjusts a pose to its inliers, and the lens if `adjusted` says so, then decides whether enough
+// correspondences agree with it.
+std::optional<LensResection> Refine(const TrainingCamera& camera,
+                                    std::span<const Eigen::Vector2d> pixels,
+                                    std::span<const Eigen::Vector3d> points,
+                                    const Rigid3& camera_from_map,
+                                    const BundleOptions& adjusted,
+                                    const ResectionOptions& options) {
+  PosedView view{camera_from_map, camera.model};
+  constexpr int kRefinements = 2;  // The second one uses the inliers of the first result.
+  for (int i = 0; i < kRefinements; ++i) {
+    std::vector<Eigen::Vector2d> inlier_pixels;
+    std::vector<Eigen::Vector3d> inlier_points;
+    for (const uint32_t index :
+         Inliers(view.camera, pixels, points, view.camera_from_map, options.max_error_px)) {
+      inlier_pixels.push_back(pixels[index]);
+      inlier_points.push_back(points[index]);
+    }
+    if (inlier_pixels.size() < options.min_inliers) {
+      return std::nullopt;
+    }
+    TrainingCamera start = camera;
+    start.model = view.camera;
+    const std::optional<PosedView> better =
+        AdjustView(start, inlier_pixels, inlier_points, view.camera_from_map, adjusted);
+    if (!better) {
+      return std::nullopt;
+    }
+    view = *better;
+  }
+  LensResection found{{view.camera_from_map, Inliers(view.camera, pixels, points,
+                                                     view.camera_from_map, options.max_error_px)},
+                      view.camera};
+  const size_t inliers = found.resection.inliers.size();
+  const double share = static_cast<double>(inliers) / static_cast<double>(pixels.size());
+  if (inliers < options.min_inliers || share < options.min_inlier_share) {
+    return std::nullopt;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<Resection> LocateImage(const CameraModel& camera,
@@ -98,30 +139,45 @@ std::optional<Resection> LocateImage(const CameraModel& camera,
   if (pixels.size() < options.min_inliers) {
     return std::nullopt;
   }
-  std::optional<Rigid3> pose = EstimateByRansac(camera, pixels, points, options);
-  constexpr int kRefinements = 2;  // The second one uses the inliers of the first result.
-  for (int i = 0; i < kRefinements && pose; ++i) {
-    std::vector<Eigen::Vector2d> inlier_pixels;
-    std::vector<Eigen::Vector3d> inlier_points;
-    for (const uint32_t index : Inliers(camera, pixels, points, *pose, options.max_error_px)) {
-      inlier_pixels.push_back(pixels[index]);
-      inlier_points.push_back(points[index]);
-    }
-    if (inlier_pixels.size() < options.min_inliers) {
-      return std::nullopt;
-    }
-    pose = AdjustPose(camera, inlier_pixels, inlier_points, *pose, BundleOptions());
-  }
-  if (!pose) {
+  const std::optional<Rigid3> pose = EstimateByRansac(camera, pixels, points, options);
+  std::optional<LensResection> found =
+      pose ? Refine({camera}, pixels, points, *pose, BundleOptions(), options) : std::nullopt;
+  return found ? std::optional(std::move(found->resection)) : std::nullopt;
+}
+
+std::optional<LensResection> LocateImageAndLens(const TrainingCamera& guess,
+                                                std::span<const Eigen::Vector2d> pixels,
+                                                std::span<const Eigen::Vector3d> points,
+                                                const ResectionOptions& options) {
+  CHECK(pixels.size() == points.size());
+  if (pixels.size() < options.min_inliers) {
     return std::nullopt;
   }
-  Resection resection{*pose, Inliers(camera, pixels, points, *pose, options.max_error_px)};
-  const double share =
-      static_cast<double>(resection.inliers.size()) / static_cast<double>(pixels.size());
-  if (resection.inliers.size() < options.min_inliers || share < options.min_inlier_share) {
-    return std::nullopt;
+  constexpr int kSteps = 16;
+  constexpr double kRange = 2.5;
+  // A pose that makes up for the nearest focal length of the grid leaves larger errors.
+  ResectionOptions coarse = options;
+  coarse.max_error_px *= 2.0;
+  TrainingCamera best_camera;
+  std::optional<Rigid3> best;
+  size_t most = 0;
+  for (int step = 0; step <= kSteps; ++step) {
+    TrainingCamera camera = guess;
+    const double factor = std::pow(kRange, 2.0 * step / kSteps - 1.0);
+    camera.model.fx *= factor;
+    camera.model.fy *= factor;
+    const std::optional<Rigid3> pose = EstimateByRansac(camera.model, pixels, points, coarse);
+    const size_t inliers =
+        pose ? Inliers(camera.model, pixels, points, *pose, options.max_error_px).size() : 0;
+    if (inliers > most) {
+      most = inliers;
+      best = pose;
+      best_camera = camera;
+    }
   }
-  return resection;
+  BundleOptions adjusted;
+  adjusted.refine_intrinsics = true;
+  return best ? Refine(best_camera, pixels, points, *best, adjusted, options) : std::nullopt;
 }
 
 }  // namespace lararium::train

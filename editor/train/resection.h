@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "editor/train/training_camera.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
 
@@ -32,5 +33,17 @@ std::optional<Resection> LocateImage(const geometry::CameraModel& camera,
                                      std::span<const Eigen::Vector2d> pixels,
                                      std::span<const Eigen::Vector3d> points,
                                      const ResectionOptions& options);
+
+struct LensResection {
+  Resection resection;
+  geometry::CameraModel camera;
+};
+
+// The same for a camera whose focal length and radial distortion are not known: tries focal lengths
+// from 0.4 to 2.5 times that of `guess`, then adjusts the intrinsics with the pose.
+std::optional<LensResection> LocateImageAndLens(const TrainingCamera& guess,
+                                                std::span<const Eigen::Vector2d> pixels,
+                                                std::span<const Eigen::Vector3d> points,
+                                                const ResectionOptions& options);
 
 }  // namespace lararium::train

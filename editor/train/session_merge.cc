@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "editor/train/budget.h"
+#include "editor/train/camera_transfer.h"
 #include "editor/train/database_builder.h"
 #include "editor/train/lookalikes.h"
 #include "editor/train/session_adjustment.h"
@@ -48,64 +49,6 @@ Status NotFound(size_t located, size_t keyframes) {
                            " images of the new video were found in the map",
                        "film the place from where it was filmed before, so that most of each view "
                        "is known; where the light differs much, film once more in light between");
-}
-
-// ------------------------------------------------------------ the map's camera
-
-Eigen::Vector2d PixelIn(const CameraModel& to, const CameraModel& from, float x, float y) {
-  return to.PixelFromPlane(from.PlaneFromPixel({x, y}));
-}
-
-// Resamples an image of camera `from` to that which camera `to` would have taken.
-cv::Mat Resampled(cv::Mat image, CameraModel from, const CameraModel& to) {
-  if (image.empty() || from == to) {
-    return image;
-  }
-  if (from.Focal() > 1.5 * to.Focal()) {  // Averages first, against aliasing.
-    from = from.Resized(
-        std::max(1, static_cast<int>(std::lround(from.width * to.Focal() / from.Focal()))),
-        std::max(1, static_cast<int>(std::lround(from.height * to.Focal() / from.Focal()))));
-    cv::resize(image, image, cv::Size(from.width, from.height), 0.0, 0.0, cv::INTER_AREA);
-  }
-  cv::Mat resampled;
-  cv::remap(image, resampled, geometry::PixelsSeenBy(from, to), cv::noArray(), cv::INTER_LINEAR,
-            cv::BORDER_REPLICATE);
-  return resampled;
-}
-
-Features FeaturesIn(const CameraModel& to, const CameraModel& from, const Features& features) {
-  if (from == to) {
-    return features;
-  }
-  Features moved;
-  for (size_t f = 0; f < features.size(); ++f) {
-    vision::Keypoint keypoint = features.keypoints[f];
-    const Eigen::Vector2d pixel = PixelIn(to, from, keypoint.x, keypoint.y);
-    if (to.Contains(pixel)) {
-      keypoint.x = static_cast<float>(pixel.x());
-      keypoint.y = static_cast<float>(pixel.y());
-      keypoint.scale *= static_cast<float>(to.Focal() / from.Focal());
-      moved.keypoints.push_back(keypoint);
-      moved.descriptors.push_back(features.descriptors[f]);
-    }
-  }
-  return moved;
-}
-
-std::vector<Observation> ObservationsIn(const CameraModel& to,
-                                        const CameraModel& from,
-                                        std::vector<Observation> observations) {
-  if (from == to) {
-    return observations;
-  }
-  for (Observation& o : observations) {
-    const Eigen::Vector2d pixel = PixelIn(to, from, o.x, o.y);
-    o.x = static_cast<float>(pixel.x());
-    o.y = static_cast<float>(pixel.y());
-    o.scale *= static_cast<float>(to.Focal() / from.Focal());
-  }
-  std::erase_if(observations, [&](const Observation& o) { return !to.Contains({o.x, o.y}); });
-  return observations;
 }
 
 // ------------------------------------------------------------ similarities
@@ -663,11 +606,15 @@ class Merger {
 
 // ------------------------------------------------------------ the video
 
-Result<CameraModel> CameraOf(const SceneDatabase& map,
-                             const capture::FrameSource& source,
-                             const TrainOptions& options) {
-  return options.intrinsics ? Result<CameraModel>(*options.intrinsics)
-                            : map.camera.ForImages(source.width(), source.height());
+// The intrinsics to train with; nullopt if they have to be estimated.
+std::optional<CameraModel> KnownCamera(const SceneDatabase& map,
+                                       const capture::FrameSource& source,
+                                       const TrainOptions& options) {
+  if (options.intrinsics) {
+    return options.intrinsics;
+  }
+  const Result<CameraModel> same = map.camera.ForImages(source.width(), source.height());
+  return same.ok() && source.Cameras().size() == 1 ? std::optional(*same) : std::nullopt;
 }
 
 Result<std::vector<Features>> KeyframeFeatures(const SceneDatabase& session,
@@ -771,10 +718,9 @@ Result<TrainResult> AddSession(const SceneDatabase& map,
     return Status::Error(kSessionPlace, "the map already has 32 sessions, the maximum",
                          "remove a session, or train the place again");
   }
-  if (const Result<CameraModel> camera = CameraOf(map, source, options); camera.ok()) {
-    of_session.intrinsics = *camera;
-  } else {
-    log.info("the video's aspect ratio differs from that of the map; its intrinsics are estimated");
+  of_session.intrinsics = KnownCamera(map, source, options);
+  if (!of_session.intrinsics) {
+    log.info("the images are not those of the map's camera; their intrinsics are estimated");
   }
   LARARIUM_ASSIGN_OR_RETURN(TrainResult trained, Train(source, of_session, progress, log));
   progress.Report("merging", 0.0);

@@ -58,6 +58,22 @@ Status ReadKeyframes(FrameReader& reader,
   return Status();
 }
 
+// The features of the part of an image that shows something.
+Result<vision::Features> FeaturesOf(const TrainingImage& image,
+                                    const vision::FeatureOptions& options) {
+  const cv::Rect whole({0, 0}, image.grey.size());
+  if (image.area.empty() || image.area == whole) {
+    return vision::ExtractFeatures(image.grey, options);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(vision::Features features,
+                            vision::ExtractFeatures(image.grey(image.area).clone(), options));
+  for (vision::Keypoint& keypoint : features.keypoints) {
+    keypoint.x += static_cast<float>(image.area.x);
+    keypoint.y += static_cast<float>(image.area.y);
+  }
+  return features;
+}
+
 Status CheckFeatures(std::span<const TrainingImage> images) {
   std::vector<std::string> poor;
   for (const TrainingImage& image : images) {
@@ -112,10 +128,13 @@ Result<Survey> SurveySource(capture::FrameSource& source,
     return Status::Error(kTraining, "the source has fewer than two frames",
                          "film the place while walking around it");
   }
+  const std::vector<capture::SourceCamera> cameras = source.Cameras();
   for (const size_t i : ChooseKeyframes(motions, max_count)) {
     TrainingImage& image = survey.keyframes.emplace_back();
     image.frame_index = survey.frames[i].index;
     image.name = survey.frames[i].name;
+    image.camera = static_cast<uint32_t>(source.CameraOf(image.frame_index));
+    image.area = cameras[image.camera].area;
     if (!kept.empty()) {
       image.bgr = kept[i].bgr;
       image.grey = kept[i].grey;
@@ -141,7 +160,7 @@ Status ExtractFeatures(std::span<TrainingImage> images, int max_features, Progre
     progress.Report("features", static_cast<double>(begin) / static_cast<double>(images.size()));
     ParallelFor(std::min(kBatch, images.size() - begin), [&](size_t offset) {
       TrainingImage& image = images[begin + offset];
-      Result<vision::Features> features = vision::ExtractFeatures(image.grey, options);
+      Result<vision::Features> features = FeaturesOf(image, options);
       if (features.ok()) {
         image.features = std::move(features).value();
       } else {

@@ -16,8 +16,16 @@ namespace {
 
 class Trainer {
  public:
-  Trainer(capture::FrameSource& source, const TrainOptions& options, Progress& progress, Log& log)
-      : source_(source), options_(options), progress_(progress), log_(log) {}
+  Trainer(capture::FrameSource& source,
+          const TrainOptions& options,
+          std::vector<TrainingCamera> cameras,
+          Progress& progress,
+          Log& log)
+      : source_(source),
+        options_(options),
+        cameras_(std::move(cameras)),
+        progress_(progress),
+        log_(log) {}
 
   Result<TrainResult> Run() {
     LARARIUM_RETURN_IF_ERROR(Timed("reading", [&] { return Read(); }));
@@ -29,7 +37,7 @@ class Trainer {
     TrainResult result;
     LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
     LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
-    if (AdjustsToShutter()) {
+    if (map_.reconstruction->cameras().size() == 1 && AdjustsToShutter()) {
       LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
       LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
     }
@@ -74,9 +82,7 @@ class Trainer {
     return Status();
   }
 
-  ImageMappingOptions MappingOptions() const {
-    return {options_.intrinsics, options_.focal_prior_px, options_.seed};
-  }
+  ImageMappingOptions MappingOptions() const { return {cameras_, options_.seed}; }
 
   Status Match() {
     LARARIUM_ASSIGN_OR_RETURN(verified_,
@@ -95,7 +101,9 @@ class Trainer {
     BundleOptions refined;
     refined.refine_intrinsics = !options_.intrinsics;
     refined.refine_centre =
-        refined.refine_intrinsics && map_.reconstruction->camera().cx != verified_.camera.cx;
+        refined.refine_intrinsics &&
+        map_.reconstruction->camera().cx != verified_.cameras.front().model.cx &&
+        map_.reconstruction->cameras().size() == 1;
     refined.refine_readout = report_.shutter.has_value();
     return refined;
   }
@@ -137,8 +145,7 @@ class Trainer {
     return ForOtherFrames(
         source_, survey_, progress_, log_, [&](std::span<const geometry::Frame> batch) {
           std::vector<FrameReport*> of_batch;
-          std::vector<ImageMotion> motions;
-          std::vector<std::optional<geometry::Rigid3>> predictions;
+          std::vector<FrameToLocate> wanted;
           for (const geometry::Frame& frame : batch) {
             while (next < reports.size() && reports[next].frame_index < frame.index) {
               ++next;
@@ -146,16 +153,38 @@ class Trainer {
             // The survey may have failed to read the frame.
             const bool known = next < reports.size() && reports[next].frame_index == frame.index;
             of_batch.push_back(known ? &reports[next] : nullptr);
-            motions.push_back(known ? reports[next].camera_motion : ImageMotion::Zero());
-            predictions.push_back(BetweenKeyframes(frame.index));
+            wanted.push_back({&frame, CameraAssumed(frame.index),
+                              known ? reports[next].camera_motion : ImageMotion::Zero(),
+                              BetweenKeyframes(frame.index)});
           }
-          const std::vector<LocatedView> views = locator.Locate(batch, motions, predictions);
+          const std::vector<LocatedView> views = locator.Locate(wanted);
           for (size_t i = 0; i < batch.size(); ++i) {
             if (of_batch[i] != nullptr) {
               Fill(*of_batch[i], views[i]);
             }
           }
         });
+  }
+
+  // The camera that the source says took a frame.
+  const geometry::CameraModel& CameraAssumed(int64_t frame_index) const {
+    return map_.reconstruction->cameras()[source_.CameraOf(frame_index)].model;
+  }
+  // The camera that took a frame of the report, for the image as it is stored.
+  geometry::CameraModel CameraOf(const FrameReport& frame) const {
+    const auto keyframe = std::lower_bound(
+        survey_.keyframes.begin(), survey_.keyframes.end(), frame.frame_index,
+        [](const TrainingImage& image, int64_t index) { return image.frame_index < index; });
+    const size_t source_camera = source_.CameraOf(frame.frame_index);
+    return OfStoredImages(frame.keyframe ? map_.reconstruction->CameraOf(static_cast<uint32_t>(
+                                               keyframe - survey_.keyframes.begin()))
+                                         : static_cast<uint32_t>(source_camera),
+                          source_.Cameras()[source_camera].size);
+  }
+
+  geometry::CameraModel OfStoredImages(uint32_t camera, cv::Size size) const {
+    const geometry::CameraModel model = ModelOfArea(map_.reconstruction->cameras()[camera]);
+    return model.Resized(size.width, size.height);
   }
 
   // The pose between those of the keyframes before and after a frame.
@@ -220,7 +249,7 @@ class Trainer {
     for (const FrameReport& frame : report_.frame_reports) {
       if (frame.camera_from_map) {
         report_.located.push_back({frame.frame_index, frame.name, *frame.camera_from_map,
-                                   frame.keyframe, frame.camera_motion});
+                                   frame.keyframe, frame.camera_motion, CameraOf(frame)});
       } else {
         report_.unlocated.push_back(frame.name);
       }
@@ -229,11 +258,23 @@ class Trainer {
     report_.observations = static_cast<int>(database.observations.size());
     report_.mean_reprojection_error_px = database.mean_reprojection_error_px;
     report_.camera = database.camera;
+    report_.cameras.resize(map_.reconstruction->cameras().size());
+    for (const uint32_t image : map_.reconstruction->LocatedImages()) {
+      const uint32_t index = map_.reconstruction->CameraOf(image);
+      CameraReport& camera = report_.cameras[index];
+      camera.camera =
+          OfStoredImages(index, source_.Cameras()[survey_.keyframes[image].camera].size);
+      camera.given = map_.reconstruction->cameras()[index].given;
+      ++camera.keyframes;
+    }
+    std::erase_if(report_.cameras,
+                  [](const CameraReport& camera) { return camera.keyframes == 0; });
     report_.intrinsics_estimated = !options_.intrinsics.has_value();
   }
 
   capture::FrameSource& source_;
   TrainOptions options_;
+  std::vector<TrainingCamera> cameras_;  // The cameras of the source before training.
   Progress& progress_;
   Log& log_;
   TrainReport report_;
@@ -249,9 +290,6 @@ Status TrainOptions::Validate() const {
   constexpr std::string_view kOptions = "training options";
   if (intrinsics) {
     LARARIUM_RETURN_IF_ERROR(intrinsics->Validate());
-  }
-  if (focal_prior_px && !(*focal_prior_px > 0.0 && std::isfinite(*focal_prior_px))) {
-    return Status::Error(kOptions, "focal_prior_px must be positive");
   }
   if (session >= 32) {
     return Status::Error(kOptions, "session must be below 32");
@@ -276,13 +314,9 @@ Result<TrainResult> Train(capture::FrameSource& source,
   if (source.live()) {
     return Status::Error(kTraining, "a live camera has no end", "record a video first");
   }
-  if (options.intrinsics && (options.intrinsics->width != source.width() ||
-                             options.intrinsics->height != source.height())) {
-    return Status::Error(kTraining,
-                         "the intrinsics belong to another image size than that of the source",
-                         "give the intrinsics for the size of the source's images");
-  }
-  return Trainer(source, options, progress, log).Run();
+  LARARIUM_ASSIGN_OR_RETURN(std::vector<TrainingCamera> cameras,
+                            CamerasOf(source, options.intrinsics));
+  return Trainer(source, options, std::move(cameras), progress, log).Run();
 }
 
 }  // namespace lararium::train

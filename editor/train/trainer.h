@@ -22,13 +22,12 @@
 namespace lararium::train {
 
 struct TrainOptions {
-  // Given intrinsics are kept. Otherwise the focal length and two radial terms are estimated, with
-  // square pixels. The principal point is estimated if the images determine it; otherwise it is the
-  // image's centre.
+  // Given intrinsics are kept; see CamerasOf for sources of several cameras. Otherwise the focal
+  // length and two radial terms of each camera are estimated, with square pixels, starting from the
+  // focal length of EXIF data or from that on which the two-view geometries agree best. The
+  // principal point is estimated if there is one camera and the images determine it; otherwise it
+  // is the image's centre.
   std::optional<geometry::CameraModel> intrinsics;
-  // Initial focal length in pixels, for example from EXIF data. Without it, the estimation starts
-  // from the focal length on which the two-view geometries agree best.
-  std::optional<double> focal_prior_px;
 
   uint32_t session = 0;  // Session number of keyframes and points, below 32.
   uint64_t seed = 1;     // The same images and seed give the same bytes.
@@ -47,6 +46,7 @@ struct LocatedFrame {
   bool keyframe = false;  // False if the frame was located in the finished map.
   // Of the camera in one frame time; zero if it is not known.
   ImageMotion motion = ImageMotion::Zero();
+  geometry::CameraModel camera = {};  // The camera of the image as it is stored, see SourceCamera.
 };
 
 // The results of training for one frame of the source.
@@ -63,6 +63,13 @@ struct FrameReport {
   FrameMotion motion;            // Motion since the frame before, and sharpness.
 };
 
+// A camera that took keyframes.
+struct CameraReport {
+  geometry::CameraModel camera;  // The camera of images as they are stored, see SourceCamera.
+  bool given = false;            // The intrinsics were given.
+  int keyframes = 0;             // Number of located keyframes.
+};
+
 struct TrainReport {
   int frames = 0;                          // Number of frames of the source.
   int keyframes = 0;                       // Number of frames selected for the map.
@@ -72,6 +79,10 @@ struct TrainReport {
   int points = 0;
   int observations = 0;
   double mean_reprojection_error_px = 0.0;
+  // Several if the source is a folder of photographs by different cameras. The map has the images
+  // and observations of the one with most keyframes, `camera`, into which those of the others were
+  // converted.
+  std::vector<CameraReport> cameras;
   geometry::CameraModel camera;
   bool intrinsics_estimated = false;
   // Standard deviations of the estimated intrinsics, assuming independent errors of the

@@ -219,19 +219,17 @@ PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double thr
   return geometry;
 }
 
-std::optional<double> EstimateFocal(std::span<const Fundamental> pairs, int width, int height) {
+std::optional<double> EstimateFocal(std::span<const Fundamental> pairs) {
   constexpr int kSteps = 120;
-  const double side = std::max(width, height);
   std::vector<double> costs(kSteps + 1, 0.0);
   const auto focal_at = [&](int step) {
-    return 0.4 * side * std::pow(2.5 / 0.4, static_cast<double>(step) / kSteps);
+    return 0.4 * std::pow(2.5 / 0.4, static_cast<double>(step) / kSteps);
   };
   for (int step = 0; step <= kSteps; ++step) {
-    Eigen::Matrix3d k;
-    k << focal_at(step), 0, 0.5 * (width - 1), 0, focal_at(step), 0.5 * (height - 1), 0, 0, 1;
+    const Eigen::DiagonalMatrix<double, 3> k(focal_at(step), focal_at(step), 1.0);
     for (const Fundamental& pair : pairs) {
       const Eigen::Vector3d singular =
-          Eigen::JacobiSVD<Eigen::Matrix3d>(k.transpose() * pair.matrix * k).singularValues();
+          Eigen::JacobiSVD<Eigen::Matrix3d>(k * pair.matrix * k).singularValues();
       const double difference = (singular[0] - singular[1]) / singular[1];
       constexpr double kTolerance = 0.05;
       const double ratio = difference / kTolerance;

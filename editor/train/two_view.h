@@ -62,11 +62,11 @@ struct PlanarGeometry {
 // The share is near 1 for a planar scene and for a camera that only turned.
 PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double threshold);
 
-// Estimates the focal length in pixels by self-calibration: it makes the fundamental matrices most
-// similar to essential ones, whose two singular values are equal (Mendonca & Cipolla, "A simple
-// technique for self-calibration", CVPR 1999). The result is the robust minimum over a grid between
-// 0.4 and 2.5 times the longer side, assuming square pixels and a central principal point. nullopt
-// if the pairs do not determine it.
-std::optional<double> EstimateFocal(std::span<const Fundamental> pairs, int width, int height);
+// Estimates the focal length by self-calibration: it makes the fundamental matrices most similar to
+// essential ones, whose two singular values are equal (Mendonca & Cipolla, "A simple technique for
+// self-calibration", CVPR 1999). The matrices and the result are in units of the image's longer
+// side, the positions relative to the principal point. The result is the robust minimum over a grid
+// between 0.4 and 2.5. nullopt if the pairs do not determine it.
+std::optional<double> EstimateFocal(std::span<const Fundamental> pairs);
 
 }  // namespace lararium::train

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <string>
 
 #include "shared/capture/frame_source.h"
 #include "shared/core/file.h"
@@ -13,7 +14,10 @@
 namespace lararium::capture {
 namespace {
 
+constexpr uint16_t kMake = 0x010f;   // ASCII
+constexpr uint16_t kModel = 0x0110;  // ASCII
 constexpr uint16_t kExifDirectory = 0x8769;
+constexpr uint16_t kFocalLength = 0x920a;            // RATIONAL, millimetres
 constexpr uint16_t kFocalLengthIn35mmFilm = 0xa405;  // SHORT
 constexpr uint16_t kExposureTime = 0x829a;           // RATIONAL, seconds
 constexpr uint16_t kFNumber = 0x829d;                // RATIONAL
@@ -56,6 +60,20 @@ class Tiff {
     return little_endian_ ? *second << 16 | *first : *first << 16 | *second;
   }
 
+  // Returns the text of a tag in the directory at an offset, up to its first NUL; empty if there is
+  // none.
+  std::string Text(uint32_t directory, uint16_t tag) const {
+    const auto value = FindValue(directory, tag);
+    const uint32_t count = value ? U32(*value - 4).value_or(0) : 0;
+    const auto offset = count > 4 ? U32(*value) : std::nullopt;
+    const size_t at = offset ? *offset : value.value_or(0);
+    if (count == 0 || at >= bytes_.size() || count > bytes_.size() - at) {
+      return {};
+    }
+    const std::string text(reinterpret_cast<const char*>(bytes_.data()) + at, count);
+    return text.substr(0, text.find('\0'));
+  }
+
   // Returns the offset of the value of a tag in the directory at an offset.
   std::optional<size_t> FindValue(uint32_t directory, uint16_t tag) const {
     const uint32_t count = U16(directory).value_or(0);
@@ -83,10 +101,14 @@ class ExifDirectory {
     if (!tiff) {
       return std::nullopt;
     }
-    const auto pointer = tiff->FindValue(tiff->U32(4).value_or(0), kExifDirectory);
+    const uint32_t first = tiff->U32(4).value_or(0);
+    const auto pointer = tiff->FindValue(first, kExifDirectory);
     const auto offset = pointer ? tiff->U32(*pointer) : std::nullopt;
-    return offset ? std::optional(ExifDirectory(*tiff, *offset)) : std::nullopt;
+    return offset ? std::optional(ExifDirectory(*tiff, first, *offset)) : std::nullopt;
   }
+
+  // The text of a tag in the first directory.
+  std::string Text(uint16_t tag) const { return tiff_.Text(first_, tag); }
 
   std::optional<uint32_t> Short(uint16_t tag) const {
     const auto value = tiff_.FindValue(offset_, tag);
@@ -105,9 +127,11 @@ class ExifDirectory {
   }
 
  private:
-  ExifDirectory(const Tiff& tiff, uint32_t offset) : tiff_(tiff), offset_(offset) {}
+  ExifDirectory(const Tiff& tiff, uint32_t first, uint32_t offset)
+      : tiff_(tiff), first_(first), offset_(offset) {}
 
   Tiff tiff_;
+  uint32_t first_;
   uint32_t offset_;
 };
 
@@ -141,6 +165,19 @@ std::optional<uint32_t> FindFocalLengthIn35mmFilm(Bytes jpeg) {
   return focal == 0 ? std::nullopt : std::optional(focal);
 }
 
+std::string FindCameraName(Bytes jpeg) {
+  const auto exif = ExifDirectory::Open(FindExif(jpeg));
+  if (!exif) {
+    return {};
+  }
+  std::string name = exif->Text(kMake) + exif->Text(kModel);
+  for (const std::optional<double> focal :
+       {exif->Rational(kFocalLength), std::optional<double>(FindFocalLengthIn35mmFilm(jpeg))}) {
+    name += focal ? "," + std::to_string(*focal) : "";
+  }
+  return name;
+}
+
 std::optional<double> FindExposure(Bytes jpeg) {
   const auto exif = ExifDirectory::Open(FindExif(jpeg));
   const auto seconds = exif ? exif->Rational(kExposureTime) : std::nullopt;
@@ -152,10 +189,8 @@ std::optional<double> FindExposure(Bytes jpeg) {
   return *seconds / (aperture * aperture) * (iso > 0 ? iso / 100.0 : 1.0);
 }
 
-std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int width, int height) {
-  const Result<MappedFile> mapped = MappedFile::Open(file);
-  const auto focal = mapped.ok() ? FindFocalLengthIn35mmFilm(mapped->bytes()) : std::nullopt;
-  return focal ? std::optional(*focal * std::hypot(width, height) / kFilmDiagonal) : std::nullopt;
+double FocalPixels(uint32_t focal_in_35mm_film, int width, int height) {
+  return focal_in_35mm_film * std::hypot(width, height) / kFilmDiagonal;
 }
 
 std::optional<double> ExifExposure(const std::filesystem::path& file) {

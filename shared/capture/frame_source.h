@@ -4,15 +4,27 @@
 
 #include <filesystem>
 #include <memory>
+#include <opencv2/core/types.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/frame.h"
 
 namespace lararium::capture {
+
+// A camera that took frames of a source.
+struct SourceCamera {
+  cv::Size size;  // The size of its images as they are stored, pixels.
+  cv::Rect area;  // The part of the frame that shows its image; the rest is black.
+  // From EXIF data, in pixels of the frame.
+  std::optional<double> focal_px = std::nullopt;
+  // The images count as of one camera for their size only; no EXIF data name it.
+  bool assumed = false;
+};
 
 class FrameSource {
  public:
@@ -35,6 +47,13 @@ class FrameSource {
   virtual double frames_per_second() const = 0;
   virtual bool live() const = 0;
 
+  // The cameras of the source, and the index of the one that took a frame.
+  virtual std::vector<SourceCamera> Cameras() const {
+    const cv::Size size(width(), height());
+    return {{size, cv::Rect({0, 0}, size)}};
+  }
+  virtual size_t CameraOf(int64_t /*index*/) const { return 0; }
+
   // Name of frame `index` in reports and poses.json: "%06d.png" for videos and cameras, the file
   // name for image folders.
   virtual std::string FrameName(int64_t index) const = 0;
@@ -52,8 +71,10 @@ Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file
 std::span<const char* const> ImageExtensions();
 
 // Opens all images of a folder in the order of their names, in which numbers count by value (2
-// before 10). All must have the same size. Pixels stay as stored: EXIF orientation is ignored. 30
-// frames per second.
+// before 10). Pixels stay as stored: EXIF orientation is ignored. 30 frames per second. Images of
+// one size, and of one camera and focal length if EXIF data tell these, count as of one camera. If
+// there are several sizes, each image lies in the middle of a frame that has room for all of them;
+// images with more pixels than those of the most frequent size are reduced first.
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder);
 
 // Requested settings of a camera. Settings that the camera refuses are errors, except the rate: the
@@ -70,10 +91,6 @@ struct CameraSettings {
 // decoded in the calling thread; older and damaged images are skipped. Capture times are those of
 // the driver.
 Result<std::unique_ptr<FrameSource>> OpenCamera(int number, const CameraSettings& settings = {});
-
-// Returns the focal length in pixels from the EXIF data of an image file, by its 35 mm equivalent
-// (of equal diagonal); nullopt if there is none. Reads JPEG.
-std::optional<double> ExifFocalPixels(const std::filesystem::path& file, int width, int height);
 
 // Returns the relative exposure from the EXIF data of an image file: exposure time in seconds,
 // divided by the square of the f-number and multiplied by ISO / 100 where these are known. Returns

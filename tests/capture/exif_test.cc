@@ -1,6 +1,10 @@
+#include "shared/capture/exif.h"
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "shared/capture/frame_source.h"
@@ -39,9 +43,8 @@ std::string JpegWithFocal(uint32_t focal, bool little_endian) {
 }
 
 std::optional<double> FocalOf(const std::string& content) {
-  test::TemporaryFolder folder;
-  EXPECT_TRUE(WriteFileAtomically(folder / "image.jpg", content).ok());
-  return ExifFocalPixels(folder / "image.jpg", 4000, 3000);
+  const auto film = FindFocalLengthIn35mmFilm(std::as_bytes(std::span(content)));
+  return film ? std::optional(FocalPixels(*film, 4000, 3000)) : std::nullopt;
 }
 
 TEST(Exif, ReadsTheFocalLengthInBothByteOrders) {
@@ -107,10 +110,47 @@ TEST(Exif, FindsNothingWhereThereIsNothing) {
   EXPECT_FALSE(FocalOf("").has_value());
   EXPECT_FALSE(FocalOf("text").has_value());
   EXPECT_FALSE(FocalOf(JpegWithFocal(0, true)).has_value());
-  EXPECT_FALSE(ExifFocalPixels("/nonexistent/image.jpg", 4000, 3000).has_value());
+}
+
+// The beginning of a JPEG by a camera "Lar" "ium 3", at a focal length of millimetres / 10.
+std::string JpegByCamera(uint32_t millimetres, bool little_endian) {
+  const auto number = [&](uint32_t value, int bytes) {
+    return Number(value, bytes, little_endian);
+  };
+  std::string tiff = little_endian ? "II" : "MM";
+  tiff += number(42, 2) + number(8, 4);
+  tiff += number(3, 2);
+  const uint32_t texts = 8 + 2 + 3 * 12 + 4;
+  tiff += number(0x010f, 2) + number(2, 2) + number(4, 4) + std::string("Lar\0", 4);
+  tiff += number(0x0110, 2) + number(2, 2) + number(6, 4) + number(texts, 4);
+  tiff += number(0x8769, 2) + number(4, 2) + number(1, 4) + number(texts + 6, 4);
+  tiff += number(0, 4) + std::string("ium 3\0", 6);
+  tiff += number(1, 2) + number(0x920a, 2) + number(5, 2) + number(1, 4);
+  tiff += number(texts + 6 + 2 + 12 + 4, 4) + number(0, 4);
+  tiff += number(millimetres, 4) + number(10, 4);
+  const std::string exif = std::string("Exif\0\0", 6) + tiff;
+  return "\xff\xd8\xff\xe1" + Number(2 + exif.size(), 2, false) + exif + "\xff\xda" +
+         Number(2, 2, false);
+}
+
+std::string CameraNameOf(const std::string& content) {
+  return FindCameraName(std::as_bytes(std::span(content)));
+}
+
+TEST(Exif, TellsCamerasAndZoomsApart) {
+  for (const bool little_endian : {false, true}) {
+    const std::string name = CameraNameOf(JpegByCamera(43, little_endian));
+    EXPECT_THAT(name, ::testing::StartsWith("Larium 3,4.3"));
+    EXPECT_NE(name, CameraNameOf(JpegByCamera(62, little_endian)));
+  }
+  EXPECT_EQ(CameraNameOf("text"), "");
 }
 
 TEST(Exif, SurvivesCutsAndFlippedBytes) {
+  const std::string by_camera = JpegByCamera(43, true);
+  for (size_t size = 0; size < by_camera.size(); ++size) {
+    CameraNameOf(by_camera.substr(0, size));
+  }
   const std::string valid = JpegWithFocal(28, true);
   for (size_t size = 0; size + 6 < valid.size(); ++size) {
     FocalOf(valid.substr(0, size));

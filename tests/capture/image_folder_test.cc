@@ -41,16 +41,43 @@ TEST(ImageFolder, OrdersNumbersByTheirValue) {
   EXPECT_FALSE((*source)->Seek(6).ok());
 }
 
-TEST(ImageFolder, NamesTheImageOfAnotherSizeAndGoesOn) {
+TEST(ImageFolder, LaysImagesOfAllSizesIntoTheMiddleOfOneFrame) {
   test::TemporaryFolder folder;
-  WriteGrey(folder / "1.png", 1);
-  WriteGrey(folder / "2.png", 2, {40, 24});
-  WriteGrey(folder / "3.png", 3);
+  WriteGrey(folder / "1.png", 10);
+  WriteGrey(folder / "2.png", 20, {24, 32});
+  WriteGrey(folder / "3.png", 30, {320, 240});
+  WriteGrey(folder / "4.png", 40);
+  WriteGrey(folder / "5.png", 50, {16, 12});
   const auto source = OpenImageFolder(folder.path());
   ASSERT_TRUE(source.ok()) << source.message();
-  ASSERT_TRUE((*source)->Next().ok());
-  EXPECT_THAT((*source)->Next().message(), HasSubstr("2.png: is 40x24"));
-  EXPECT_EQ((*source)->Next()->value().index, 2);
+  EXPECT_EQ(cv::Size((*source)->width(), (*source)->height()), cv::Size(32, 32));
+  const std::vector<SourceCamera> cameras = (*source)->Cameras();
+  ASSERT_EQ(cameras.size(), 4u);
+  EXPECT_EQ((*source)->CameraOf(0), (*source)->CameraOf(3));
+  const std::vector<cv::Rect> areas = {
+      {0, 4, 32, 24}, {4, 0, 24, 32}, {0, 4, 32, 24}, {0, 4, 32, 24}, {8, 10, 16, 12}};
+  const std::vector<cv::Size> sizes = {{32, 24}, {24, 32}, {320, 240}, {32, 24}, {16, 12}};
+  for (int i = 0; i < 5; ++i) {
+    const SourceCamera& camera = cameras[(*source)->CameraOf(i)];
+    EXPECT_EQ(camera.area, areas[i]);
+    EXPECT_EQ(camera.size, sizes[i]);
+    const auto frame = (*source)->Next();
+    ASSERT_TRUE(frame.ok() && frame->has_value());
+    cv::Mat expected(32, 32, CV_8UC1, cv::Scalar(0));
+    expected(areas[i]).setTo(10 * (i + 1));
+    EXPECT_EQ(cv::norm((*frame)->grey, expected, cv::NORM_INF), 0.0);
+  }
+}
+
+TEST(ImageFolder, CountsImagesOfOneSizeAsOfOneCamera) {
+  test::TemporaryFolder folder;
+  WriteGrey(folder / "1.png", 1);
+  WriteGrey(folder / "2.png", 2);
+  const auto source = OpenImageFolder(folder.path());
+  ASSERT_TRUE(source.ok()) << source.message();
+  ASSERT_EQ((*source)->Cameras().size(), 1u);
+  EXPECT_EQ((*source)->Cameras()[0].area, cv::Rect(0, 0, 32, 24));
+  EXPECT_FALSE((*source)->Cameras()[0].focal_px.has_value());
 }
 
 TEST(ImageFolder, NamesTheImageThatIsBroken) {

@@ -198,9 +198,10 @@ TEST(AdjustPose, FindsThePoseDespiteOutliers) {
   }
   geometry::Rigid3 start = world.camera_from_world[0];
   start.translation.x() += 0.02;
-  const auto pose = AdjustPose(world.camera, pixels, points, start, {});
-  ASSERT_TRUE(pose);
-  EXPECT_LT((pose->Center() - world.camera_from_world[0].Center()).norm(), 4e-3);
+  const auto view = AdjustView({world.camera}, pixels, points, start, {});
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->camera, world.camera);
+  EXPECT_LT((view->camera_from_map.Center() - world.camera_from_world[0].Center()).norm(), 4e-3);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "editor/train/bundle_adjustment.h"
 #include "tests/train/synthetic_world.h"
@@ -86,6 +89,79 @@ TEST(Mapper, EstimatesAWrongFocalLength) {
   EXPECT_GT(deviation, 0.0);
   EXPECT_NEAR(reconstruction.camera().fx, world.camera.fx, 4.0 * deviation);
   EXPECT_NEAR(reconstruction.camera().fx, world.camera.fx, 6.0);
+}
+
+// The world as seen if image i was taken by cameras[camera_of_image[i]].
+World TakenBy(World world,
+              std::span<const geometry::CameraModel> cameras,
+              std::span<const uint32_t> camera_of_image) {
+  for (size_t image = 0; image < world.pixels.size(); ++image) {
+    for (Eigen::Vector2d& pixel : world.pixels[image]) {
+      pixel = cameras[camera_of_image[image]].PixelFromPlane(world.camera.PlaneFromPixel(pixel));
+    }
+  }
+  return world;
+}
+
+TEST(Mapper, EstimatesTheIntrinsicsOfEachCamera) {
+  const World world = MakeWorld({.images = 15, .points = 600, .arc = 1.4, .seed = 8});
+  std::vector<geometry::CameraModel> cameras(3, world.camera);
+  cameras[1].fx = cameras[1].fy = 0.7 * world.camera.fx;
+  cameras[1].k1 = -0.08;
+  cameras[2].fx = cameras[2].fy = 1.4 * world.camera.fx;
+  cameras[2].k1 = 0.05;
+  std::vector<uint32_t> camera_of_image;
+  for (uint32_t image = 0; image < 15; ++image) {
+    camera_of_image.push_back(image % 3);
+  }
+  std::vector<TrainingCamera> assumed;
+  for (const geometry::CameraModel& camera : cameras) {
+    TrainingCamera& start = assumed.emplace_back();
+    start.model = camera;
+    start.model.fx *= 1.06;
+    start.model.fy *= 1.06;
+    start.model.k1 = 0.0;
+  }
+  const auto pairs = world.Pairs(6, world.camera);
+  Reconstruction reconstruction(assumed, camera_of_image,
+                                TakenBy(world, cameras, camera_of_image).pixels,
+                                BuildTracks(world.FeatureCounts(), pairs));
+  MapperOptions options;
+  options.refine_intrinsics = true;
+  NoProgress progress;
+  ASSERT_TRUE(MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog()));
+  EXPECT_EQ(reconstruction.LocatedImages().size(), 15u);
+  EXPECT_LT(world.CenterError(reconstruction), 0.01);
+  for (uint32_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(reconstruction.cameras()[i].model.fx, cameras[i].fx, 0.01 * cameras[i].fx);
+    EXPECT_NEAR(reconstruction.cameras()[i].model.k1, cameras[i].k1, 0.02);
+  }
+}
+
+TEST(Mapper, FindsThatAnImageWasTakenByAnotherCameraThanItIsSaid) {
+  const World by_one = MakeWorld({.images = 12, .points = 600, .arc = 1.2, .seed = 9});
+  std::vector<geometry::CameraModel> cameras(2, by_one.camera);
+  cameras[1].fx = cameras[1].fy = 1.5 * by_one.camera.fx;
+  std::vector<uint32_t> camera_of_image(12, 0);
+  camera_of_image[5] = 1;
+  const World world = TakenBy(by_one, cameras, camera_of_image);
+  const auto pairs = world.Pairs(6, world.camera);
+  TrainingCamera assumed;
+  assumed.model = world.camera;
+  assumed.assumed = true;
+  Reconstruction reconstruction({assumed}, {}, world.pixels,
+                                BuildTracks(world.FeatureCounts(), pairs));
+  MapperOptions options;
+  options.refine_intrinsics = true;
+  options.tell_cameras_apart = true;
+  NoProgress progress;
+  ASSERT_TRUE(MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog()));
+  EXPECT_EQ(reconstruction.LocatedImages().size(), 12u);
+  ASSERT_EQ(reconstruction.cameras().size(), 2u);
+  EXPECT_EQ(reconstruction.CameraOf(5), 1u);
+  EXPECT_EQ(reconstruction.MainCamera(), 0u);
+  EXPECT_NEAR(reconstruction.camera(5).fx, cameras[1].fx, 0.01 * cameras[1].fx);
+  EXPECT_LT(world.CenterError(reconstruction), 0.01);
 }
 
 TEST(Mapper, FreesAPrincipalPointThatTheImagesDetermine) {

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "editor/train/camera_transfer.h"
 #include "editor/train/matching.h"
 #include "editor/train/trainer.h"
+#include "shared/core/median.h"
 #include "shared/vision/poses_file.h"
 #include "tests/support/test_files.h"
 #include "tests/train/part_of_video.h"
@@ -86,6 +89,65 @@ TEST(TrainerOnFountain, EstimatesTheFocalLength) {
   EXPECT_TRUE(result->report.intrinsics_estimated);
   EXPECT_NEAR(result->report.camera.fx, truth.camera.fx, 0.02 * truth.camera.fx);
   EXPECT_LT(MeanCenterError(result->report, truth), 0.02);
+}
+
+// The photographs as other cameras would have taken them from the same places: photograph i by
+// cameras[camera_of[i]].
+void PhotographWith(const std::vector<geometry::CameraModel>& cameras,
+                    const std::vector<size_t>& camera_of,
+                    const geometry::CameraModel& taken_by,
+                    const std::filesystem::path& photographs,
+                    const std::filesystem::path& out) {
+  auto source = capture::OpenImageFolder(photographs);
+  ASSERT_TRUE(source.ok()) << source.message();
+  for (const size_t camera : camera_of) {
+    const auto frame = (*source)->Next();
+    ASSERT_TRUE(frame.ok() && frame->has_value());
+    const std::string name = (*source)->FrameName((*frame)->index);
+    ASSERT_TRUE(
+        cv::imwrite((out / name).string(), Resampled((*frame)->bgr, taken_by, cameras[camera])));
+  }
+}
+
+geometry::CameraModel CameraOfSize(int width, int height, double focal, double k1) {
+  return {width, height, focal, focal, 0.5 * (width - 1), 0.5 * (height - 1), k1};
+}
+
+TEST(TrainerOnPhotographs, MakesOneMapOfDifferentCamerasThatNothingTellsApart) {
+  LARARIUM_REQUIRE_DATA(folder, "fountain-P11");
+  const GroundTruth truth = LoadGroundTruth(folder / "ground_truth.json");
+  // The last camera zooms, and its images have the size of the first one.
+  const std::vector<geometry::CameraModel> cameras = {
+      CameraOfSize(1280, 850, 1180.0, 0.0), CameraOfSize(800, 1100, 1520.0, -0.04),
+      CameraOfSize(1024, 768, 1200.0, 0.06), CameraOfSize(1280, 850, 1600.0, 0.0)};
+  const std::vector<size_t> camera_of = {0, 1, 2, 0, 3, 1, 0, 2, 3, 0, 1};
+  test::TemporaryFolder photographs;
+  PhotographWith(cameras, camera_of, truth.camera, folder / "images", photographs.path());
+  auto source = capture::OpenImageFolder(photographs.path());
+  ASSERT_TRUE(source.ok()) << source.message();
+  NoProgress progress;
+  const auto result = Train(**source, {}, progress, *MakeSilentLog());
+  ASSERT_TRUE(result.ok()) << result.message();
+  ASSERT_EQ(result->report.located.size(), 11u);
+  EXPECT_LT(MeanCenterError(result->report, truth), 0.05);
+  EXPECT_EQ(result->report.cameras.size(), 4u);
+  for (size_t i = 0; i < camera_of.size(); ++i) {
+    const geometry::CameraModel& expected = cameras[camera_of[i]];
+    const geometry::CameraModel& found = result->report.located[i].camera;
+    EXPECT_EQ(found.width, expected.width);
+    EXPECT_EQ(found.height, expected.height);
+    EXPECT_NEAR(found.fx, expected.fx, 0.03 * expected.fx) << i;
+  }
+  // The map has the observations and images of one camera.
+  const vision::SceneDatabase& map = result->database;
+  EXPECT_EQ(map.keyframes.size(), 11u);
+  std::vector<double> errors;
+  for (const vision::Observation& o : map.observations) {
+    const auto pixel = map.PixelIn(o.keyframe, map.points[o.point].cast<double>());
+    ASSERT_TRUE(pixel.has_value());
+    errors.push_back((*pixel - Eigen::Vector2d(o.x, o.y)).norm());
+  }
+  EXPECT_LT(Median(std::move(errors)), 0.6);
 }
 
 TrainOptions MaquetteOptions(const GroundTruth& truth) {

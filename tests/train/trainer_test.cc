@@ -337,9 +337,6 @@ TEST(TrainOptions, SayWhatIsWrong) {
   options = {};
   options.max_keyframes = 1;
   EXPECT_THAT(options.Validate().message(), HasSubstr("max_keyframes"));
-  options = {};
-  options.focal_prior_px = -3.0;
-  EXPECT_THAT(options.Validate().message(), HasSubstr("focal_prior_px"));
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#pragma once
+
+// What one camera saw, as another camera at the same place would have seen it. A map stores images
+// and observations of one camera only.
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "shared/geometry/camera_model.h"
+#include "shared/vision/features.h"
+#include "shared/vision/scene_database.h"
+
+namespace lararium::train {
+
+// Resamples an image of camera `from` to that which camera `to` would have taken.
+cv::Mat Resampled(cv::Mat image, geometry::CameraModel from, const geometry::CameraModel& to);
+
+// The features that lie in the image of camera `to`.
+vision::Features FeaturesIn(const geometry::CameraModel& to,
+                            const geometry::CameraModel& from,
+                            const vision::Features& features);
+
+// The same for observations.
+std::vector<vision::Observation> ObservationsIn(const geometry::CameraModel& to,
+                                                const geometry::CameraModel& from,
+                                                std::vector<vision::Observation> observations);
+
+}  // namespace lararium::train
