@@ -2,9 +2,9 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -341,6 +341,100 @@ struct ReconstructionBundle {
   std::vector<uint32_t> images;  // Parallel to the bundle's poses.
 };
 
+// The normal equations of a Jacobian without its points (Schur complement), which are small; their
+// lower triangle. The columns up to `kept` are intrinsics and poses; three for each point follow.
+// The rows of a point follow one another.
+Eigen::MatrixXd WithoutPoints(const ceres::CRSMatrix& jacobian, int kept) {
+  constexpr int kPose = 6;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kept, kept);
+  // Of the present point: its normal matrix, and its rows of the normal equations, by kept columns.
+  // A block is a run of columns, as those of a pose.
+  struct Block {
+    int column = 0;
+    int index = 0;  // Index of its first row in across.
+    int size = 0;
+  };
+  int point = -1;
+  Eigen::Matrix3d of_point = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, 3> across(kept, 3);
+  std::vector<Block> blocks;
+  std::vector<int> place(static_cast<size_t>(kept), -1);  // [column]: Row of across.
+  int used = 0;                                           // Number of rows of across.
+  const auto eliminate = [&] {
+    const Eigen::Matrix3d inverse = of_point.inverse();
+    if (inverse.allFinite()) {
+      const Eigen::Matrix<double, Eigen::Dynamic, 3> solved = across.topRows(used) * inverse;
+      for (const Block& i : blocks) {
+        for (const Block& j : blocks) {
+          if (i.column < j.column) {
+            continue;
+          }
+          if (i.size == kPose && j.size == kPose) {  // Of a size known to the compiler.
+            normal.block<kPose, kPose>(i.column, j.column).noalias() -=
+                solved.middleRows<kPose>(i.index) * across.middleRows<kPose>(j.index).transpose();
+          } else {
+            normal.block(i.column, j.column, i.size, j.size) -=
+                solved.middleRows(i.index, i.size)
+                    .lazyProduct(across.middleRows(j.index, j.size).transpose());
+          }
+        }
+      }
+    }
+    for (const Block& block : blocks) {
+      std::fill_n(place.begin() + block.column, block.size, -1);
+    }
+    blocks.clear();
+    used = 0;
+    of_point.setZero();
+  };
+  for (int row = 0; row < jacobian.num_rows; ++row) {
+    const auto begin = static_cast<size_t>(jacobian.rows[row]);
+    const auto end = static_cast<size_t>(jacobian.rows[row + 1]);
+    Eigen::RowVector3d by_point = Eigen::RowVector3d::Zero();
+    int of_row = -1;
+    for (size_t i = begin; i < end; ++i) {
+      if (jacobian.cols[i] >= kept) {
+        of_row = (jacobian.cols[i] - kept) / 3;
+        by_point[(jacobian.cols[i] - kept) % 3] = jacobian.values[i];
+      }
+    }
+    if (of_row != point) {
+      CHECK(of_row > point || of_row < 0);
+      eliminate();
+      point = of_row;
+    }
+    of_point += by_point.transpose() * by_point;
+    for (size_t i = begin; i < end; ++i) {
+      const int column = jacobian.cols[i];
+      if (column >= kept) {
+        continue;
+      }
+      for (size_t j = begin; j < end; ++j) {
+        if (jacobian.cols[j] <= column) {
+          normal(column, jacobian.cols[j]) += jacobian.values[i] * jacobian.values[j];
+        }
+      }
+      int& index = place[static_cast<size_t>(column)];
+      if (index < 0) {
+        index = used++;
+        across.row(index).setZero();
+        if (!blocks.empty() && blocks.back().size < kPose &&
+            column == blocks.back().column + blocks.back().size) {
+          ++blocks.back().size;
+        } else {
+          blocks.push_back({column, index, 1});
+        }
+      }
+      across.row(index) += jacobian.values[i] * by_point;
+    }
+  }
+  eliminate();
+  // The unit of length is not determined. It does not affect the intrinsics, so a little damping
+  // makes the equations solvable without changing the result.
+  normal.diagonal() *= 1.0 + 1e-9;
+  return normal;
+}
+
 // Triangulates all points again except those of tracks, which are ascending.
 void IntersectOthers(Reconstruction& reconstruction, std::span<const uint32_t> tracks) {
   for (const uint32_t track : reconstruction.TracksWithPoints()) {
@@ -575,24 +669,15 @@ std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& recons
   if (!problem.Evaluate(evaluate, &cost, nullptr, nullptr, &crs) || crs.num_rows <= crs.num_cols) {
     return deviations;
   }
-  const Eigen::SparseMatrix<double> jacobian =
-      Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
-          crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
-          crs.cols.data(), crs.values.data());
-  Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
-  // The unit of length is not determined. It does not affect the intrinsics, so a little damping
-  // makes the equations solvable without changing the result.
-  for (int i = 0; i < normal.cols(); ++i) {
-    normal.coeffRef(i, i) *= 1.0 + 1e-9;
-  }
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(normal);
+  const Eigen::LDLT<Eigen::MatrixXd> factors(
+      WithoutPoints(crs, crs.num_cols - 3 * static_cast<int>(evaluated.tracks.size())));
   if (factors.info() != Eigen::Success) {
     return deviations;
   }
   const double variance_of_residuals = 2.0 * cost / (crs.num_rows - crs.num_cols);
   // Standard deviation of a parameter by its column; the intrinsics are the first blocks.
   const auto deviation = [&](int parameter) {
-    Eigen::VectorXd unit = Eigen::VectorXd::Zero(normal.cols());
+    Eigen::VectorXd unit = Eigen::VectorXd::Zero(factors.rows());
     unit[parameter] = 1.0;
     const double variance = factors.solve(unit)[parameter] * variance_of_residuals;
     return variance > 0.0 ? std::sqrt(variance) : 0.0;
