@@ -359,7 +359,7 @@ Eigen::MatrixXd WithoutPoints(const ceres::CRSMatrix& jacobian, int kept) {
   Eigen::Matrix<double, Eigen::Dynamic, 3> across(kept, 3);
   std::vector<Block> blocks;
   std::vector<int> place(static_cast<size_t>(kept), -1);  // [column]: Row of across.
-  int used = 0;                                           // Number of rows of across.
+  int used = 0;  // The number of rows of across that are in use.
   const auto eliminate = [&] {
     const Eigen::Matrix3d inverse = of_point.inverse();
     if (inverse.allFinite()) {
@@ -369,7 +369,7 @@ Eigen::MatrixXd WithoutPoints(const ceres::CRSMatrix& jacobian, int kept) {
           if (i.column < j.column) {
             continue;
           }
-          if (i.size == kPose && j.size == kPose) {  // Of a size known to the compiler.
+          if (i.size == kPose && j.size == kPose) {  // The compiler knows this size.
             normal.block<kPose, kPose>(i.column, j.column).noalias() -=
                 solved.middleRows<kPose>(i.index) * across.middleRows<kPose>(j.index).transpose();
           } else {
