@@ -302,7 +302,8 @@ VerifiedPairs VerifyPairs(const CameraImages& images,
       }
     }
   }
-  const double share = EstimateFocal(votes).value_or(1.2);
+  // Several cameras are people's phones, which see wide.
+  const double share = EstimateFocal(votes).value_or(cameras.size() > 1 ? 0.8 : 1.2);
   for (TrainingCamera& camera : cameras) {
     if (!camera.FocalKnown()) {
       camera.model.fx = camera.model.fy = share * LongerSide(camera);

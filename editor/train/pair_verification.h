@@ -41,7 +41,8 @@ struct CameraImages {
 
 // Verifies pairs. If the intrinsics of all cameras are given, this is done by essential matrices.
 // Otherwise it is done by fundamental matrices; a focal length that is not known is then the one
-// that the matrices agree on, as a share of the image's longer side, otherwise 1.2 times that side.
+// that the matrices agree on, as a share of the image's longer side, otherwise 1.2 times that side,
+// or 0.8 times if there are several cameras.
 // Principal points are those of the models. The poses are computed with these intrinsics.
 VerifiedPairs VerifyPairs(const CameraImages& images,
                           std::span<const ImagePair> candidates,
