@@ -347,7 +347,7 @@ struct ReconstructionBundle {
 Eigen::MatrixXd WithoutPoints(const ceres::CRSMatrix& jacobian, int kept) {
   constexpr int kPose = 6;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kept, kept);
-  // Of the present point: its normal matrix, and its rows of the normal equations, by kept columns.
+  // The normal matrix of the present point, and its rows of the normal equations, by kept columns.
   // A block is a run of columns, as those of a pose.
   struct Block {
     int column = 0;

@@ -96,7 +96,7 @@ struct IntrinsicsDeviation {
 std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& reconstruction,
                                                     uint32_t anchor,
                                                     BundleOptions options);
-// That of the main camera.
+// Returns the deviations of the main camera only.
 IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
                                       uint32_t anchor,
                                       BundleOptions options);

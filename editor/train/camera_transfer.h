@@ -15,12 +15,12 @@ namespace lararium::train {
 // Resamples an image of camera `from` to that which camera `to` would have taken.
 cv::Mat Resampled(cv::Mat image, geometry::CameraModel from, const geometry::CameraModel& to);
 
-// The features that lie in the image of camera `to`.
+// Returns the features that lie in the image of camera `to`, at their pixels there.
 vision::Features FeaturesIn(const geometry::CameraModel& to,
                             const geometry::CameraModel& from,
                             const vision::Features& features);
 
-// The same for observations.
+// Returns the observations that lie in the image of camera `to`, at their pixels there.
 std::vector<vision::Observation> ObservationsIn(const geometry::CameraModel& to,
                                                 const geometry::CameraModel& from,
                                                 std::vector<vision::Observation> observations);

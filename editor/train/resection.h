@@ -39,8 +39,8 @@ struct LensResection {
   geometry::CameraModel camera;
 };
 
-// The same for a camera whose focal length and radial distortion are not known: tries focal lengths
-// from 0.4 to 2.5 times that of `guess`, then adjusts the intrinsics with the pose.
+// Locates an image whose camera has an unknown focal length and radial distortion: tries focal
+// lengths from 0.4 to 2.5 times that of `guess`, then adjusts the intrinsics with the pose.
 std::optional<LensResection> LocateImageAndLens(const TrainingCamera& guess,
                                                 std::span<const Eigen::Vector2d> pixels,
                                                 std::span<const Eigen::Vector3d> points,

@@ -107,7 +107,7 @@ struct FolderLayout {
   std::vector<size_t> camera_of_image;
 };
 
-// Fails if no image can be read.
+// Returns nullopt if no image can be read.
 std::optional<FolderLayout> LayOut(std::span<const ImageTraits> images) {
   FolderLayout layout;
   std::vector<ImageTraits> cameras;
