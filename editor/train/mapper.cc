@@ -482,7 +482,7 @@ class Mapper {
     return true;
   }
 
-  // Solves for the intrinsics too if those of the image's camera are a mere guess or explain the
+  // Solves for the intrinsics too if those of the assumed camera are a mere guess or explain the
   // image badly. If the solution explains clearly more, it belongs to the camera or, if others were
   // located with that one already, to a camera of its own.
   void SolveLens(uint32_t image,
@@ -498,9 +498,7 @@ class Mapper {
       return reconstruction_.CameraOf(i) == camera;
     });
     const double inliers = resection ? static_cast<double>(resection->inliers.size()) : 0.0;
-    if (reconstruction_.cameras()[camera].given ||
-        ((seen || reconstruction_.cameras()[camera].FocalKnown()) &&
-         inliers > kExplained * static_cast<double>(pixels.size()))) {
+    if (seen && inliers > kExplained * static_cast<double>(pixels.size())) {
       return;
     }
     const geometry::CameraModel before = reconstruction_.camera(image);

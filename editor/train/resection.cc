@@ -39,6 +39,10 @@ std::optional<Rigid3> EstimateByRansac(const CameraModel& camera,
                                        std::span<const Eigen::Vector2d> pixels,
                                        std::span<const Eigen::Vector3d> points,
                                        const ResectionOptions& options) {
+  CHECK(pixels.size() == points.size());
+  if (pixels.size() < options.min_inliers) {
+    return std::nullopt;
+  }
   std::vector<Eigen::Vector2d> plane_points;
   for (const Eigen::Vector2d& pixel : pixels) {
     plane_points.push_back(camera.PlaneFromPixel(pixel));
@@ -135,10 +139,6 @@ std::optional<Resection> LocateImage(const CameraModel& camera,
                                      std::span<const Eigen::Vector2d> pixels,
                                      std::span<const Eigen::Vector3d> points,
                                      const ResectionOptions& options) {
-  CHECK(pixels.size() == points.size());
-  if (pixels.size() < options.min_inliers) {
-    return std::nullopt;
-  }
   const std::optional<Rigid3> pose = EstimateByRansac(camera, pixels, points, options);
   std::optional<LensResection> found =
       pose ? Refine({camera}, pixels, points, *pose, BundleOptions(), options) : std::nullopt;
@@ -149,10 +149,6 @@ std::optional<LensResection> LocateImageAndLens(const TrainingCamera& guess,
                                                 std::span<const Eigen::Vector2d> pixels,
                                                 std::span<const Eigen::Vector3d> points,
                                                 const ResectionOptions& options) {
-  CHECK(pixels.size() == points.size());
-  if (pixels.size() < options.min_inliers) {
-    return std::nullopt;
-  }
   constexpr int kSteps = 16;
   constexpr double kRange = 2.5;
   // A pose that makes up for the nearest focal length of the grid leaves larger errors.
