@@ -57,6 +57,8 @@ pkg_check_modules(espeak REQUIRED IMPORTED_TARGET espeak-ng)
 pkg_check_modules(freetype REQUIRED IMPORTED_TARGET freetype2)
 # The client of D-Bus in it (sd-bus).
 pkg_check_modules(systemd REQUIRED IMPORTED_TARGET libsystemd)
+# Encodings of texts: recognised (i18n) and converted (uc).
+pkg_check_modules(icu REQUIRED IMPORTED_TARGET icu-i18n icu-uc)
 pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 pkg_check_modules(flatbuffers REQUIRED IMPORTED_TARGET flatbuffers)
 find_program(FLATC flatc REQUIRED)

@@ -5,10 +5,12 @@
 #include <set>
 #include <utility>
 
-#include "shared/core/byte_order_mark.h"
+#include "editor/text/foreign_text.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/json_fields.h"
+#include "shared/core/lower_case.h"
+#include "shared/core/plain_text.h"
 #include "shared/stage/caption_file.h"
 
 namespace lararium::bake {
@@ -26,24 +28,12 @@ bool IsLineId(std::string_view id) {
   });
 }
 
-// Accepts shortest forms only, no surrogates, nothing above U+10FFFF (Unicode 15, table 3-7).
-bool IsUtf8(std::string_view text) {
-  for (size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    const int more = lead < 0x80 ? 0 : lead < 0xC2 ? -1 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
-    if (more < 0 || lead > 0xF4) {
-      return false;
-    }
-    unsigned char least = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
-    unsigned char most = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
-    for (int k = 0; k < more; ++k, least = 0x80, most = 0xBF) {
-      const auto next = i < text.size() ? static_cast<unsigned char>(text[i++]) : 0;
-      if (next < least || next > most) {
-        return false;
-      }
-    }
-  }
-  return true;
+std::string Trimmed(std::string_view text) { return std::string(editor::TrimBlanks(text)); }
+
+// "pt_BR" is "pt-BR", as in names of locales.
+std::string LanguageTag(std::string text) {
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
 }
 
 // Checks what both formats require: valid ids, languages and texts, and unique ids.
@@ -79,7 +69,11 @@ class TableBuilder {
     if (table_.lines.size() >= kMaxLines) {
       return Status::Error(where, "there are more than 4096 lines");
     }
-    std::erase_if(line.text, [](const auto& entry) { return entry.second.empty(); });
+    for (auto& [language, text] : line.text) {
+      text = WithUnixLineEnds(std::move(text));
+    }
+    line.notes = WithUnixLineEnds(std::move(line.notes));
+    std::erase_if(line.text, [](const auto& entry) { return Trimmed(entry.second).empty(); });
     table_.lines.push_back(std::move(line));
     return Status();
   }
@@ -92,17 +86,13 @@ class TableBuilder {
   std::set<std::string> ids_;
 };
 
-Status CheckText(std::string_view text, const std::string& where) {
+Result<editor::ForeignText> Decode(std::string_view text,
+                                   const std::string& where,
+                                   const std::string& declared = "") {
   if (text.size() > kMaxTableBytes) {
     return Status::Error(where, "is longer than 16 MiB");
   }
-  if (!IsUtf8(text)) {
-    return Status::Error(where, "is not UTF-8", "save it as UTF-8");
-  }
-  if (text.find('\0') != std::string_view::npos) {
-    return Status::Error(where, "holds a zero byte");
-  }
-  return Status();
+  return editor::DecodeText(text, where, declared);
 }
 
 // ---- CSV ----
@@ -110,25 +100,40 @@ Status CheckText(std::string_view text, const std::string& where) {
 // Reads rows of cells from a text.
 class CsvReader {
  public:
-  CsvReader(std::string_view text, std::string where)
-      : text_(WithoutByteOrderMark(text)),
-        place_(std::move(where)),
-        separator_(GuessSeparator(text_)) {}
+  CsvReader(std::string_view text, std::string where) : text_(text), place_(std::move(where)) {
+    // Spreadsheets name the separator in a row before the header, such as "sep=;".
+    const std::string_view head = text_.substr(0, text_.find('\n'));
+    const std::string_view named = head.substr(0, 1) == "\"" ? head.substr(1) : head;
+    if (named.starts_with("sep=") && named.size() > 4) {
+      separator_ = named[4];
+      at_ = std::min(head.size() + 1, text_.size());
+      ++next_row_;
+      ++next_line_;
+    } else {
+      separator_ = GuessSeparator(text_);
+    }
+  }
 
   bool AtEnd() const { return at_ >= text_.size(); }
   // Names the begin of the row that was read last.
-  std::string Where() const { return place_ + ": row " + std::to_string(row_); }
+  std::string Where() const {
+    return place_ + ": row " + std::to_string(row_) +
+           (line_ == row_ ? "" : " (line " + std::to_string(line_) + ")");
+  }
 
+  // Reads a row. A row with an error ends at the end of its first line.
   Status Next(std::vector<std::string>& cells) {
-    cells.clear();
-    row_ = next_row_;
-    do {
-      LARARIUM_RETURN_IF_ERROR(ReadCell(cells.emplace_back()));
-    } while (Take(separator_));
-    Take('\r');
+    const size_t begin = at_;
+    row_ = next_row_++;
+    line_ = next_line_;
+    const Status status = ReadRow(cells);
+    if (!status.ok()) {
+      at_ = std::min(text_.find('\n', begin), text_.size());
+    }
     Take('\n');
-    ++next_row_;
-    return Status();
+    next_line_ += static_cast<int>(std::count(text_.begin() + static_cast<ptrdiff_t>(begin),
+                                              text_.begin() + static_cast<ptrdiff_t>(at_), '\n'));
+    return status;
   }
 
  private:
@@ -136,7 +141,7 @@ class CsvReader {
   static char GuessSeparator(std::string_view text) {
     const std::string_view head = text.substr(0, text.find('\n'));
     char best = ',';
-    for (const char candidate : {';', '\t'}) {
+    for (const char candidate : {';', '\t', '|'}) {
       if (std::count(head.begin(), head.end(), candidate) >
           std::count(head.begin(), head.end(), best)) {
         best = candidate;
@@ -151,11 +156,27 @@ class CsvReader {
     return there;
   }
 
-  Status ReadCell(std::string& cell) { return Take('"') ? ReadQuoted(cell) : ReadPlain(cell); }
+  Status ReadRow(std::vector<std::string>& cells) {
+    cells.clear();
+    do {
+      LARARIUM_RETURN_IF_ERROR(ReadCell(cells.emplace_back()));
+    } while (Take(separator_));
+    return Status();
+  }
+
+  Status ReadCell(std::string& cell) {
+    // Blanks may stand before a quote.
+    const size_t first = text_.find_first_not_of(' ', at_);
+    if (first != std::string_view::npos && text_[first] == '"') {
+      at_ = first + 1;
+      return ReadQuoted(cell);
+    }
+    return ReadPlain(cell);
+  }
 
   Status ReadPlain(std::string& cell) {
-    const char ends[] = {separator_, '\r', '\n', '\0'};
-    const size_t end = std::min(text_.find_first_of(std::string_view(ends, 3), at_), text_.size());
+    const char ends[] = {separator_, '\n'};
+    const size_t end = std::min(text_.find_first_of(std::string_view(ends, 2), at_), text_.size());
     cell = text_.substr(at_, end - at_);
     at_ = end;
     return CheckLength(cell);
@@ -165,7 +186,8 @@ class CsvReader {
     while (true) {
       const size_t quote = text_.find('"', at_);
       if (quote == std::string_view::npos) {
-        return Status::Error(Where(), "a quote is not closed");
+        return Status::Error(Where(), "a quote is not closed",
+                             "close it, and write a quote within a text twice");
       }
       cell += text_.substr(at_, quote - at_);
       at_ = quote + 1;
@@ -175,8 +197,10 @@ class CsvReader {
       }
       cell += '"';
     }
-    if (!AtEnd() && text_[at_] != separator_ && text_[at_] != '\r' && text_[at_] != '\n') {
-      return Status::Error(Where(), "there is text after a closing quote");
+    at_ = std::min(text_.find_first_not_of(' ', at_), text_.size());
+    if (!AtEnd() && text_[at_] != separator_ && text_[at_] != '\n') {
+      return Status::Error(Where(), "there is text after a closing quote",
+                           "write a quote within a text twice");
     }
     return Status();
   }
@@ -190,36 +214,50 @@ class CsvReader {
 
   std::string_view text_;
   std::string place_;
-  char separator_;
+  char separator_ = ',';
   size_t at_ = 0;
-  int row_ = 1;
+  int row_ = 1;   // Number of the row that was read last, as spreadsheets count.
+  int line_ = 1;  // First line of that row; quoted cells may have several.
   int next_row_ = 1;
+  int next_line_ = 1;
 };
 
-enum class Column { kId, kSpeaker, kNotes, kText };
+// A column that cannot be used is ignored; its header is in LinesFile::left_out.
+enum class Column { kId, kSpeaker, kNotes, kText, kUnnamed, kIgnored };
 
 struct Header {
   std::vector<Column> columns;
   std::vector<std::string> languages;  // Parallel to `columns`; "" if the column holds no text.
 };
 
+// A column that cannot be used is added to `left_out`.
 Result<Header> ReadHeader(const std::vector<std::string>& cells,
                           const std::string& where,
-                          TableBuilder& builder) {
+                          TableBuilder& builder,
+                          std::vector<Status>& left_out) {
   Header header;
   std::set<std::string> seen;
   for (const std::string& cell : cells) {
-    const Column column = cell == "id"        ? Column::kId
-                          : cell == "speaker" ? Column::kSpeaker
-                          : cell == "notes"   ? Column::kNotes
-                                              : Column::kText;
+    const std::string name = Trimmed(cell);
+    const std::string word = LowerCase(name);
+    Column column = name.empty()        ? Column::kUnnamed
+                    : word == "id"      ? Column::kId
+                    : word == "speaker" ? Column::kSpeaker
+                    : word == "notes"   ? Column::kNotes
+                                        : Column::kText;
+    const std::string language = column == Column::kText ? LanguageTag(name) : "";
+    Status status;
     if (column == Column::kText) {
-      LARARIUM_RETURN_IF_ERROR(builder.AddLanguage(cell, where));
-    } else if (!seen.insert(cell).second) {
-      return Status::Error(where, "the column '" + cell + "' occurs twice");
+      status = builder.AddLanguage(language, where);
+    } else if (column != Column::kUnnamed && !seen.insert(word).second) {
+      status = Status::Error(where, "the column '" + word + "' occurs twice");
+    }
+    if (!status.ok()) {
+      left_out.push_back(std::move(status));
+      column = Column::kIgnored;
     }
     header.columns.push_back(column);
-    header.languages.push_back(column == Column::kText ? cell : "");
+    header.languages.push_back(column == Column::kText ? language : "");
   }
   if (!seen.contains("id")) {
     return Status::Error(where, "there is no column 'id'",
@@ -230,19 +268,22 @@ Result<Header> ReadHeader(const std::vector<std::string>& cells,
 
 Line ReadLine(std::vector<std::string>& cells, const Header& header) {
   Line line;
-  for (size_t i = 0; i < cells.size(); ++i) {
+  for (size_t i = 0; i < header.columns.size() && i < cells.size(); ++i) {
     switch (header.columns[i]) {
       case Column::kId:
-        line.id = std::move(cells[i]);
+        line.id = Trimmed(cells[i]);
         break;
       case Column::kSpeaker:
-        line.speaker = std::move(cells[i]);
+        line.speaker = Trimmed(cells[i]);
         break;
       case Column::kNotes:
         line.notes = std::move(cells[i]);
         break;
       case Column::kText:
         line.text[header.languages[i]] = std::move(cells[i]);
+        break;
+      case Column::kUnnamed:
+      case Column::kIgnored:
         break;
     }
   }
@@ -268,66 +309,81 @@ const std::string& TextOf(const Line& line, const std::string& language) {
 
 // ---- PO ----
 
-// Decodes a quoted string after a keyword or on a line of its own.
+// Decodes the quoted strings after a keyword or on a line of their own.
 std::optional<std::string> Unquote(std::string_view text) {
-  if (text.size() < 2 || text.front() != '"' || text.back() != '"') {
-    return std::nullopt;
-  }
-  text = text.substr(1, text.size() - 2);
   std::string plain;
+  bool inside = false;
+  bool any = false;
   for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"') {
-      return std::nullopt;
+    const char c = text[i];
+    if (c == '"') {
+      inside = !inside;
+      any = true;
+    } else if (!inside) {
+      if (c != ' ' && c != '\t') {
+        return std::nullopt;
+      }
+    } else if (c != '\\') {
+      plain += c;
+    } else if (++i < text.size()) {
+      plain += text[i] == 'n' ? '\n' : text[i] == 't' ? '\t' : text[i] == 'r' ? '\r' : text[i];
     }
-    if (text[i] != '\\') {
-      plain += text[i];
-      continue;
-    }
-    if (++i == text.size()) {
-      return std::nullopt;
-    }
-    plain += text[i] == 'n' ? '\n' : text[i] == 't' ? '\t' : text[i] == 'r' ? '\r' : text[i];
   }
-  return plain;
+  return any && !inside ? std::optional(std::move(plain)) : std::nullopt;
+}
+
+// The value of a field in the header, such as "Language"; empty if there is none.
+std::string HeaderField(std::string_view header, std::string_view field) {
+  const size_t at = header.find(field);
+  if (at == std::string_view::npos) {
+    return "";
+  }
+  const size_t begin = at + field.size();
+  return Trimmed(header.substr(begin, header.find_first_of("\n\\", begin) - begin));
 }
 
 class PoReader {
  public:
-  explicit PoReader(std::string where) : place_(std::move(where)) {}
-
-  Status ReadRow(std::string_view row) {
+  void ReadRow(std::string_view row) {
     ++row_;
-    row = Trim(row);
+    row = editor::TrimBlanks(row);
     if (row.starts_with("#,")) {
       StartEntry();
       entry_.fuzzy = entry_.fuzzy || row.find("fuzzy") != std::string_view::npos;
-      return Status();
+    } else if (row.starts_with("#~")) {
+      // An obsolete entry; the comments before it are its own.
+      if (target_ == nullptr) {
+        entry_ = {};
+      }
+    } else if (row.empty()) {
+      damaged_ = false;
+    } else if (row.front() == '"') {
+      Append(row);
+    } else if (row.front() != '#') {
+      ReadKeyword(row);
     }
-    if (row.empty() || row.front() == '#') {
-      return Status();  // "#~" marks obsolete entries.
-    }
-    if (row.front() == '"') {
-      return Append(row);
-    }
-    return ReadKeyword(row);
   }
 
-  Result<PoFile> Take() {
+  // Fails if no entry could be read.
+  Result<PoFile> Take(const std::string& where) {
     Finish();
+    if (file_.entries.empty() && file_.language.empty() && !file_.notes.empty()) {
+      return Status::Error(where, file_.notes.front());
+    }
     return std::move(file_);
   }
 
  private:
-  static std::string_view Trim(std::string_view text) {
-    const size_t begin = text.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) {
-      return {};
+  // Drops the entry with this row, up to the next one.
+  void Problem(std::string_view what) {
+    if (!damaged_) {
+      file_.notes.push_back("line " + std::to_string(row_) + ": " + std::string(what) +
+                            "; the entry was left out");
     }
-    return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-  }
-
-  Status Problem(std::string_view what) const {
-    return Status::Error(place_ + ": line " + std::to_string(row_), what);
+    entry_ = {};
+    has_text_ = false;
+    target_ = nullptr;
+    damaged_ = true;
   }
 
   // A new entry begins after a translation.
@@ -340,8 +396,13 @@ class PoReader {
     }
   }
 
-  Status ReadKeyword(std::string_view row) {
-    const std::string_view keyword = row.substr(0, row.find_first_of(" \t"));
+  void ReadKeyword(std::string_view row) {
+    const std::string_view keyword = row.substr(0, row.find_first_of(" \t\""));
+    const bool begins = keyword == "msgctxt" || keyword == "msgid";
+    damaged_ = damaged_ && !begins;
+    if (damaged_) {
+      return;
+    }
     if (keyword == "msgctxt" || (keyword == "msgid" && has_text_)) {
       StartEntry();
     }
@@ -355,16 +416,26 @@ class PoReader {
     } else if (keyword == "msgstr" || keyword == "msgstr[0]") {
       target_ = &entry_.text;
       has_text_ = true;
-    } else if (keyword == "msgid_plural" || keyword.starts_with("msgstr[")) {
+    } else if (keyword == "msgid_plural") {
+      file_.notes.push_back("line " + std::to_string(row_) +
+                            ": of several plural forms the first is taken");
+      target_ = &ignored_;
+    } else if (keyword.starts_with("msgstr[") || keyword == "domain") {
       target_ = &ignored_;
     } else {
+      if (has_text_) {
+        Finish();
+      }
       return Problem("'" + std::string(keyword.substr(0, 40)) + "' is no word of a PO file");
     }
     target_->clear();
-    return Append(Trim(row.substr(keyword.size())));
+    Append(row.substr(keyword.size()));
   }
 
-  Status Append(std::string_view quoted) {
+  void Append(std::string_view quoted) {
+    if (damaged_) {
+      return;
+    }
     const std::optional<std::string> text = Unquote(quoted);
     if (!text) {
       return Problem("a quoted text was expected");
@@ -376,12 +447,14 @@ class PoReader {
       return Problem("a text is too long");
     }
     *target_ += *text;
-    return Status();
   }
 
   void Finish() {
     if (has_text_ && entry_.source.empty() && entry_.context.empty()) {
-      ReadHeader(entry_.text);
+      // Names of locales go on, as in "it_IT.UTF-8".
+      std::string language = LanguageTag(HeaderField(entry_.text, "Language:"));
+      language.resize(std::min(language.find_first_of(".@"), language.size()));
+      file_.language = stage::IsLanguageTag(language) ? language : "";
     } else if (has_text_) {
       file_.entries.push_back(std::move(entry_));
     }
@@ -390,27 +463,22 @@ class PoReader {
     target_ = nullptr;
   }
 
-  void ReadHeader(const std::string& header) {
-    constexpr std::string_view kField = "Language:";
-    const size_t at = header.find(kField);
-    if (at != std::string::npos) {
-      const size_t begin = at + kField.size();
-      std::string language(Trim(header.substr(begin, header.find('\n', begin) - begin)));
-      std::replace(language.begin(), language.end(), '_', '-');
-      if (stage::IsLanguageTag(language)) {
-        file_.language = language;
-      }
-    }
-  }
-
-  std::string place_;
   int row_ = 0;
   PoFile file_;
   PoEntry entry_;
   bool has_text_ = false;
+  bool damaged_ = false;  // Rows are skipped up to the next entry.
   std::string* target_ = nullptr;
   std::string ignored_;
 };
+
+Result<LineTable> WholeTable(Result<LinesFile> file) {
+  if (!file.ok()) {
+    return file.status();
+  }
+  return file->left_out.empty() ? Result<LineTable>(std::move(file->table))
+                                : Result<LineTable>(file->left_out.front());
+}
 
 }  // namespace
 
@@ -420,25 +488,48 @@ const Line* LineTable::Find(std::string_view id) const {
   return found == lines.end() ? nullptr : &*found;
 }
 
-Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& where) {
-  LARARIUM_RETURN_IF_ERROR(CheckText(text, where));
+Result<LinesFile> ReadLinesCsv(std::string_view text, const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const editor::ForeignText decoded, Decode(text, where));
+  LinesFile file;
   TableBuilder builder;
-  CsvReader reader(text, where);
+  CsvReader reader(decoded.text, where);
   std::vector<std::string> cells;
   LARARIUM_RETURN_IF_ERROR(reader.Next(cells));
-  LARARIUM_ASSIGN_OR_RETURN(const Header header, ReadHeader(cells, reader.Where(), builder));
+  LARARIUM_ASSIGN_OR_RETURN(const Header header,
+                            ReadHeader(cells, reader.Where(), builder, file.left_out));
+  const auto is_blank = [](const std::string& cell) { return Trimmed(cell).empty(); };
   while (!reader.AtEnd()) {
-    LARARIUM_RETURN_IF_ERROR(reader.Next(cells));
-    if (std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); })) {
+    Status status = reader.Next(cells);
+    if (status.ok() && std::all_of(cells.begin(), cells.end(), is_blank)) {
       continue;
     }
-    if (cells.size() > header.columns.size()) {
-      return Status::Error(reader.Where(), "has more cells than the header row",
-                           "put texts that hold the separator into quotes");
+    const size_t known = std::min(cells.size(), header.columns.size());
+    if (status.ok() &&
+        !std::all_of(cells.begin() + static_cast<ptrdiff_t>(known), cells.end(), is_blank)) {
+      status = Status::Error(reader.Where(), "has more cells than the header row",
+                             "put texts that hold the separator into quotes");
     }
-    LARARIUM_RETURN_IF_ERROR(builder.AddLine(ReadLine(cells, header), reader.Where()));
+    for (size_t i = 0; status.ok() && i < known; ++i) {
+      if (header.columns[i] == Column::kUnnamed && !is_blank(cells[i])) {
+        file.left_out.push_back(Status::Error(reader.Where(),
+                                              "holds a text in a column that has no name",
+                                              "name the column in the header row"));
+      }
+    }
+    if (status.ok()) {
+      status = builder.AddLine(ReadLine(cells, header), reader.Where());
+    }
+    if (!status.ok()) {
+      file.left_out.push_back(std::move(status));
+    }
   }
-  return builder.Take();
+  file.table = builder.Take();
+  file.note = decoded.note.empty() ? "" : where + ": " + decoded.note;
+  return file;
+}
+
+Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& where) {
+  return WholeTable(ReadLinesCsv(text, where));
 }
 
 std::string FormatLinesCsv(const LineTable& table) {
@@ -493,14 +584,17 @@ void DescribeTable(Fields& fields, LineTable& table, TableBuilder& builder) {
 
 }  // namespace
 
-Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where) {
-  LARARIUM_RETURN_IF_ERROR(CheckText(text, where));
+Result<LinesFile> ReadLinesJson(std::string_view text, const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const editor::ForeignText decoded, Decode(text, where));
   LineTable table;
   TableBuilder builder;
   LARARIUM_RETURN_IF_ERROR(ReadFields(
-      text, where, [&](Fields& fields) { DescribeTable(fields, table, builder); },
-      UnknownFields::kIgnore));
-  return builder.Take();
+      decoded.text, where, [&](Fields& fields) { DescribeTable(fields, table, builder); }));
+  return LinesFile{builder.Take(), decoded.note.empty() ? "" : where + ": " + decoded.note, {}};
+}
+
+Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where) {
+  return WholeTable(ReadLinesJson(text, where));
 }
 
 std::string FormatLinesJson(const LineTable& table) {
@@ -511,15 +605,19 @@ std::string FormatLinesJson(const LineTable& table) {
 }
 
 Result<PoFile> ParsePo(std::string_view text, const std::string& where) {
-  LARARIUM_RETURN_IF_ERROR(CheckText(text, where));
-  text = WithoutByteOrderMark(text);
-  PoReader reader(where);
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    LARARIUM_RETURN_IF_ERROR(reader.ReadRow(text.substr(0, end)));
-    text.remove_prefix(std::min(end + 1, text.size()));
+  LARARIUM_ASSIGN_OR_RETURN(const editor::ForeignText decoded,
+                            Decode(text, where, HeaderField(text.substr(0, 4096), "charset=")));
+  PoReader reader;
+  for (std::string_view rest = decoded.text; !rest.empty();) {
+    const size_t end = std::min(rest.find('\n'), rest.size());
+    reader.ReadRow(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  return reader.Take();
+  LARARIUM_ASSIGN_OR_RETURN(PoFile file, reader.Take(where));
+  if (!decoded.note.empty()) {
+    file.notes.insert(file.notes.begin(), decoded.note);
+  }
+  return file;
 }
 
 PoImport ImportPo(const PoFile& po, const std::string& language, LineTable& table) {
@@ -535,6 +633,7 @@ PoImport ImportPo(const PoFile& po, const std::string& language, LineTable& tabl
                                [&](const auto& text) { return text.second == entry.source; })
                  : line.id == entry.context;
     };
+    report.fuzzy += entry.fuzzy ? 1 : 0;
     int meant = 0;
     for (Line& line : table.lines) {
       if (is_meant(line)) {
@@ -553,7 +652,7 @@ PoImport ImportPo(const PoFile& po, const std::string& language, LineTable& tabl
   return report;
 }
 
-Result<LineTable> LoadLines(const std::filesystem::path& folder) {
+Result<LinesFile> ReadLines(const std::filesystem::path& folder) {
   const std::filesystem::path csv = folder / "lines.csv";
   const std::filesystem::path json = folder / "lines.json";
   const bool has_csv = FileExists(csv);
@@ -562,15 +661,23 @@ Result<LineTable> LoadLines(const std::filesystem::path& folder) {
     return Status::Error(json.string(), "lines.csv exists too", "keep one of them");
   }
   if (!has_csv && !has_json) {
-    return LineTable();
+    return LinesFile();
   }
   const std::filesystem::path& file = has_csv ? csv : json;
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxTableBytes));
-  return has_csv ? ParseLinesCsv(text, file.string()) : ParseLinesJson(text, file.string());
+  return has_csv ? ReadLinesCsv(text, file.string()) : ReadLinesJson(text, file.string());
+}
+
+Result<LineTable> LoadLines(const std::filesystem::path& folder) {
+  return WholeTable(ReadLines(folder));
 }
 
 Status SaveLines(const std::filesystem::path& folder, const LineTable& table) {
   LARARIUM_RETURN_IF_ERROR(ParseLinesCsv(FormatLinesCsv(table), folder.string()).status());
+  if (const Status before = LoadLines(folder).status(); !before.ok()) {
+    return Status::Error(before.message(), "the lines are not saved, because that would be lost",
+                         "correct or remove the file first");
+  }
   const std::filesystem::path json = folder / "lines.json";
   if (FileExists(json)) {
     return WriteFileAtomically(json, FormatLinesJson(table));

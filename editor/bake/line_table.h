@@ -37,13 +37,23 @@ struct LineTable {
   friend bool operator==(const LineTable&, const LineTable&) = default;
 };
 
-// CSV as spreadsheets write it (RFC 4180): UTF-8 with or without a byte order mark; ',', ';' or
-// tab between cells; quotes around cells that contain one of these or a line break. Errors name
-// the text as `where`, and the row and column.
+// A table as it was read from a file in which something may be wrong.
+struct LinesFile {
+  LineTable table;
+  std::string note;              // Names an encoding that was guessed; usually empty.
+  std::vector<Status> left_out;  // Rows and columns that could not be read.
+};
+
+// CSV as spreadsheets write it (RFC 4180), in any encoding (editor/text/foreign_text.h): ',', ';',
+// '|' or tab between cells, also named by a first row "sep=;"; quotes around cells that contain one
+// of these or a line break. A bad row costs that row. Parse… fails instead if anything would be
+// left out. Errors name the text as `where`, and the row.
+Result<LinesFile> ReadLinesCsv(std::string_view text, const std::string& where);
 Result<LineTable> ParseLinesCsv(std::string_view text, const std::string& where);
 std::string FormatLinesCsv(const LineTable& table);
 
 // {"schema": 1, "languages": ["la"], "lines": [{"id", "speaker", "notes", "text": {"la": ""}}]}
+Result<LinesFile> ReadLinesJson(std::string_view text, const std::string& where);
 Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where);
 std::string FormatLinesJson(const LineTable& table);
 
@@ -58,7 +68,9 @@ struct PoEntry {
 struct PoFile {
   std::string language;  // Language in the header; empty if the header does not state it.
   std::vector<PoEntry> entries;
+  std::vector<std::string> notes;  // Lists what was left out or guessed: "line 12: ...".
 };
+// Reads the encoding that the header declares, or any other. A bad entry costs that entry.
 Result<PoFile> ParsePo(std::string_view text, const std::string& where);
 
 // Copies translations into the table. An entry belongs to the line whose id is its context;
@@ -66,15 +78,18 @@ Result<PoFile> ParsePo(std::string_view text, const std::string& where);
 // Reports how many texts were set and which entries match no line.
 struct PoImport {
   int translated = 0;
+  int fuzzy = 0;  // Number of entries that were skipped.
   std::vector<std::string> unknown;
 };
 PoImport ImportPo(const PoFile& po, const std::string& language, LineTable& table);
 
 // Reads lines.csv or lines.json in the folder of a project; the table is empty if there is
-// neither. Having both is an error, because it would not be clear which one counts.
+// neither. Having both is an error, because it would not be clear which one counts. LoadLines() is
+// for edits: it fails if anything would be left out, because saving would lose that.
+Result<LinesFile> ReadLines(const std::filesystem::path& folder);
 Result<LineTable> LoadLines(const std::filesystem::path& folder);
 // Writes the file that exists, otherwise lines.csv. Refuses a table that could not be read
-// back.
+// back, and to replace a file that LoadLines() cannot read.
 Status SaveLines(const std::filesystem::path& folder, const LineTable& table);
 
 }  // namespace lararium::bake

@@ -5,7 +5,6 @@
 #include "editor/bake/speech_sound.h"
 #include "editor/bake/speech_visemes.h"
 #include "editor/bake/speech_words.h"
-#include "shared/core/file.h"
 
 namespace lararium::bake {
 namespace {
@@ -57,23 +56,6 @@ Result<human::VisemeTrack> AlignRecording(const SpeechSource& source,
 }
 
 }  // namespace
-
-Result<std::optional<std::filesystem::path>> FindRecording(const std::filesystem::path& folder,
-                                                           const std::string& id) {
-  std::optional<std::filesystem::path> found;
-  for (const char* extension : {".wav", ".flac", ".ogg", ".opus"}) {
-    const std::filesystem::path file = folder / (id + extension);
-    if (!FileExists(file)) {
-      continue;
-    }
-    if (found) {
-      return Status::Error(file.string(), "there is " + found->filename().string() + " too",
-                           "keep one of them");
-    }
-    found = file;
-  }
-  return found;
-}
 
 Result<std::vector<std::byte>> BakeSound(const SpeechSource& source) {
   if (!source.recording.empty()) {

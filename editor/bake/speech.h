@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +19,6 @@ struct SpeechSource {
   VoiceSettings voice;
   std::filesystem::path recording = {};  // Recording of the line; empty if it is synthesised.
 };
-
-// Finds ID.wav, .flac, .ogg or .opus in a folder; nullopt if there is none. Two files are an
-// error.
-Result<std::optional<std::filesystem::path>> FindRecording(const std::filesystem::path& folder,
-                                                           const std::string& id);
 
 // Gives a FLAC file. Deterministic. Normalises the loudness of synthesised voices; recordings
 // keep theirs.

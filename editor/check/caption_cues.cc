@@ -52,9 +52,11 @@ std::vector<bake::FileCue> CuesOf(const std::vector<SaidLine>& said,
   return cues;
 }
 
-std::map<std::string, std::vector<bake::FileCue>> CuesByLine(const std::vector<bake::FileCue>& cues,
+std::map<std::string, std::vector<bake::FileCue>> CuesByLine(std::vector<bake::FileCue> cues,
                                                              const std::vector<SaidLine>& said,
                                                              std::vector<std::string>& warnings) {
+  std::stable_sort(cues.begin(), cues.end(),
+                   [](const auto& a, const auto& b) { return a.begin < b.begin; });
   std::map<std::string, std::vector<bake::FileCue>> lines;
   std::map<std::string, double> first;
   for (const SaidLine& line : said) {

@@ -22,7 +22,7 @@ std::vector<bake::FileCue> CuesOf(const std::vector<SaidLine>& said,
 
 // The inverse: for each line, its cues at the first time that it is said, in its own time. Adds
 // a warning for each cue without a line.
-std::map<std::string, std::vector<bake::FileCue>> CuesByLine(const std::vector<bake::FileCue>& cues,
+std::map<std::string, std::vector<bake::FileCue>> CuesByLine(std::vector<bake::FileCue> cues,
                                                              const std::vector<SaidLine>& said,
                                                              std::vector<std::string>& warnings);
 

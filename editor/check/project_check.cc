@@ -22,13 +22,17 @@ namespace {
 // Unreadable lines are reported as a problem, and the result is empty.
 ProjectLines CheckLines(const ProjectPaths& paths,
                         const ProjectDocument& document,
-                        std::vector<Sentence>& problems) {
+                        std::vector<Sentence>& problems,
+                        std::vector<Sentence>& warnings) {
   Result<ProjectLines> lines = LoadProjectLines(paths, document);
   if (!lines.ok()) {
     problems.push_back(lines.message());
     return {};
   }
   Append(CheckTable(paths, document, *lines), problems);
+  LineNotes notes = CheckLineFiles(paths, document, *lines);
+  Append(std::move(notes.problems), problems);
+  Append(std::move(notes.warnings), warnings);
   if (const Result<std::string> script = ReadText(paths.Drama()); script.ok()) {
     Append(CheckScriptLines(paths, document, *lines, *script), problems);
   }
@@ -143,7 +147,7 @@ Result<CheckedProject> CheckProject(const CheckOptions& options, Progress& progr
   const ParadataReport paradata = CheckParadata(paths, document);
   Append(paradata.problems, problems);
   Append(paradata.warnings, places.warnings);
-  const ProjectLines lines = CheckLines(paths, document, problems);
+  const ProjectLines lines = CheckLines(paths, document, problems, places.warnings);
   const DryRunReport run = DryRunAll(paths, document, lines, options, progress);
   Append(run.problems, problems);
   if (progress.Cancelled()) {

@@ -149,9 +149,10 @@ Status WriteSample(const ProjectPaths& paths,
                    const ProjectDocument& document,
                    const CastDocument& member,
                    const std::filesystem::path& file) {
-  LARARIUM_ASSIGN_OR_RETURN(const bake::LineTable lines, bake::LoadLines(paths.folder));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> sound,
-                            SpeakSample(SampleOf(lines, document.speech, member), member.voice));
+  LARARIUM_ASSIGN_OR_RETURN(const bake::LinesFile lines, bake::ReadLines(paths.folder));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const std::vector<std::byte> sound,
+      SpeakSample(SampleOf(lines.table, document.speech, member), member.voice));
   return WriteFileAtomically(file, sound);
 }
 

@@ -12,43 +12,80 @@
 #include "editor/document/project.h"
 #include "editor/jobs/lines.h"
 #include "shared/core/file.h"
+#include "shared/core/lower_case.h"
 #include "shared/stage/caption_file.h"
 
 namespace lararium::editor {
 namespace {
 
+// "warning: FILE: line 12: ...", one a line.
+std::string WarningLines(const std::filesystem::path& file,
+                         const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) {
+    text += "warning: " + file.string() + ": " + warning + "\n";
+  }
+  return text;
+}
+
 Result<CommandResult> ImportCatalogue(const LinesOptions& options, bake::LineTable& table) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(options.import));
   LARARIUM_ASSIGN_OR_RETURN(const bake::PoFile po, bake::ParsePo(text, options.import.string()));
-  const std::string language = options.language.empty() ? po.language : options.language;
+  std::string language = options.language.empty() ? po.language : options.language;
+  // A catalogue for "it-IT" translates the column "it" if there is no other.
+  const std::string base = language.substr(0, language.find('-'));
+  const auto has = [&table](const std::string& tag) {
+    return std::find(table.languages.begin(), table.languages.end(), tag) != table.languages.end();
+  };
+  language = options.language.empty() && !has(language) && has(base) ? base : language;
   if (!stage::IsLanguageTag(language)) {
     return Status::Error(options.import.string(), "does not state its language",
                          "give it with --language");
   }
   const bake::PoImport report = bake::ImportPo(po, language, table);
   CommandResult result;
+  std::vector<std::string> warnings = po.notes;
   for (const std::string& unknown : report.unknown) {
-    result.text += "warning: " + options.import.string() + ": " + unknown + ": means no line\n";
+    warnings.push_back(unknown + ": means no line");
   }
+  if (report.fuzzy > 0) {
+    warnings.push_back(std::to_string(report.fuzzy) + " fuzzy entries were left out");
+  }
+  result.text = WarningLines(options.import, warnings);
   result.text += std::to_string(report.translated) + " texts in " + language + "\n";
-  result.json = {
-      {"translated", report.translated}, {"language", language}, {"unknown", report.unknown}};
+  result.json = {{"translated", report.translated},
+                 {"language", language},
+                 {"unknown", report.unknown},
+                 {"warnings", warnings}};
   return result;
 }
 
-Result<bake::LineTable> ReadTable(const std::filesystem::path& file) {
+Result<bake::LinesFile> ReadTable(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
-  return file.extension() == ".json" ? bake::ParseLinesJson(text, file.string())
-                                     : bake::ParseLinesCsv(text, file.string());
+  return LowerCase(file.extension().string()) == ".json" ? bake::ReadLinesJson(text, file.string())
+                                                         : bake::ReadLinesCsv(text, file.string());
 }
 
 Result<CommandResult> Import(const LinesOptions& options, bake::LineTable& table) {
-  if (options.import.extension() == ".po") {
+  if (LowerCase(options.import.extension().string()) == ".po") {
     return ImportCatalogue(options, table);
   }
-  LARARIUM_ASSIGN_OR_RETURN(table, ReadTable(options.import));
-  return CommandResult{std::to_string(table.lines.size()) + " lines\n",
-                       {{"lines", table.lines.size()}}};
+  LARARIUM_ASSIGN_OR_RETURN(bake::LinesFile file, ReadTable(options.import));
+  table = std::move(file.table);
+  CommandResult result;
+  std::vector<std::string> warnings;
+  if (!file.note.empty()) {
+    warnings.push_back(file.note);
+  }
+  for (const Status& left_out : file.left_out) {
+    warnings.push_back(left_out.message() + "; it was left out");
+  }
+  for (const std::string& warning : warnings) {
+    result.text += "warning: " + warning + "\n";
+  }
+  result.text += std::to_string(table.lines.size()) + " lines\n";
+  result.json = {{"lines", table.lines.size()}, {"warnings", warnings}};
+  return result;
 }
 
 Result<bake::Line*> FindLine(const LinesOptions& options,
@@ -156,17 +193,10 @@ Result<CommandResult> ImportCaptions(const CaptionsOptions& options,
                                      const std::string& language,
                                      const std::vector<SaidLine>& said) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(options.import));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<bake::FileCue> cues,
+  LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFile file,
                             bake::ParseCaptionFile(text, options.import.string()));
-  std::vector<std::string> warnings;
-  const auto lines = CuesByLine(cues, said, warnings);
-  for (const auto& [line, own] : lines) {
-    std::vector<stage::CaptionCue> placed;
-    for (const bake::FileCue& cue : own) {
-      placed.push_back({cue.begin, cue.end, cue.text});
-    }
-    LARARIUM_RETURN_IF_ERROR(stage::CheckCues(placed, options.import.string() + ": " + line));
-  }
+  std::vector<std::string>& warnings = file.notes;
+  const auto lines = CuesByLine(std::move(file.cues), said, warnings);
   std::error_code error;
   std::filesystem::create_directories(paths.Recordings(spoken), error);
   for (const auto& [line, own] : lines) {
@@ -174,10 +204,7 @@ Result<CommandResult> ImportCaptions(const CaptionsOptions& options,
     LARARIUM_RETURN_IF_ERROR(
         WriteFileAtomically(paths.Recordings(spoken) / name, bake::FormatSrt(own)));
   }
-  CommandResult result;
-  for (const std::string& warning : warnings) {
-    result.text += "warning: " + options.import.string() + ": " + warning + "\n";
-  }
+  CommandResult result{WarningLines(options.import, warnings), {}};
   result.text += "captions of " + std::to_string(lines.size()) + " lines in " + language + "\n";
   result.json = {{"lines", lines.size()}, {"warnings", warnings}};
   return result;

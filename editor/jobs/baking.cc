@@ -472,7 +472,8 @@ Status AddPeople(const ProjectPaths& paths,
 Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
                                     const ProjectDocument& document,
                                     const Progress& progress,
-                                    BakeWhat what) {
+                                    BakeWhat what,
+                                    std::vector<std::string>& warnings) {
   std::vector<BakeStep> steps;
   if (what == BakeWhat::kPeople) {
     LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, steps));
@@ -499,6 +500,12 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
   for (const SpokenLine& spoken : spoken_lines) {
     AddSpeechSteps(spoken, steps);
+  }
+  const LineNotes notes = CheckLineFiles(paths, document, lines);
+  for (const auto* sentences : {&notes.problems, &notes.warnings}) {
+    for (std::string& note : EnglishOf(*sentences)) {
+      warnings.push_back(std::move(note));
+    }
   }
   for (const SoundFile& sound : FindSounds(paths)) {
     if (sound.built_in) {
@@ -573,7 +580,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
                         BakeWhat what) {
   BakeReport report;
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps,
-                            Steps(paths, document, progress, what));
+                            Steps(paths, document, progress, what, report.warnings));
   double whole = 0.0;
   for (const BakeStep& step : steps) {
     whole += step.cost;

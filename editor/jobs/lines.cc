@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <set>
+#include <system_error>
 #include <utility>
 
-#include "editor/bake/caption_file.h"
 #include "editor/bake/caption_font.h"
 #include "editor/bake/caption_layout.h"
+#include "editor/bake/line_folder.h"
+#include "editor/document/check_sentences.h"
 #include "shared/bundle/show_manifest.h"
 #include "shared/core/file.h"
 #include "shared/show/evidence.h"
@@ -42,40 +45,20 @@ Result<human::VisemeTrack> LoadVisemes(const SpokenLine& spoken) {
   return stage::ParseVisemes(text, spoken.visemes.string());
 }
 
-// Reads captions with manual timing, LINE.LANGUAGE.srt or .vtt; empty where there are none.
-Result<std::vector<stage::CaptionCue>> LoadPlacedCaptions(const std::filesystem::path& folder,
-                                                          const std::string& stem) {
-  std::vector<stage::CaptionCue> cues;
-  for (const char* extension : {".srt", ".vtt"}) {
-    const std::filesystem::path file = folder / (stem + extension);
-    if (!cues.empty() || !FileExists(file)) {
-      continue;
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
-    LARARIUM_ASSIGN_OR_RETURN(const std::vector<bake::FileCue> placed,
-                              bake::ParseCaptionFile(text, file.string()));
-    for (const bake::FileCue& cue : placed) {
-      cues.push_back({cue.begin, cue.end, cue.text});
-    }
-    LARARIUM_RETURN_IF_ERROR(stage::CheckCues(cues, file.string()));
-  }
-  return cues;
-}
-
 // The cues of a spoken line, with manual or automatic timing; empty where the line has no text for
 // them.
-Result<std::vector<stage::CaptionCue>> CuesOf(const ProjectPaths& paths,
-                                              const SpokenLine& spoken,
+Result<std::vector<stage::CaptionCue>> CuesOf(const SpokenLine& spoken,
                                               const human::VisemeTrack& visemes,
                                               const std::string& captions) {
-  LARARIUM_ASSIGN_OR_RETURN(
-      std::vector<stage::CaptionCue> placed,
-      LoadPlacedCaptions(paths.Recordings(spoken.language), spoken.line->id + "." + captions));
-  const auto text = spoken.line->text.find(captions);
-  if (placed.empty() && text != spoken.line->text.end()) {
-    placed = bake::LayOutCaptions(text->second, visemes);
+  if (const auto placed = spoken.placed.find(captions); placed != spoken.placed.end()) {
+    LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFile file, LoadPlacedCaptions(placed->second));
+    if (!file.cues.empty()) {
+      return bake::ShownCues(std::move(file.cues));
+    }
   }
-  return placed;
+  const auto text = spoken.line->text.find(captions);
+  return text == spoken.line->text.end() ? std::vector<stage::CaptionCue>()
+                                         : bake::LayOutCaptions(text->second, visemes);
 }
 
 Result<show::Speech> LoadLine(const SpokenLine& spoken,
@@ -109,7 +92,10 @@ bool ProjectLines::Describes(const bake::Line& line, const ProjectDocument& docu
 
 Result<ProjectLines> LoadProjectLines(const ProjectPaths& paths, const ProjectDocument& document) {
   ProjectLines lines;
-  LARARIUM_ASSIGN_OR_RETURN(lines.table, bake::LoadLines(paths.folder));
+  LARARIUM_ASSIGN_OR_RETURN(bake::LinesFile file, bake::ReadLines(paths.folder));
+  lines.table = std::move(file.table);
+  lines.note = std::move(file.note);
+  lines.left_out = std::move(file.left_out);
   lines.spoken = document.speech.spoken;
   lines.captions = document.speech.captions;
   const std::vector<std::string>& known = lines.table.languages;
@@ -129,6 +115,7 @@ Result<ProjectLines> LoadProjectLines(const ProjectPaths& paths, const ProjectDo
 Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
                                             const ProjectDocument& document,
                                             const ProjectLines& lines) {
+  std::map<std::string, bake::LineFolder> folders;  // The key is the language.
   std::vector<SpokenLine> spoken;
   for (const bake::Line& line : lines.table.lines) {
     if (ProjectLines::IsName(line, document)) {
@@ -144,18 +131,80 @@ Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
       if (text == line.text.end()) {
         continue;
       }
-      LARARIUM_ASSIGN_OR_RETURN(const auto recording,
-                                bake::FindRecording(paths.Recordings(language), line.id));
-      spoken.push_back(
-          {&line,
-           language,
-           describes,
-           {text->second, language, voice, recording.value_or(std::filesystem::path())},
-           paths.Speech(language, line.id + ".flac"),
-           paths.Speech(language, line.id + ".visemes.json")});
+      const bake::LineFolder& folder =
+          folders.try_emplace(language, paths.Recordings(language), lines.table.lines)
+              .first->second;
+      LARARIUM_ASSIGN_OR_RETURN(const std::filesystem::path recording, folder.Recording(line.id));
+      SpokenLine& added =
+          spoken.emplace_back(SpokenLine{&line,
+                                         language,
+                                         describes,
+                                         {text->second, language, voice, recording},
+                                         paths.Speech(language, line.id + ".flac"),
+                                         paths.Speech(language, line.id + ".visemes.json"),
+                                         {}});
+      for (const std::string& captions : lines.captions) {
+        LARARIUM_ASSIGN_OR_RETURN(std::filesystem::path file, folder.Captions(line.id, captions));
+        if (!file.empty()) {
+          added.placed[captions] = std::move(file);
+        }
+      }
     }
   }
   return spoken;
+}
+
+LineNotes CheckLineFiles(const ProjectPaths& paths,
+                         const ProjectDocument& document,
+                         const ProjectLines& lines) {
+  LineNotes notes;
+  if (!lines.note.empty()) {
+    notes.warnings.push_back(lines.note);
+  }
+  for (const Status& left_out : lines.left_out) {
+    notes.problems.push_back(Sentence("%s; it was left out", {left_out.message()}));
+  }
+  std::set<std::string> languages(lines.spoken.begin(), lines.spoken.end());
+  languages.insert(lines.captions.begin(), lines.captions.end());
+  for (const std::string& language : languages) {
+    const bake::LineFolder folder(paths.Recordings(language), lines.table.lines);
+    for (const bake::StrayFile& stray : folder.Strays()) {
+      if (stray.line.empty()) {
+        notes.warnings.push_back(AtPlace(stray.file.string(), Sentence("belongs to no line")));
+      } else {
+        notes.problems.push_back(
+            AtPlace(stray.file.string(),
+                    Sentence("is not used; if it is the recording of the line '%s', name it %s",
+                             {stray.line, stray.line + stray.file.extension().string()})));
+      }
+    }
+  }
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(paths.folder / "audio", error)) {
+    const std::string name = entry.path().filename().string();
+    std::error_code ignored;
+    if (entry.is_directory(ignored) && !languages.contains(name) &&
+        !bake::LineFolder(entry.path(), {}).Strays().empty()) {
+      notes.problems.push_back(AtPlace(
+          entry.path().string(),
+          Sentence("holds recordings or captions, but '%s' is no language of the lines", {name})));
+    }
+  }
+  const auto spoken = SpokenLines(paths, document, lines);
+  for (size_t i = 0; spoken.ok() && i < spoken->size(); ++i) {
+    for (const auto& [captions, file] : (*spoken)[i].placed) {
+      const Result<bake::CaptionFile> read = LoadPlacedCaptions(file);
+      for (size_t k = 0; read.ok() && k < read->notes.size(); ++k) {
+        notes.problems.push_back(AtPlace(file.string(), read->notes[k]));
+      }
+    }
+  }
+  return notes;
+}
+
+Result<bake::CaptionFile> LoadPlacedCaptions(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
+  return bake::ParseCaptionFile(text, file.string());
 }
 
 Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
@@ -176,7 +225,7 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
     for (const std::string& captions : lines.captions) {
       LARARIUM_ASSIGN_OR_RETURN(std::vector<stage::CaptionCue> cues,
-                                CuesOf(paths, spoken, visemes, captions));
+                                CuesOf(spoken, visemes, captions));
       if (!cues.empty()) {
         book.lines[spoken.line->id][captions] = std::move(cues);
       }
@@ -195,7 +244,7 @@ Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
     if (spoken.language == language && spoken.describes) {
       LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
       LARARIUM_ASSIGN_OR_RETURN(book.lines[spoken.line->id][language],
-                                CuesOf(paths, spoken, visemes, language));
+                                CuesOf(spoken, visemes, language));
     }
   }
   return book;

@@ -3,9 +3,11 @@
 // The lines of a project, spoken and written.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "editor/bake/caption_file.h"
 #include "editor/bake/line_table.h"
 #include "editor/bake/speech.h"
 #include "editor/document/project.h"
@@ -24,6 +26,9 @@ struct ProjectLines {
   bake::LineTable table;
   std::vector<std::string> spoken;
   std::vector<std::string> captions;
+  // See bake::LinesFile.
+  std::string note;
+  std::vector<Status> left_out;
 
   // Whether a row contains the name of an actor in captions; such a row is not spoken.
   static bool IsName(const bake::Line& line, const ProjectDocument& document);
@@ -42,10 +47,26 @@ struct SpokenLine {
   bake::SpeechSource source;
   std::filesystem::path sound;    // The baked sound.
   std::filesystem::path visemes;  // The baked visemes.
+  // Files of captions with manual timing, by the language of the captions.
+  std::map<std::string, std::filesystem::path> placed;
 };
 Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
                                             const ProjectDocument& document,
                                             const ProjectLines& lines);
+
+// What is wrong with the files of the lines: rows and captions that were left out, recordings whose
+// name only nearly fits a line (problems); encodings that were guessed and files that belong to no
+// line (warnings).
+struct LineNotes {
+  std::vector<Sentence> problems;
+  std::vector<Sentence> warnings;
+};
+LineNotes CheckLineFiles(const ProjectPaths& paths,
+                         const ProjectDocument& document,
+                         const ProjectLines& lines);
+
+// Reads a file of SpokenLine::placed.
+Result<bake::CaptionFile> LoadPlacedCaptions(const std::filesystem::path& file);
 
 // The captions while the lines are spoken in a language. Fails where a line was not baked.
 Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,

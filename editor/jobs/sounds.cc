@@ -11,6 +11,7 @@
 #include "editor/document/document_fields.h"
 #include "editor/jobs/baking.h"
 #include "shared/core/file.h"
+#include "shared/core/lower_case.h"
 #include "shared/stage/object_use.h"
 
 namespace lararium::editor {
@@ -59,7 +60,7 @@ void ForEachNamedSound(std::string_view script, const See& see) {
 Status BringInSound(const ProjectPaths& paths,
                     const std::string& name,
                     const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
+  const std::string extension = LowerCase(file.extension().string());
   if (!IsPlainName(name)) {
     return Status::Error("the sound '" + name + "'", "cannot be the name of a file",
                          "use letters, digits, '_' and '-'");
@@ -79,7 +80,7 @@ std::vector<SoundFile> FindSounds(const ProjectPaths& paths) {
   std::vector<std::filesystem::path> files;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(paths.folder / "audio", ignored)) {
-    const std::string extension = entry.path().extension().string();
+    const std::string extension = LowerCase(entry.path().extension().string());
     if (entry.is_regular_file(ignored) &&
         std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) !=
             SoundExtensions().end()) {

@@ -7,6 +7,7 @@
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/json_fields.h"
+#include "shared/core/plain_text.h"
 #include "shared/vision/poses_file.h"
 
 namespace lararium::player {
@@ -66,7 +67,7 @@ Result<std::vector<Eigen::Vector3d>> LoadJsonPoints(const fs::path& file) {
 Result<std::vector<Eigen::Vector3d>> LoadTextPoints(const fs::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file));
   std::vector<Eigen::Vector3d> points;
-  std::istringstream lines(text);
+  std::istringstream lines(PlainText(text));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     const size_t first = line.find_first_not_of(" \t\r");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "shared/core/file.h"
+#include "shared/core/plain_text.h"
 
 namespace lararium::player {
 namespace {
@@ -21,9 +22,12 @@ Result<StaffPin> StaffPin::Load(const std::filesystem::path& path) {
     return Status::Error(path.string(), "other users of this machine can read or write it",
                          "chmod 600 " + path.string());
   }
-  LARARIUM_ASSIGN_OR_RETURN(std::string text, ReadText(path, kMostFileBytes));
-  const std::string_view line = std::string_view(text).substr(0, text.find_first_of("\r\n"));
+  LARARIUM_ASSIGN_OR_RETURN(std::string bytes, ReadText(path, kMostFileBytes));
+  std::string text = PlainText(bytes);
+  std::string_view line = std::string_view(text).substr(0, text.find('\n'));
+  line = line.substr(0, line.find_last_not_of(" \t") + 1);
   Result<StaffPin> pin = Create(line, path.string());
+  sodium_memzero(bytes.data(), bytes.size());
   sodium_memzero(text.data(), text.size());
   return pin;
 }

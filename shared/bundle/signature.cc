@@ -15,6 +15,7 @@
 
 #include "shared/core/check.h"
 #include "shared/core/file.h"
+#include "shared/core/plain_text.h"
 
 namespace lararium::bundle {
 namespace {
@@ -52,7 +53,7 @@ Status ParseKey(std::string_view text,
                 std::string_view kind,
                 std::span<uint8_t> key) {
   StartSodium();
-  std::string_view rest = text;
+  std::string_view rest = WithoutByteOrderMark(text);
   while (!rest.empty() && (rest.back() == '\n' || rest.back() == '\r' || rest.back() == ' ')) {
     rest.remove_suffix(1);
   }

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "shared/core/file.h"
+#include "shared/core/plain_text.h"
 
 namespace lararium {
 
 Result<Json> ParseJson(std::string_view text, std::string_view where) {
   try {
-    return Json::parse(text);
+    return LooksLikeUtf16(text) ? Json::parse(PlainText(std::string(text))) : Json::parse(text);
   } catch (const Json::exception& error) {
     // The library's text starts with an identifier in brackets, which is removed.
     std::string_view what = error.what();

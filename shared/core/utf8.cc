@@ -32,6 +32,19 @@ uint32_t NextCharacter(std::string_view text, size_t& at) {
   return character < kLeast[more] || character > 0x10FFFF || surrogate ? kBad : character;
 }
 
+void AppendCharacter(uint32_t character, std::string& text) {
+  const auto put = [&text](uint32_t byte) { text += static_cast<char>(byte); };
+  if (character < 0x80) {
+    put(character);
+    return;
+  }
+  const int more = character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
+  put((0xF00u >> (more + 1) & 0xFFu) | character >> (6 * more));
+  for (int shift = 6 * (more - 1); shift >= 0; shift -= 6) {
+    put(0x80u | (character >> shift & 0x3Fu));
+  }
+}
+
 bool IsUtf8(std::string_view text) {
   for (size_t at = 0; at < text.size();) {
     const size_t from = at;

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "shared/core/plain_text.h"
+
 namespace lararium::drama {
 
 struct LuaToken {
@@ -24,7 +26,8 @@ struct LuaToken {
 // Iterates over the tokens of a text from an offset on. Borrows the text.
 class LuaTokens {
  public:
-  explicit LuaTokens(std::string_view text, size_t offset = 0) : text_(text), next_(offset) {}
+  explicit LuaTokens(std::string_view text, size_t offset = 0)
+      : text_(text), next_(offset > 0 ? offset : text.size() - WithoutByteOrderMark(text).size()) {}
 
   LuaToken Next();
   size_t offset() const { return next_; }

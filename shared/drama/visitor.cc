@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "shared/core/file.h"
+#include "shared/core/plain_text.h"
 
 namespace lararium::drama {
 namespace {
@@ -162,7 +163,7 @@ Result<VisitorLog> VisitorLog::Read(std::string_view text, std::string_view wher
 
 Result<VisitorLog> VisitorLog::Load(const std::filesystem::path& path) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(path));
-  return Read(text, path.string());
+  return Read(PlainText(text), path.string());
 }
 
 std::string VisitorLog::Write() const {

@@ -57,12 +57,13 @@ TEST(LineTable, SaysWhereATableIsWrong) {
       {"speaker,la\n", "row 1: there is no column 'id'"},
       {"id,la,la\n", "'la' occurs twice"},
       {"id,Latin language\n", "'Latin language' is not a valid language tag"},
+      {"id,la\n#note,b\n", "row 2: '#note' cannot be"},
       {"id,la\na,b\na,c\n", "row 3: the id 'a' occurs twice"},
       {"id,la\n../a,b\n", "row 2: '../a' cannot be a line's id"},
       {"id,la\na,b,c\n", "row 2: has more cells"},
+      {"id,,la\na,b,c\n", "row 2: holds a text in a column that has no name"},
       {"id,la\na,\"b\n", "row 2: a quote is not closed"},
       {"id,la\na,\"b\"c\n", "row 2: there is text after a closing quote"},
-      {"id,la\na,\xFF\n", "is not UTF-8"},
   };
   for (const auto& mistake : mistakes) {
     const auto table = ParseLinesCsv(mistake.text, "lines.csv");
@@ -74,6 +75,69 @@ TEST(LineTable, SaysWhereATableIsWrong) {
                              "lines.json")
                   .message(),
               HasSubstr("'en' is none of the file's"));
+}
+
+TEST(LineTable, ReadsWhatSpreadsheetsReallyWrite) {
+  const auto table = ParseLinesCsv(kCsv, "lines.csv");
+  ASSERT_TRUE(table.ok());
+  for (const char* text :
+       {"sep=;\r\nid;speaker;notes;la;en\r\nsalvete;keeper;loud;Salvēte, hospitēs!;Greetings!\r\n"
+        "vale;keeper;;Valē.;\r\n",
+        "ID , Speaker,NOTES,la,en,,,\n"
+        " salvete ,keeper,loud, \"Salvēte, hospitēs!\" ,Greetings!,,,\n,,,,,,,\n"
+        "vale,keeper,,Valē.,   ,,,\n",
+        "\"id\",\"speaker\",\"notes\",\"la\",\"en\"\r\"salvete\",\"keeper\",\"loud\",\"Salvēte, "
+        "hospitēs!\",\"Greetings!\"\rvale,keeper,,Valē.,",
+        "id|speaker|notes|la|en\nsalvete|keeper|loud|Salvēte, hospitēs!|Greetings!\n"
+        "vale|keeper||Valē.\n"}) {
+    const auto other = ParseLinesCsv(text, "lines.csv");
+    ASSERT_TRUE(other.ok()) << other.message();
+    EXPECT_EQ(*other, *table) << text;
+  }
+  const auto brazil = ParseLinesCsv("id,pt_BR\na,\"um\r\ndois\"\n", "lines.csv");
+  ASSERT_TRUE(brazil.ok()) << brazil.message();
+  EXPECT_EQ(brazil->Find("a")->text.at("pt-BR"), "um\ndois");
+}
+
+TEST(LineTable, ABadRowCostsThatRowAndIsTold) {
+  const auto file = ReadLinesCsv(
+      "id,la,Latin language\na,\"one\ntwo\"\n!,x\na,again\nb,\"y\"z\nc,1,2,3\nd,\"never closed\n"
+      "e,last\n",
+      "lines.csv");
+  ASSERT_TRUE(file.ok()) << file.message();
+  ASSERT_EQ(file->table.lines.size(), 2u);
+  EXPECT_EQ(file->table.Find("a")->text.at("la"), "one\ntwo");
+  EXPECT_EQ(file->table.Find("e")->text.at("la"), "last");
+  std::vector<std::string> left_out;
+  for (const Status& status : file->left_out) {
+    left_out.push_back(status.message());
+  }
+  EXPECT_THAT(left_out,
+              ElementsAre(HasSubstr("row 1: 'Latin language'"), HasSubstr("row 3 (line 4): '!'"),
+                          HasSubstr("row 4 (line 5): the id 'a' occurs twice"),
+                          HasSubstr("row 5 (line 6): there is text after"),
+                          HasSubstr("row 6 (line 7): has more cells"),
+                          HasSubstr("row 7 (line 8): a quote is not closed")));
+}
+
+TEST(LineTable, OtherEncodingsAreRecognisedAndTold) {
+  const auto file =
+      ReadLinesCsv("id,it\na,Perch\xE9 \xE8 cos\xEC? L\xE0 c'\xE8 un caff\xE8.\n", "lines.csv");
+  ASSERT_TRUE(file.ok()) << file.message();
+  EXPECT_EQ(file->table.Find("a")->text.at("it"), "Perché è così? Là c'è un caffè.");
+  EXPECT_THAT(file->note, HasSubstr("lines.csv: is not UTF-8 and was read as windows-1252"));
+}
+
+TEST(LineTable, AFileWithABadRowIsNotReplaced) {
+  const test::TemporaryFolder folder;
+  const std::string damaged = std::string(kCsv) + "vale,keeper,,Twice,\n";
+  ASSERT_TRUE(WriteFileAtomically(folder / "lines.csv", damaged).ok());
+  EXPECT_THAT(LoadLines(folder.path()).message(), HasSubstr("row 4: the id 'vale' occurs twice"));
+  const auto read = ReadLines(folder.path());
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->table.lines.size(), 2u);
+  EXPECT_THAT(SaveLines(folder.path(), read->table).message(), HasSubstr("would be lost"));
+  EXPECT_EQ(*ReadText(folder / "lines.csv"), damaged);
 }
 
 TEST(Po, TranslatesByContextOrBySourceAndLeavesOutWhatIsFuzzy) {
@@ -95,7 +159,9 @@ TEST(Po, TranslatesByContextOrBySourceAndLeavesOutWhatIsFuzzy) {
       "msgctxt \"vale\"\n"
       "msgid \"x\"\n"
       "msgstr \"Forse\"\n"
+      "#, fuzzy\n"
       "#~ msgid \"retired\"\n"
+      "#~ msgstr \"ritirato\"\n"
       "msgctxt \"nowhere\"\n"
       "msgid \"y\"\n"
       "msgstr \"z\"\n";
@@ -107,16 +173,39 @@ TEST(Po, TranslatesByContextOrBySourceAndLeavesOutWhatIsFuzzy) {
   ASSERT_TRUE(table.ok());
   const PoImport report = ImportPo(*po, "it", *table);
   EXPECT_EQ(report.translated, 2);
+  EXPECT_EQ(report.fuzzy, 1);
   EXPECT_THAT(report.unknown, ElementsAre(HasSubstr("nowhere")));
   EXPECT_EQ(table->Find("salvete")->text.at("it"), "Salute, \"ospiti\"!");
   EXPECT_EQ(table->Find("vale")->text.at("it"), "Addio.");
   EXPECT_THAT(table->languages, ElementsAre("la", "en", "it"));
 }
 
-TEST(Po, SaysWhichLineIsWrong) {
-  EXPECT_THAT(ParsePo("msgid \"a\"\nmsgstr b\n", "a.po").message(), HasSubstr("line 2"));
+TEST(Po, ABadEntryCostsThatEntryAndIsTold) {
+  const auto po = ParsePo(
+      "msgid \"a\"\nmsgstr b\n\"more\"\n\nmsgid \"c\" \"d\"\nmsgstr \"\"\n\"e\"\n\nhello\n\n"
+      "msgid \"f\"\nmsgid_plural \"fs\"\nmsgstr[0] \"g\"\nmsgstr[1] \"h\"\n",
+      "a.po");
+  ASSERT_TRUE(po.ok()) << po.message();
+  ASSERT_EQ(po->entries.size(), 2u);
+  EXPECT_EQ(po->entries[0].source, "cd");
+  EXPECT_EQ(po->entries[0].text, "e");
+  EXPECT_EQ(po->entries[1].text, "g");
+  EXPECT_THAT(po->notes, ElementsAre(HasSubstr("line 2: a quoted text was expected"),
+                                     HasSubstr("line 9: 'hello' is no word"),
+                                     HasSubstr("line 12: of several plural forms the first")));
   EXPECT_THAT(ParsePo("\"a\"\n", "a.po").message(), HasSubstr("before any msgid"));
   EXPECT_THAT(ParsePo("hello\n", "a.po").message(), HasSubstr("'hello' is no word"));
+}
+
+TEST(Po, IsReadInTheEncodingAndLanguageOfItsHeader) {
+  const auto po = ParsePo(
+      "msgid \"\"\nmsgstr \"\"\n\"Language: pt_BR.UTF-8\\n\"\n"
+      "\"Content-Type: text/plain; charset=ISO-8859-2\\n\"\n\nmsgid \"a\"\nmsgstr \"\xB1\"\n",
+      "a.po");
+  ASSERT_TRUE(po.ok()) << po.message();
+  EXPECT_EQ(po->language, "pt-BR");
+  EXPECT_EQ(po->entries[0].text, "ą");
+  EXPECT_TRUE(po->notes.empty());
 }
 
 TEST(LineTable, OfAFolderIsCsvOrJsonAndNeverBoth) {

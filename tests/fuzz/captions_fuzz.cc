@@ -16,8 +16,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto cues = bake::ParseCaptionFile(text, "fuzz.srt");
   if (cues.ok()) {
-    for (const bake::FileCue& cue : *cues) {
-      CHECK(cue.end > cue.begin);
+    CHECK(stage::CheckCues(bake::ShownCues(cues->cues), "shown").ok());
+    const auto again = bake::ParseCaptionFile(bake::FormatVtt(cues->cues), "again.vtt");
+    CHECK(again.ok() && again->cues.size() == cues->cues.size());
+    for (const bake::FileCue& cue : cues->cues) {
+      CHECK(cue.end > cue.begin && IsUtf8(cue.text));
       human::VisemeTrack track;
       track.duration = 1.0f;
       const auto laid_out = bake::LayOutCaptions(cue.text, track);

@@ -10,8 +10,9 @@ using namespace lararium;  // NOLINT(google-build-using-namespace)
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  auto table = bake::ParseLinesCsv(text, "lines.csv");
-  if (table.ok()) {
+  auto file = bake::ReadLinesCsv(text, "lines.csv");
+  if (file.ok()) {
+    const bake::LineTable* table = &file->table;
     const auto csv = bake::ParseLinesCsv(bake::FormatLinesCsv(*table), "again.csv");
     CHECK(csv.ok() && *csv == *table);
     const auto json = bake::ParseLinesJson(bake::FormatLinesJson(*table), "again.json");

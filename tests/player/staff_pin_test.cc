@@ -25,6 +25,27 @@ TEST(StaffPin, IsTheFirstLineOfItsFile) {
   }
 }
 
+TEST(StaffPin, MayStandBehindAByteOrderMark) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "pin";
+  for (const std::string& text : {std::string("\xEF\xBB\xBF"
+                                              "738291 \r\n"),
+                                  std::string("\xFF\xFE"
+                                              "7\0"
+                                              "3\0"
+                                              "8\0"
+                                              "2\0"
+                                              "9\0"
+                                              "1\0",
+                                              14)}) {
+    std::ofstream(file) << text;
+    ::chmod(file.c_str(), 0600);
+    const auto pin = StaffPin::Load(file);
+    ASSERT_TRUE(pin.ok()) << pin.message();
+    EXPECT_TRUE(pin->Is("738291"));
+  }
+}
+
 TEST(StaffPin, OfAFileThatAnybodyReadsIsRefused) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder / "pin";

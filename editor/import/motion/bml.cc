@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 #include <utility>
 
+#include "editor/text/foreign_text.h"
 #include "shared/core/lower_case.h"
 
 namespace lararium::import {
@@ -43,16 +44,42 @@ std::string_view LocalName(const pugi::xml_node& node) {
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
-std::string_view Trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
-  return text.substr(0, text.find_last_not_of(kBlank) + 1);
+// The first child of that name in any namespace.
+pugi::xml_node Child(const pugi::xml_node& node, std::string_view name) {
+  return node.find_child([name](const pugi::xml_node& child) { return LocalName(child) == name; });
+}
+
+// Calls visit(node) for all nodes below a node, in order of the text. Does not recurse, because
+// files may be nested deeply.
+template <typename Visit>
+void ForEachBelow(pugi::xml_node node, Visit visit) {
+  struct Walker : pugi::xml_tree_walker {
+    explicit Walker(Visit& visit) : visit(visit) {}
+    bool for_each(pugi::xml_node& below) override {
+      visit(below);
+      return true;
+    }
+    Visit& visit;
+  };
+  Walker walker(visit);
+  node.traverse(walker);
+}
+
+// The encoding in the XML declaration; empty if there is none.
+std::string DeclaredEncoding(std::string_view text) {
+  const std::string_view head = text.substr(0, std::min<size_t>(text.find("?>"), 200));
+  const size_t at = head.find("encoding");
+  const size_t quote = head.find_first_of("'\"", at);
+  const size_t end = quote == std::string_view::npos ? quote : head.find(head[quote], quote + 1);
+  return at == std::string_view::npos || end == std::string_view::npos
+             ? ""
+             : std::string(head.substr(quote + 1, end - quote - 1));
 }
 
 // Words separated by single blanks.
 std::string Words(std::string_view text) {
   std::string words;
-  for (const char c : Trimmed(text)) {
+  for (const char c : editor::TrimBlanks(text)) {
     const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
     if (!blank) {
       words += c;
@@ -64,7 +91,7 @@ std::string Words(std::string_view text) {
 }
 
 std::optional<double> NumberOf(std::string_view text) {
-  text = Trimmed(text);
+  text = editor::TrimBlanks(text);
   if (text.starts_with('+')) {
     text.remove_prefix(1);
   }
@@ -82,7 +109,7 @@ struct SyncReference {
 };
 
 std::optional<SyncReference> ParseReference(std::string_view text, std::string_view block) {
-  text = Trimmed(text);
+  text = editor::TrimBlanks(text);
   if (const auto seconds = NumberOf(text)) {
     return SyncReference{"", "", *seconds};
   }
@@ -92,7 +119,7 @@ std::optional<SyncReference> ParseReference(std::string_view text, std::string_v
     if (c == '+' || c == '-') {
       if (const auto seconds = NumberOf(text.substr(at))) {
         reference.seconds = c == '-' ? -*seconds : *seconds;
-        text = Trimmed(text.substr(0, at - 1));
+        text = editor::TrimBlanks(text.substr(0, at - 1));
         break;
       }
     }
@@ -142,28 +169,19 @@ class BmlReader {
 
   Result<BmlImport> Read(double begin) {
     pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_buffer(
-        text_.data(), text_.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+    const pugi::xml_parse_result parsed =
+        document.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!parsed) {
       return Status::Error(place_ + ":" + std::to_string(LineOf(parsed.offset)),
                            std::string("is not valid XML: ") + parsed.description());
     }
-    for (const pugi::xml_node& node : document.children()) {
-      if (node.type() == pugi::node_doctype) {
-        return Status::Error(place_, "has a document type, which BML does not need",
-                             "remove <!DOCTYPE ...>");
-      }
-    }
+    WarnOfEntities();
     std::vector<pugi::xml_node> blocks;
-    const pugi::xml_node root = document.document_element();
-    if (LocalName(root) == "bml") {
-      blocks.push_back(root);
-    }
-    for (const pugi::xml_node& child : root.children()) {
-      if (LocalName(child) == "bml" && LocalName(root) != "bml") {
-        blocks.push_back(child);
+    ForEachBelow(document, [&blocks](const pugi::xml_node& node) {
+      if (LocalName(node) == "bml") {
+        blocks.push_back(node);
       }
-    }
+    });
     if (blocks.empty()) {
       return Status::Error(place_, "has no <bml> in it");
     }
@@ -181,6 +199,48 @@ class BmlReader {
   size_t LineOf(ptrdiff_t offset) const {
     const auto end = text_.begin() + std::clamp<ptrdiff_t>(offset, 0, std::ssize(text_));
     return static_cast<size_t>(std::count(text_.begin(), end, '\n')) + 1;
+  }
+
+  // Entities that a document type declares are never expanded: a few lines could become gigabytes,
+  // or name other files.
+  void WarnOfEntities() {
+    for (size_t at = text_.find('&'); at != std::string_view::npos; at = text_.find('&', at + 1)) {
+      const size_t end = text_.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-", at + 1);
+      const std::string name(text_.substr(at + 1, std::min(end, text_.size()) - at - 1));
+      const bool known =
+          name == "amp" || name == "lt" || name == "gt" || name == "quot" || name == "apos";
+      if (end < text_.size() && text_[end] == ';' && !name.empty() && !known &&
+          !InDocumentType(at)) {
+        import_.warnings.push_back(place_ + ":" +
+                                   std::to_string(LineOf(static_cast<ptrdiff_t>(at))) +
+                                   ": the entity '&" + name + ";' is left as it is");
+        return;
+      }
+    }
+  }
+
+  // Tells of attributes that mean nothing here. Those with a prefix belong to other programs.
+  void WarnOfAttributes(const pugi::xml_node& node) {
+    constexpr std::string_view kKnown[] = {
+        "id",       "lexeme",    "target", "repetition",  "amount",          "au",   "manner",
+        "duration", "influence", "type",   "offsetAngle", "offsetDirection", "xmlns"};
+    std::string names;
+    for (const pugi::xml_attribute& attribute : node.attributes()) {
+      const std::string_view name = attribute.name();
+      const bool known = std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown);
+      if (!known && !PointNamed(name) && name.find(':') == std::string_view::npos) {
+        names += (names.empty() ? "" : ", ") + std::string(name);
+      }
+    }
+    if (!names.empty()) {
+      Warn(node, "has no meaning here and was left out: " + names);
+    }
+  }
+
+  bool InDocumentType(size_t at) const {
+    const size_t begin = text_.find("<!DOCTYPE");
+    return begin < at && at < text_.find("]", begin);
   }
 
   void Warn(const pugi::xml_node& node, const std::string& what) {
@@ -210,21 +270,35 @@ class BmlReader {
     }
     const size_t first = behaviours_.size();
     const std::string id = block.attribute("id").as_string();
+    std::vector<pugi::xml_node> nodes;
     for (const pugi::xml_node& node : block.children()) {
-      if (node.type() != pugi::node_element || LocalName(node) == "constraint") {
-        continue;
+      // <required> groups what must not be left out; we take all that we can.
+      const bool group = LocalName(node) == "required";
+      for (const pugi::xml_node& part : node.children()) {
+        if (group) {
+          nodes.push_back(part);
+        }
       }
-      LARARIUM_RETURN_IF_ERROR(AddBehaviour(node, id, *actor, begin));
+      if (!group && LocalName(node) != "bml") {
+        nodes.push_back(node);
+      }
     }
-    for (const pugi::xml_node& node : block.children()) {
+    for (const pugi::xml_node& node : nodes) {
+      if (node.type() == pugi::node_element && LocalName(node) != "constraint") {
+        LARARIUM_RETURN_IF_ERROR(AddBehaviour(node, id, *actor, begin));
+      }
+    }
+    for (const pugi::xml_node& node : nodes) {
       if (LocalName(node) == "constraint") {
         AddConstraint(node, id);
       }
     }
     Resolve(first);
     for (size_t i = first; i < behaviours_.size(); ++i) {
-      last_end_ = std::max(last_end_, behaviours_[i].end);
-      Emit(behaviours_[i]);
+      if (behaviours_[i].start) {
+        last_end_ = std::max(last_end_, behaviours_[i].end);
+        Emit(behaviours_[i]);
+      }
     }
     return Status();
   }
@@ -254,9 +328,11 @@ class BmlReader {
       wanted = ParseReference(attribute.value(), block);
       if (!wanted) {
         Warn(node, std::string(attribute.name()) + "=\"" + attribute.value() +
-                       "\" is neither a time nor a point of a behaviour");
+                       "\" is neither a time nor a point of a behaviour; it was left out");
+        return Status();
       }
     }
+    WarnOfAttributes(node);
     TimeNaturally(behaviour);
     if (!behaviour.id.empty() && !by_id_.emplace(behaviour.id, behaviours_.size()).second) {
       Warn(node, "another behaviour has the same id; references mean the first");
@@ -281,7 +357,8 @@ class BmlReader {
   void TimeSpeech(Behaviour& speech) {
     std::string text;
     std::vector<std::pair<std::string, size_t>> marks;
-    CollectText(speech.node.child("text") ? speech.node.child("text") : speech.node, text, marks);
+    const pugi::xml_node said = Child(speech.node, "text");
+    CollectText(said ? said : speech.node, text, marks);
     const std::string words = Words(text);
     for (const auto& [id, line] : stage_.lines) {
       const bool says = std::any_of(line.texts.begin(), line.texts.end(),
@@ -311,14 +388,14 @@ class BmlReader {
   static void CollectText(const pugi::xml_node& node,
                           std::string& text,
                           std::vector<std::pair<std::string, size_t>>& marks) {
-    for (const pugi::xml_node& child : node.children()) {
+    ForEachBelow(node, [&](const pugi::xml_node& child) {
       if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
         text += child.value();
       } else if (LocalName(child) == "sync") {
         marks.emplace_back(child.attribute("id").as_string(), text.size());
         text += ' ';
       }
-    }
+    });
   }
 
   // The clip of the actor for a gesture, a head movement or pointing.
@@ -459,9 +536,7 @@ class BmlReader {
     for (size_t i = first; i < behaviours_.size(); ++i) {
       Behaviour& behaviour = behaviours_[i];
       if (!behaviour.start) {
-        Warn(behaviour.node, "waits for a point that never occurs; it begins with its block");
-        behaviour.start = behaviour.block_begin;
-        behaviour.end = *behaviour.start + behaviour.natural.back();
+        Warn(behaviour.node, "waits for a point that never occurs; it was left out");
       } else {
         CheckOtherPoints(behaviour);
       }
@@ -581,7 +656,7 @@ class BmlReader {
 
   void EmitPosture(const Behaviour& behaviour) {
     const std::string type =
-        LowerCase(behaviour.node.child("stance").attribute("type").as_string("none"));
+        LowerCase(Child(behaviour.node, "stance").attribute("type").as_string("none"));
     const std::string seat = behaviour.node.attribute("target").as_string();
     if (type == "standing") {
       Add(behaviour, LaneKind::kUses, {{"action", "stand"}});
@@ -591,7 +666,7 @@ class BmlReader {
       Warn(behaviour.node, type == "sitting" ? "sitting needs a seat: an object as its target"
                                              : "the stance '" + type + "' is not supported");
     }
-    if (behaviour.node.child("pose")) {
+    if (Child(behaviour.node, "pose")) {
       Warn(behaviour.node, "poses of parts are not supported");
     }
   }
@@ -620,7 +695,7 @@ class BmlReader {
   static bool ParsePoint(std::string text, double& x, double& z) {
     std::replace(text.begin(), text.end(), ',', ' ');
     std::vector<double> numbers;
-    std::string_view rest = Trimmed(text);
+    std::string_view rest = editor::TrimBlanks(text);
     while (!rest.empty() && numbers.size() < 4) {
       const size_t end = std::min(rest.find(' '), rest.size());
       const auto number = NumberOf(rest.substr(0, end));
@@ -628,7 +703,7 @@ class BmlReader {
         return false;
       }
       numbers.push_back(*number);
-      rest = Trimmed(rest.substr(end));
+      rest = editor::TrimBlanks(rest.substr(end));
     }
     if (numbers.size() < 2 || numbers.size() > 3) {
       return false;
@@ -750,7 +825,13 @@ Result<BmlImport> ImportBml(std::string_view text,
   if (text.size() > kMaxBmlBytes) {
     return Status::Error(where, "is longer than 4 MiB", "split it");
   }
-  return BmlReader(text, where, stage).Read(begin);
+  LARARIUM_ASSIGN_OR_RETURN(const editor::ForeignText decoded,
+                            editor::DecodeText(text, where, DeclaredEncoding(text)));
+  LARARIUM_ASSIGN_OR_RETURN(BmlImport imported, BmlReader(decoded.text, where, stage).Read(begin));
+  if (!decoded.note.empty()) {
+    imported.warnings.insert(imported.warnings.begin(), where + ": " + decoded.note);
+  }
+  return imported;
 }
 
 }  // namespace lararium::import

@@ -51,9 +51,10 @@ struct BmlImport {
 };
 
 // Reads one block, or several in an enclosing element. A block with the composition APPEND
-// begins when the previous one has ended, others at `begin` (seconds of the drama). Errors:
-// invalid XML, a document type (which may contain entities), no <bml>, more than 2000
-// behaviours. `where` names the text in messages.
+// begins when the previous one has ended, others at `begin` (seconds of the drama). The text may be
+// in any encoding (editor/text/foreign_text.h). Entities of a document type are not expanded.
+// Behaviours whose time cannot be found are left out, with a warning. Errors: invalid XML, no
+// <bml>, more than 2000 behaviours. `where` names the text in messages.
 Result<BmlImport> ImportBml(std::string_view text,
                             const std::string& where,
                             const BmlStage& stage,
