@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "editor/document/check_sentences.h"
+#include "shared/core/utf8.h"
 #include "shared/drama/lua_tokens.h"
 #include "shared/drama/timeline_text.h"
 #include "shared/geometry/glm_convert.h"
@@ -197,6 +198,32 @@ void PlaceItems(const std::string& script,
       }
     }
   }
+}
+
+std::optional<Sentence> CheckEncoding(const std::string& script, const std::string& file) {
+  size_t line = 1;
+  for (size_t begin = 0; begin < script.size(); ++line) {
+    const size_t end = std::min(script.find('\n', begin), script.size());
+    if (!IsUtf8(std::string_view(script).substr(begin, end - begin))) {
+      return AtPlace(file + ":" + std::to_string(line),
+                     Sentence("is not UTF-8; save the script as UTF-8"));
+    }
+    begin = end + 1;
+  }
+  return std::nullopt;
+}
+
+bool Names(const std::string& script, std::string_view name) {
+  drama::LuaTokens tokens(script);
+  using Kind = drama::LuaToken::Kind;
+  for (drama::LuaToken token = tokens.Next(); token.kind != Kind::kEnd && token.kind != Kind::kBad;
+       token = tokens.Next()) {
+    if (token.kind == Kind::kName &&
+        std::string_view(script).substr(token.begin, token.end - token.begin) == name) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::vector<Sentence> CheckTogether(std::span<const TaskRecord> tasks) {

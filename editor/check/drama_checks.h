@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,6 +28,12 @@ namespace lararium::editor {
 void PlaceItems(const std::string& script,
                 const std::string& file,
                 std::vector<drama::TaskRecord>& tasks);
+
+// The problem with a script that is not UTF-8, with its line.
+std::optional<Sentence> CheckEncoding(const std::string& script, const std::string& file);
+
+// Whether the name occurs in the script, outside of texts and comments.
+bool Names(const std::string& script, std::string_view name);
 
 // Finds people who begin a bodily action while another one is still running.
 std::vector<Sentence> CheckTogether(std::span<const drama::TaskRecord> tasks);

@@ -174,6 +174,9 @@ class DryRunner {
       return {.problems = {script.message()}};
     }
     script_ = *script;
+    if (const std::optional<Sentence> problem = CheckEncoding(script_, file_)) {
+      return {.problems = {*problem}};
+    }
     const Result<drama::TimelineText> timeline = drama::TimelineText::Read(script_, file_);
     if (timeline.ok()) {
       Append({timeline->problems().begin(), timeline->problems().end()}, all.problems);
@@ -198,6 +201,11 @@ class DryRunner {
     cues.seconds = options_.seconds;
     if (ran && !progress_.Cancelled() && options_.seconds > 0.0) {
       Append(CheckCues(script_, file_, cues), all.problems);
+      if (all.tasks.empty() && cues.cues.empty() && timeline.ok() && timeline->lanes().empty() &&
+          !Names(script_, "main")) {
+        all.problems.push_back(
+            AtPlace(file_, Sentence("has no function main() and no track, so nothing happens")));
+      }
     }
     return all;
   }

@@ -1,5 +1,8 @@
 #include "shared/drama/sandbox.h"
 
+#include <algorithm>
+
+#include "shared/core/plain_text.h"
 #include "shared/drama/lua_binding.h"
 #include "shared/drama/safe_libraries.h"
 
@@ -27,6 +30,9 @@ std::string Where(lua_State* coroutine, const std::string& started_at) {
 std::string TopAsText(lua_State* coroutine, const std::string& started_at) {
   if (lua_type(coroutine, -1) == LUA_TSTRING) {
     const std::string text = lua_tostring(coroutine, -1);
+    if (text == "attempt to yield across a C-call boundary") {
+      return Where(coroutine, started_at) + text;  // Lua gives this one no position.
+    }
     const size_t position_end = text.starts_with("std/") ? text.find(": ") : std::string::npos;
     return position_end == std::string::npos
                ? text
@@ -80,6 +86,21 @@ Sandbox::~Sandbox() {
 }
 
 Status Sandbox::Compile(std::string_view text, const std::string& where) {
+  const size_t zero = text.find('\0');
+  const auto at_line = [&](size_t offset) {
+    return where + ":" +
+           std::to_string(
+               1 + std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(offset), '\n'));
+  };
+  if (zero != std::string_view::npos) {
+    return Status::Error(at_line(zero), "holds a zero byte, so it is not UTF-8",
+                         "save the script as UTF-8");
+  }
+  if (text.starts_with('\x1B')) {
+    return Status::Error(at_line(0), "is compiled Lua, which could do harm",
+                         "give the script as text");
+  }
+  text = WithoutByteOrderMark(text);
   const std::string chunk_name = "@" + where;
   const int status = luaL_loadbufferx(lua_, text.data(), text.size(), chunk_name.c_str(), "t");
   if (status == LUA_OK) {

@@ -121,6 +121,12 @@ Scheduler::Task& Scheduler::CheckRunning(lua_State* lua, const char* function) c
     luaL_error(lua, "%s: only within main() or a function given to start, together or race",
                function);
   }
+  if (lua_isyieldable(lua) == 0) {
+    luaL_error(lua,
+               "%s: cannot wait within a function that Lua's library calls, such as the comparison "
+               "of table.sort; wait before or after it",
+               function);
+  }
   return *task;
 }
 

@@ -65,6 +65,39 @@ TEST_F(DramaTest, ActorsAreHiddenUntilTheyArePlaced) {
   EXPECT_EQ(FirstError(*drama), "");
 }
 
+TEST_F(DramaTest, AScriptMayBeginWithAByteOrderMark) {
+  const auto drama = Make(
+      "\xEF\xBB\xBF"
+      "function main() error('here') end");
+  EXPECT_EQ(FirstError(*drama), "drama.lua:1: here");
+}
+
+TEST_F(DramaTest, WhatIsNoTextIsRefusedWithFileAndLine) {
+  const std::pair<std::string, std::string> scripts[] = {
+      {std::string("\xFF\xFE"
+                   "f\0n\0",
+                   6),
+       "drama.lua:1: holds a zero byte"},
+      {std::string("-- one\nx = '\0'", 13), "drama.lua:2: holds a zero byte"},
+      {"\x1BLua", "drama.lua:1: is compiled Lua"},
+  };
+  for (const auto& [script, problem] : scripts) {
+    const auto drama = Drama::Create(script, "drama.lua", stage_, {}, *log_);
+    ASSERT_FALSE(drama.ok());
+    EXPECT_THAT(drama.message(), HasSubstr(problem));
+  }
+}
+
+TEST_F(DramaTest, WaitingWhereLuaCannotIsAnErrorWithItsLine) {
+  const auto sorts = Make(
+      "function main()\n  table.sort({1, 2, 3}, function(a, b)\n    wait(1)\n    return a < b\n  "
+      "end)\nend");
+  EXPECT_THAT(FirstError(*sorts), HasSubstr("drama.lua:3: wait: cannot wait within a function"));
+  const auto yields = Make(
+      "function main()\n  string.gsub('a', 'a', function()\n    coroutine.yield()\n  end)\nend");
+  EXPECT_THAT(FirstError(*yields), HasSubstr("drama.lua:3: attempt to yield"));
+}
+
 TEST_F(DramaTest, TickZeroIsPlayedOnCreation) {
   Make("function main() actor('keeper'):place{ x = 3 } end");
   EXPECT_EQ(State("keeper").position.x, 3.0f);
@@ -233,7 +266,7 @@ TEST_F(DramaTest, CompileErrorsNameFileAndLine) {
 TEST_F(DramaTest, BinaryChunksAreRefused) {
   const auto drama = Drama::Create("\x1bLua\x54", "drama.lua", stage_, DramaOptions(), *log_);
   ASSERT_FALSE(drama.ok());
-  EXPECT_THAT(drama.message(), HasSubstr("binary"));
+  EXPECT_THAT(drama.message(), HasSubstr("drama.lua:1: is compiled Lua"));
 }
 
 TEST_F(DramaTest, AnErrorEndsItsTaskAndTheShowGoesOn) {

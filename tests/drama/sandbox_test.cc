@@ -285,7 +285,8 @@ const Attack kAttacks[] = {
      ""},
     {"YieldsOutOfASort", "table.sort({3, 2, 1}, function(a, b) coroutine.yield() return a < b end)",
      "yield"},
-    {"YieldsOutOfAReplacement", "('x'):gsub('x', function() wait(1) end)", "yield"},
+    {"YieldsOutOfAReplacement", "('x'):gsub('x', function() wait(1) end)",
+     "cannot wait within a function"},
 
     // Floods of calls.
     {"MillionLines", "local k = actor('keeper') for i = 1, 1e6 do pcall(k.say, k, 'nothing') end",
