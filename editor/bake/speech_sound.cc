@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <optional>
 
+#include "editor/bake/libav_sound.h"
 #include "shared/core/file.h"
 
 namespace lararium::bake {
@@ -65,46 +67,56 @@ SF_VIRTUAL_IO MemoryIo() { return {Length, Seek, Read, Write, Tell}; }
 
 using SoundFile = std::unique_ptr<SNDFILE, decltype(&sf_close)>;
 
-}  // namespace
-
-Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where) {
+// Reads what libsndfile knows; nullopt: it does not know the container.
+Result<std::optional<DecodedSound>> ReadWithSndfile(std::span<const std::byte> bytes,
+                                                    const std::string& where) {
   Memory memory{bytes, {}, 0};
   SF_VIRTUAL_IO io = MemoryIo();
   SF_INFO info = {};
   const SoundFile file(sf_open_virtual(&io, SFM_READ, &info, &memory), sf_close);
   if (file == nullptr) {
-    return Status::Error(where, std::string("cannot be read as a sound: ") + sf_strerror(nullptr),
-                         "save it as WAV, FLAC or Ogg");
+    return std::optional<DecodedSound>();
   }
-  if (info.samplerate < kLowestRate || info.samplerate > kHighestRate || info.channels < 1 ||
-      info.channels > kMaxChannels) {
-    return Status::Error(where, "must have 8 to 192 thousand samples a second and 1 to 8 channels");
-  }
-  const auto longest = static_cast<sf_count_t>(kMaxSeconds * info.samplerate);
-  Sound sound;
-  sound.rate = info.samplerate;
+  DecodedSound sound{info.samplerate, info.channels, {}};
+  const auto longest = static_cast<size_t>(kMaxSeconds * info.samplerate * info.channels);
   constexpr sf_count_t kBlock = 16384;  // frames
-  std::vector<float> block(static_cast<size_t>(kBlock * info.channels));
+  std::vector<float> block(static_cast<size_t>(kBlock * std::max(info.channels, 1)));
   // The count in the header is not trusted; read to the end of the data.
-  while (true) {
-    const sf_count_t frames = sf_readf_float(file.get(), block.data(), kBlock);
-    for (sf_count_t i = 0; i < frames; ++i) {
-      float sum = 0.0f;
-      for (int c = 0; c < info.channels; ++c) {
-        sum += block[static_cast<size_t>(i * info.channels + c)];
-      }
-      const float mean = sum / static_cast<float>(info.channels);
-      sound.samples.push_back(std::isfinite(mean) ? std::clamp(mean, -1.0f, 1.0f) : 0.0f);
-    }
-    if (frames < kBlock) {
-      break;
-    }
-    if (static_cast<sf_count_t>(sound.samples.size()) > longest) {
+  for (sf_count_t frames = kBlock; frames == kBlock;) {
+    frames = sf_readf_float(file.get(), block.data(), kBlock);
+    sound.samples.insert(sound.samples.end(), block.begin(),
+                         block.begin() + std::max<sf_count_t>(frames, 0) * info.channels);
+    if (sound.samples.size() > longest) {
       return Status::Error(where, "lasts longer than ten minutes", "cut it to the line");
     }
   }
-  if (sound.samples.empty()) {
+  return std::optional(std::move(sound));
+}
+
+}  // namespace
+
+Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(std::optional<DecodedSound> decoded, ReadWithSndfile(bytes, where));
+  if (!decoded || decoded->samples.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(decoded, DecodeWithLibav(bytes, where, kMaxSeconds));
+  }
+  if (decoded->samples.empty()) {
     return Status::Error(where, "contains no sound", "record the line again");
+  }
+  if (decoded->rate < kLowestRate || decoded->rate > kHighestRate || decoded->channels < 1 ||
+      decoded->channels > kMaxChannels) {
+    return Status::Error(where, "must have 8 to 192 thousand samples a second and 1 to 8 channels");
+  }
+  Sound sound;
+  sound.rate = decoded->rate;
+  const auto channels = static_cast<size_t>(decoded->channels);
+  for (size_t i = 0; i + channels <= decoded->samples.size(); i += channels) {
+    float sum = 0.0f;
+    for (size_t c = 0; c < channels; ++c) {
+      sum += decoded->samples[i + c];
+    }
+    const float mean = sum / static_cast<float>(channels);
+    sound.samples.push_back(std::isfinite(mean) ? std::clamp(mean, -1.0f, 1.0f) : 0.0f);
   }
   return sound;
 }

@@ -18,8 +18,8 @@ struct Sound {
   double duration() const { return rate > 0 ? static_cast<double>(samples.size()) / rate : 0.0; }
 };
 
-// Reads WAV, FLAC, Ogg (Vorbis, Opus) and the other formats of libsndfile; averages the
-// channels. Accepts at most ten minutes at 8 to 192 kHz.
+// Reads WAV, FLAC, Ogg (Vorbis, Opus) and the other formats of libsndfile, then those of libav
+// (M4A, MP4, WMA); averages the channels. Accepts at most ten minutes at 8 to 192 kHz.
 Result<Sound> ReadSound(const std::filesystem::path& file);
 Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where);
 

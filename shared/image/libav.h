@@ -1,7 +1,7 @@
 #pragma once
 
-// Owning pointers to libav's objects, and what differs between its versions. Private to image and
-// capture.
+// Owning pointers to libav's objects, and what differs between its versions. Private to image,
+// capture and the editor's bake.
 
 extern "C" {
 #include <libavcodec/avcodec.h>
