@@ -88,6 +88,13 @@ Status WriteArchive(const std::filesystem::path& path, const std::vector<Source>
   return Status();
 }
 
+// The file that is written first. libzip appends seven bytes more to it while it writes, and names
+// have at most 255 bytes.
+std::filesystem::path UnfinishedFile(const std::filesystem::path& path) {
+  constexpr size_t kLongest = 200;
+  return path.parent_path() / (path.filename().string().substr(0, kLongest) + ".part");
+}
+
 // Flushes the file `from` to disk and renames it to `to`.
 Status Publish(const std::filesystem::path& from, const std::filesystem::path& to) {
   const auto sync = [](const std::filesystem::path& path) {
@@ -139,7 +146,7 @@ Status WriteBundle(const std::filesystem::path& path,
                    {std::string(kSignatureName), std::as_bytes(std::span(signature))});
   }
 
-  const std::filesystem::path unfinished = path.string() + ".part";
+  const std::filesystem::path unfinished = UnfinishedFile(path);
   Status status = WriteArchive(unfinished, sources);
   if (status.ok()) {
     status = Publish(unfinished, path);
