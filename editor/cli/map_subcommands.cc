@@ -339,20 +339,28 @@ Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
   LARARIUM_ASSIGN_OR_RETURN(PlaceDocument * place, PlaceToTrain(document, options.place));
   LARARIUM_ASSIGN_OR_RETURN(const train::ColmapFolders folders,
                             train::FindColmapFolders(options.model, options.images));
-  LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase database,
-                            train::ImportColmap(folders.model, folders.images, {}, progress, log));
+  std::vector<std::string> warnings;
+  LARARIUM_ASSIGN_OR_RETURN(
+      const SceneDatabase database,
+      train::ImportColmap(folders.model, folders.images, {}, progress, log, warnings));
   // Training again would start from these images with the camera of the model.
   const PlaceRecordings recordings{
       {SourceDocument::Kind::kImages, paths.Shorten(folders.images)}, database.camera, {}};
   LARARIUM_RETURN_IF_ERROR(TakeMap(paths, *place, recordings, database));
   SetRecordings(recordings, *place);
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
-  return CommandResult{place->name + ": " + std::to_string(database.keyframes.size()) +
-                           " images, " + std::to_string(database.points.size()) + " points\n",
-                       {{"place", place->name},
-                        {"keyframes", database.keyframes.size()},
-                        {"points", database.points.size()},
-                        {"mean_reprojection_error_px", database.mean_reprojection_error_px}}};
+  CommandResult result;
+  for (const std::string& warning : warnings) {
+    result.text += "warning: " + warning + "\n";
+  }
+  result.text += place->name + ": " + std::to_string(database.keyframes.size()) + " images, " +
+                 std::to_string(database.points.size()) + " points\n";
+  result.json = {{"place", place->name},
+                 {"keyframes", database.keyframes.size()},
+                 {"points", database.points.size()},
+                 {"mean_reprojection_error_px", database.mean_reprojection_error_px},
+                 {"warnings", warnings}};
+  return result;
 }
 
 Result<CommandResult> RunExportColmap(const ExportColmapOptions& options) {

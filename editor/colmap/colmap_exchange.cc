@@ -11,6 +11,8 @@
 #include <set>
 
 #include "editor/train/database_builder.h"
+#include "editor/train/image_mapping.h"
+#include "editor/train/tracks.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/file.h"
 #include "shared/core/parallel.h"
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 using geometry::CameraModel;
 
 constexpr std::string_view kImport = "import from COLMAP";
+constexpr size_t kMinPoints = 30;  // Fewer points are not enough to locate an image.
 
 // ------------------------------------------------------------------- export
 
@@ -89,7 +92,10 @@ void FillErrors(const vision::SceneDatabase& database, ColmapModel& model) {
 class HalfWrittenFolder {
  public:
   static Result<HalfWrittenFolder> Beside(const fs::path& folder) {
-    std::string name = folder.string() + ".XXXXXX";
+    constexpr size_t kLongest = 200;  // Bytes; names of files have at most 255.
+    std::string name =
+        (folder.parent_path() / folder.filename().string().substr(0, kLongest)).string() +
+        ".XXXXXX";
     if (::mkdtemp(name.data()) == nullptr) {
       return Status::Error(folder.string(), "cannot make a folder beside it",
                            "name a folder below one that exists and may be written to");
@@ -237,14 +243,24 @@ class Importer {
            const fs::path& image_folder,
            const ColmapImportOptions& options,
            Progress& progress,
-           Log& log)
-      : model_(model), folder_(image_folder), options_(options), progress_(progress), log_(log) {}
+           Log& log,
+           std::vector<std::string>& warnings)
+      : model_(model),
+        folder_(image_folder),
+        options_(options),
+        progress_(progress),
+        log_(log),
+        warnings_(warnings) {}
 
   Result<vision::SceneDatabase> Run() {
     LARARIUM_RETURN_IF_ERROR(ChooseCamera());
     LARARIUM_RETURN_IF_ERROR(OrderImages());
     LARARIUM_RETURN_IF_ERROR(ReadImages());
-    LARARIUM_ASSIGN_OR_RETURN(const Reconstruction reconstruction, Tie());
+    for (const std::string& note : model_.notes) {
+      warnings_.push_back("the model: " + note);
+    }
+    LARARIUM_ASSIGN_OR_RETURN(const Reconstruction reconstruction,
+                              HasTracks() ? Tie() : Triangulate());
     DatabaseOptions options;
     options.max_points = options_.max_points;
     options.seed = options_.seed;
@@ -319,8 +335,9 @@ class Importer {
     const auto resampled = std::count_if(imports_.begin(), imports_.end(),
                                          [](const Import& i) { return i.own_camera != nullptr; });
     if (resampled > 0) {
-      log_.warn("{} of {} images are resampled to one camera: {}x{}, focal length {:.1f} px",
-                resampled, imports_.size(), camera_.width, camera_.height, camera_.Focal());
+      warnings_.push_back(std::to_string(resampled) + " of " + std::to_string(imports_.size()) +
+                          " images are resampled to one camera of " +
+                          std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
     }
     return Status();
   }
@@ -430,19 +447,64 @@ class Importer {
     return tracks;
   }
 
-  // Builds a reconstruction from the model's poses and points, with our features as observations.
-  Result<Reconstruction> Tie() {
-    progress_.Report("points", 0.0);
+  // The model's poses, with our features and some tracks of them.
+  Reconstruction Located(Tracks tracks) const {
     std::vector<std::vector<Eigen::Vector2d>> pixels(images_.size());
     for (size_t i = 0; i < images_.size(); ++i) {
       for (const vision::Keypoint& keypoint : images_[i].features.keypoints) {
         pixels[i].emplace_back(keypoint.x, keypoint.y);
       }
     }
-    Reconstruction reconstruction(camera_, std::move(pixels), FindTracks());
+    Reconstruction reconstruction(camera_, std::move(pixels), std::move(tracks));
     for (uint32_t i = 0; i < imports_.size(); ++i) {
       reconstruction.Locate(i, imports_[i].image->camera_from_map);
     }
+    return reconstruction;
+  }
+
+  bool HasTracks() const {
+    return std::any_of(model_.points.begin(), model_.points.end(),
+                       [](const ColmapPoint& point) { return !point.observations.empty(); });
+  }
+
+  // Builds a reconstruction from the model's poses alone: our features are matched, and the points
+  // that they show are triangulated.
+  Result<Reconstruction> Triangulate() {
+    ImageMappingOptions options;
+    options.cameras = {{camera_, true}};
+    options.seed = options_.seed;
+    LARARIUM_ASSIGN_OR_RETURN(const VerifiedPairs verified,
+                              MatchImages(images_, options, progress_, log_));
+    std::vector<uint32_t> feature_counts;
+    for (const TrainingImage& image : images_) {
+      feature_counts.push_back(static_cast<uint32_t>(image.features.size()));
+    }
+    Reconstruction reconstruction = Located(BuildTracks(feature_counts, verified.pairs));
+    const TriangulationOptions triangulation;
+    for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
+      if (reconstruction.Triangulate(track, triangulation)) {
+        reconstruction.Complete(track, triangulation.max_error_px);
+        reconstruction.Reintersect(track);
+        reconstruction.Filter(track, triangulation);
+      }
+    }
+    const size_t found = reconstruction.PointCount();
+    if (found < kMinPoints) {
+      return Status::Error(kImport,
+                           "the model has no tracks, and only " + std::to_string(found) +
+                               " points could be triangulated from the images of " +
+                               folder_.string(),
+                           "run `colmap point_triangulator` and import what it writes");
+    }
+    warnings_.push_back("the model has no tracks; " + std::to_string(found) +
+                        " points were triangulated from its images and poses");
+    return reconstruction;
+  }
+
+  // Builds a reconstruction from the model's poses and points, with our features as observations.
+  Result<Reconstruction> Tie() {
+    progress_.Report("points", 0.0);
+    Reconstruction reconstruction = Located(FindTracks());
     // The model's points are trusted, so narrow angles are accepted.
     TriangulationOptions triangulation;
     triangulation.min_angle = 1e-4;
@@ -456,7 +518,6 @@ class Importer {
     const size_t found = reconstruction.PointCount();
     log_.info("{} of the model's {} points were found again in its images", found,
               model_.points.size());
-    constexpr size_t kMinPoints = 30;  // Fewer points are not enough to locate an image.
     if (found < kMinPoints) {
       return Status::Error(kImport,
                            "only " + std::to_string(found) + " of the model's " +
@@ -472,6 +533,7 @@ class Importer {
   ColmapImportOptions options_;
   Progress& progress_;
   Log& log_;
+  std::vector<std::string>& warnings_;
   CameraModel camera_;
   std::map<uint32_t, CameraModel> cameras_;  // Key: camera id.
   std::vector<Import> imports_;
@@ -558,7 +620,8 @@ Status ColmapImportOptions::Validate() const {
 Result<ColmapFolders> FindColmapFolders(const fs::path& model, const fs::path& images) {
   std::error_code ignored;
   ColmapFolders folders;
-  for (const fs::path& candidate : {model, model / "sparse" / "0", model / "sparse"}) {
+  for (const fs::path& candidate :
+       {model, model / "sparse" / "0", model / "sparse", model / "colmap" / "sparse" / "0"}) {
     if (folders.model.empty() &&
         (FileExists(candidate / "cameras.bin") || FileExists(candidate / "cameras.txt"))) {
       folders.model = candidate;
@@ -574,8 +637,8 @@ Result<ColmapFolders> FindColmapFolders(const fs::path& model, const fs::path& i
     if (fs::is_directory(at / "images", ignored)) {
       folders.images = at / "images";
     }
-    // In a project, the model is at most two folders deep.
-    if (at == base.parent_path().parent_path()) {
+    // In a project, the model is at most three folders deep (colmap/sparse/0).
+    if (at == base.parent_path().parent_path().parent_path()) {
       break;
     }
   }
@@ -592,11 +655,12 @@ Result<vision::SceneDatabase> ImportColmap(const fs::path& model,
                                            const fs::path& images,
                                            const ColmapImportOptions& options,
                                            Progress& progress,
-                                           Log& log) {
+                                           Log& log,
+                                           std::vector<std::string>& warnings) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
   LARARIUM_ASSIGN_OR_RETURN(const ColmapFolders folders, FindColmapFolders(model, images));
   LARARIUM_ASSIGN_OR_RETURN(const ColmapModel parsed, LoadColmapModel(folders.model));
-  return Importer(parsed, folders.images, options, progress, log).Run();
+  return Importer(parsed, folders.images, options, progress, log, warnings).Run();
 }
 
 }  // namespace lararium::train

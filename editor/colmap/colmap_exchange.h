@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "editor/colmap/colmap_model.h"
 #include "shared/core/log.h"
@@ -42,17 +44,19 @@ struct ColmapFolders {
 };
 
 // Finds the folders. model is a folder with a model, or a project with a model in sparse/0 or
-// sparse. If images is empty, a folder images/ is searched for in and beside these folders.
+// sparse, also below colmap/. If images is empty, a folder images/ is searched for in and beside
+// these folders.
 Result<ColmapFolders> FindColmapFolders(const std::filesystem::path& model,
                                         const std::filesystem::path& images);
 
 // Imports a model and its images as a place that can be tracked. Poses and points stay unchanged,
 // in the model's axes and unit. Our features are extracted from the images and assigned to the
 // points whose model features lie within radius_px. Points with fewer than two such observations
-// are left out.
+// are left out. If the model has no tracks, as those of photogrammetry programs often, our features
+// are matched and triangulated with the model's poses.
 //
 // The database has one camera: the one with the most images. Images of a camera with another
-// projection are resampled to it; the log says how many.
+// projection are resampled to it; a warning says how many.
 //
 // Frame indices of keyframes are those of OpenImageFolder for the image folder. If an image lies
 // elsewhere or in a subfolder, frames are numbered in the order of their names. Errors name images
@@ -61,6 +65,7 @@ Result<vision::SceneDatabase> ImportColmap(const std::filesystem::path& model,
                                            const std::filesystem::path& images,
                                            const ColmapImportOptions& options,
                                            Progress& progress,
-                                           Log& log);
+                                           Log& log,
+                                           std::vector<std::string>& warnings);
 
 }  // namespace lararium::train

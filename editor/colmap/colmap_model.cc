@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "editor/colmap/colmap_binary.h"
+#include "editor/colmap/colmap_repair.h"
 #include "editor/colmap/colmap_text.h"
 #include "shared/core/file.h"
+#include "shared/core/plain_text.h"
 
 namespace lararium::train {
 namespace {
@@ -31,6 +33,13 @@ constexpr std::array<ModelFacts, kColmapCameraModels> kModelFacts = {{
     {"SIMPLE_RADIAL_FISHEYE", 4},
     {"RADIAL_FISHEYE", 5},
     {"THIN_PRISM_FISHEYE", 12},
+    {"RAD_TAN_THIN_PRISM_FISHEYE", 16},
+    {"SIMPLE_DIVISION", 4},
+    {"DIVISION", 5},
+    {"SIMPLE_FISHEYE", 3},
+    {"FISHEYE", 4},
+    {"EUCM", 6},
+    {"EQUIRECTANGULAR", 2},
 }};
 
 std::string Called(std::string_view kind, uint64_t id) {
@@ -105,6 +114,15 @@ Status CheckImage(const ColmapModel& model, const ColmapImage& image) {
     }
   }
   return Status();
+}
+
+// The model that can express the camera with the fewest parameters, if that is one of ours. Other
+// programs write FULL_OPENCV for cameras that need only its first eight parameters.
+ColmapCameraModel SimplestModel(const ColmapCamera& camera) {
+  const bool plain = camera.model == ColmapCameraModel::kFullOpenCv &&
+                     std::all_of(camera.parameters.begin() + 8, camera.parameters.end(),
+                                 [](double p) { return p == 0.0; });
+  return plain ? ColmapCameraModel::kOpenCv : camera.model;
 }
 
 Status CheckPoint(const ColmapModel& model, const ColmapPoint& point) {
@@ -223,7 +241,7 @@ Result<CameraModel> CameraFromColmap(const ColmapCamera& camera) {
   ours.width = static_cast<int>(camera.width);
   ours.height = static_cast<int>(camera.height);
   size_t center = 1;  // Index of the parameter cx.
-  switch (camera.model) {
+  switch (SimplestModel(camera)) {
     case ColmapCameraModel::kSimplePinhole:
     case ColmapCameraModel::kSimpleRadial:
     case ColmapCameraModel::kRadial:
@@ -279,11 +297,15 @@ Result<ColmapModel> ParseColmapModel(const ColmapFiles& files,
                                      ColmapFormat format,
                                      const std::string& where) {
   ColmapModel model;
-  const Status parsed = format == ColmapFormat::kText ? ParseColmapText(files, where, model)
-                                                      : ParseColmapBinary(files, where, model);
+  const Status parsed = format == ColmapFormat::kText
+                            ? ParseColmapText({PlainText(files.cameras), PlainText(files.images),
+                                               PlainText(files.points)},
+                                              where, model)
+                            : ParseColmapBinary(files, where, model);
   LARARIUM_RETURN_IF_ERROR(parsed);
   SortById(model);
   NormaliseRotations(model);
+  model.notes = RepairColmapModel(model);
   if (const Status status = model.Validate(); !status.ok()) {
     return status.At(where);
   }
@@ -309,8 +331,18 @@ Result<ColmapModel> LoadColmapModel(const std::filesystem::path& folder) {
   ColmapFiles files;
   LARARIUM_ASSIGN_OR_RETURN(files.cameras, ReadText(file("cameras", format)));
   LARARIUM_ASSIGN_OR_RETURN(files.images, ReadText(file("images", format)));
-  LARARIUM_ASSIGN_OR_RETURN(files.points, ReadText(file("points3D", format)));
-  return ParseColmapModel(files, format, folder.string());
+  // Programs that know no points leave out their file.
+  const bool has_points = FileExists(file("points3D", format));
+  if (has_points) {
+    LARARIUM_ASSIGN_OR_RETURN(files.points, ReadText(file("points3D", format)));
+  } else if (format == ColmapFormat::kBinary) {
+    files.points.assign(sizeof(uint64_t), '\0');  // A count of zero.
+  }
+  LARARIUM_ASSIGN_OR_RETURN(ColmapModel model, ParseColmapModel(files, format, folder.string()));
+  if (!has_points) {
+    model.notes.insert(model.notes.begin(), "it has no file points3D");
+  }
+  return model;
 }
 
 }  // namespace lararium::train

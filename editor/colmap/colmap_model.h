@@ -31,13 +31,20 @@ enum class ColmapCameraModel : int32_t {
   kRadial = 3,         // f, cx, cy, k1, k2
   kOpenCv = 4,         // fx, fy, cx, cy, k1, k2, p1, p2
   kOpenCvFisheye = 5,
-  kFullOpenCv = 6,
+  kFullOpenCv = 6,  // fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6
   kFov = 7,
   kSimpleRadialFisheye = 8,
   kRadialFisheye = 9,
   kThinPrismFisheye = 10,
+  kRadTanThinPrismFisheye = 11,
+  kSimpleDivision = 12,
+  kDivision = 13,
+  kSimpleFisheye = 14,
+  kFisheye = 15,
+  kEucm = 16,
+  kEquirectangular = 17,
 };
-inline constexpr int kColmapCameraModels = 11;
+inline constexpr int kColmapCameraModels = 18;
 
 // The name in text files, such as "SIMPLE_PINHOLE".
 std::string_view Name(ColmapCameraModel model);
@@ -86,6 +93,7 @@ struct ColmapModel {
   std::vector<ColmapCamera> cameras;
   std::vector<ColmapImage> images;
   std::vector<ColmapPoint> points;
+  std::vector<std::string> notes;  // Lists what was repaired (colmap_repair.h).
 
   // Checks that ids are sorted and unique, references exist, features and points refer to each
   // other, numbers are finite, and rotations have unit length. The error says what is wrong.
@@ -106,7 +114,8 @@ struct ColmapFiles {
 };
 
 // Parses a model that passes Validate(), or fails. Rotations whose length differs from 1 by
-// rounding are normalised. place names the folder in errors.
+// rounding are normalised, and references between images and points are repaired. place names the
+// folder in errors.
 Result<ColmapModel> ParseColmapModel(const ColmapFiles& files,
                                      ColmapFormat format,
                                      const std::string& where);

@@ -9,6 +9,8 @@ namespace lararium::train {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kUndistort =
+    "run `colmap image_undistorter`, and import its sparse model and images";
 
 std::string_view Trimmed(std::string_view text) {
   const size_t first = text.find_first_not_of(kBlanks);
@@ -34,6 +36,13 @@ class LineReader {
     return Trimmed(line);
   }
 
+  // Goes back to before the line that Next() has returned.
+  void PutBack(std::string_view line) {
+    at_ = static_cast<size_t>(line.data() - text_.data());
+    at_ = text_.substr(0, at_).rfind('\n') + 1;
+    --number_;
+  }
+
   // The next line that is neither blank nor a comment.
   std::optional<std::string_view> NextRecord() {
     while (const std::optional<std::string_view> line = Next()) {
@@ -44,9 +53,9 @@ class LineReader {
     return std::nullopt;
   }
 
-  Status Problem(std::string_view what) const {
-    return Status::Error(file_ + ":" + std::to_string(number_), what,
-                         "write the model again with COLMAP");
+  Status Problem(std::string_view what,
+                 std::string_view remedy = "write the model again with COLMAP") const {
+    return Status::Error(file_ + ":" + std::to_string(number_), what, remedy);
   }
 
  private:
@@ -74,7 +83,8 @@ class FieldReader {
 
   template <typename T>
   T Take() {
-    const std::string_view word = TakeWord();
+    std::string_view word = TakeWord();
+    word.remove_prefix(word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
     T value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     failed_ = failed_ || error != std::errc() || end != word.data() + word.size();
@@ -102,6 +112,24 @@ class FieldReader {
   bool failed_ = false;
 };
 
+// Whether the line behind that of an image is the next image, because a program left out the blank
+// line of an image without features. A line of features consists of triples of numbers.
+bool IsImage(std::string_view line) {
+  FieldReader fields(line);
+  for (int i = 0; i < 9; ++i) {
+    fields.Take<double>();
+  }
+  if (fields.failed() || fields.at_end()) {
+    return false;
+  }
+  size_t words = 9;
+  while (!fields.at_end() && !fields.failed()) {
+    fields.Take<double>();
+    ++words;
+  }
+  return fields.failed() || words % 3 != 0;
+}
+
 std::optional<ColmapCameraModel> ModelOf(std::string_view name) {
   for (int i = 0; i < kColmapCameraModels; ++i) {
     if (Name(static_cast<ColmapCameraModel>(i)) == name) {
@@ -120,7 +148,8 @@ Status ParseCameras(std::string_view text, const std::string& file, ColmapModel&
     const std::string name(fields.TakeWord());
     const std::optional<ColmapCameraModel> kind = ModelOf(name);
     if (!kind) {
-      return lines.Problem("has the unknown camera model \"" + name.substr(0, 64) + "\"");
+      return lines.Problem("has the unknown camera model \"" + name.substr(0, 64) + "\"",
+                           kUndistort);
     }
     camera.model = *kind;
     camera.width = fields.Take<uint64_t>();
@@ -168,7 +197,13 @@ Status ParseImages(std::string_view text, const std::string& file, ColmapModel& 
           "is not IMAGE_ID, a quaternion (4), a translation (3), CAMERA_ID and NAME");
     }
     // The line after an image holds its features; it is blank if there are none.
-    if (const auto features = lines.Next()) {
+    std::optional<std::string_view> features = lines.Next();
+    while (features && features->starts_with('#')) {
+      features = lines.Next();
+    }
+    if (features && IsImage(*features)) {
+      lines.PutBack(*features);
+    } else if (features) {
       LARARIUM_RETURN_IF_ERROR(ParseFeatures(lines, *features, image));
     }
     model.images.push_back(std::move(image));

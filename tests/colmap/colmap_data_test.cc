@@ -217,7 +217,8 @@ TEST(ColmapProgram, MakesAModelThatImportsLocatesAnotherImageAndGoesBack) {
   ASSERT_TRUE(model.ok()) << model.message();
 
   NoProgress progress;
-  const auto db = ImportColmap(folder.path(), {}, {}, progress, *MakeSilentLog());
+  std::vector<std::string> warnings;
+  const auto db = ImportColmap(folder.path(), {}, {}, progress, *MakeSilentLog(), warnings);
   ASSERT_TRUE(db.ok()) << db.message();
   EXPECT_EQ(db->keyframes.size(), 5u);
   EXPECT_NEAR(db->camera.cx, fountain.camera.cx, 1e-5);

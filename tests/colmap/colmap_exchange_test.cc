@@ -189,11 +189,12 @@ class ColmapImport : public ::testing::Test {
 
   Result<vision::SceneDatabase> Import() {
     NoProgress progress;
-    return ImportColmap(folder_.path(), {}, {}, progress, *MakeSilentLog());
+    return ImportColmap(folder_.path(), {}, {}, progress, *MakeSilentLog(), warnings_);
   }
 
   const TemporaryFolder folder_;
   const Board board_;
+  std::vector<std::string> warnings_;
   CameraModel camera_{320, 240, 300, 300, 160.5, 119};
   std::vector<Rigid3> poses_;
   std::vector<CameraModel> cameras_;
@@ -317,7 +318,8 @@ TEST_F(ColmapImport, TakesTheExportOfItsOwnPlaceBack) {
   const std::filesystem::path model = folder_ / "exported";
   ASSERT_TRUE(ExportColmap(*db, model, ColmapFormat::kText, true).ok());
   NoProgress progress;
-  const auto again = ImportColmap(model, {}, {}, progress, *MakeSilentLog());
+  std::vector<std::string> warnings;
+  const auto again = ImportColmap(model, {}, {}, progress, *MakeSilentLog(), warnings);
   ASSERT_TRUE(again.ok()) << again.message();
   EXPECT_EQ(again->camera, db->camera);
   // The exported images are grey, so a few features differ.

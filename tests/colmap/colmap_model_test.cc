@@ -154,6 +154,41 @@ TEST(ColmapText, ReadsCommentsBlankLinesAndNamesWithBlanks) {
   EXPECT_EQ(model->points[0].observations[1].image, 9u);
 }
 
+TEST(ColmapText, ReadsWhatOtherProgramsWrite) {
+  const ColmapFiles files = {
+      "\xEF\xBB\xBF# cameras\r\n3 FULL_OPENCV 640 480 500 500 320 240 .1 0 0 0 0 0 0 0\r\n",
+      "\xEF\xBB\xBF# images\r\n7 +1 0 0 0 +0.5 -1.000000e-001 2e-1 3 a.jpg \r\n"
+      "8 1 0 0 0 0 0 0 3 2 b.jpg\r\n# a remark\r\n9 1 0 0 0 0 0 0 3 c.jpg\r\n"
+      "1 2 4\r\n",
+      "\xEF\xBB\xBF"
+      "4 1 2 3 10 20 30 0.25 9 0\r\n"};
+  const Result<ColmapModel> model = ParseColmapModel(files, ColmapFormat::kText, "model");
+  ASSERT_TRUE(model.ok()) << model.message();
+  ASSERT_EQ(model->images.size(), 3u);
+  EXPECT_EQ(model->images[0].camera_from_map.translation, Eigen::Vector3d(0.5, -0.1, 0.2));
+  EXPECT_EQ(model->images[0].name, "a.jpg");
+  EXPECT_EQ(model->images[1].name, "2 b.jpg");
+  EXPECT_EQ(model->images[2].features.size(), 1u);
+  EXPECT_TRUE(model->notes.empty());
+  const auto camera = CameraFromColmap(model->cameras[0]);
+  ASSERT_TRUE(camera.ok()) << camera.message();
+  EXPECT_EQ(camera->k1, 0.1);
+}
+
+TEST(ColmapText, NamesNewerCameraModelsAndWhatToDo) {
+  for (const char* line : {"1 RAD_TAN_THIN_PRISM_FISHEYE 64 48 50 50 32 24 0 0 0 0 0 0 0 0 0 0 0 0",
+                           "1 SIMPLE_DIVISION 64 48 50 32 24 0", "1 DIVISION 64 48 50 50 32 24 0",
+                           "1 SIMPLE_FISHEYE 64 48 50 32 24", "1 FISHEYE 64 48 50 50 32 24",
+                           "1 EUCM 64 48 50 50 32 24 .5 1", "1 EQUIRECTANGULAR 64 48 64 48",
+                           "1 FULL_OPENCV 64 48 50 50 32 24 0 0 0 0 .1 0 0 0"}) {
+    const auto model = ParseColmapModel({line, "", ""}, ColmapFormat::kText, "model");
+    ASSERT_TRUE(model.ok()) << model.message();
+    EXPECT_THAT(CameraFromColmap(model->cameras[0]).message(), HasSubstr("image_undistorter"));
+  }
+  EXPECT_THAT(ParseColmapModel({"1 MARS 640 480 500", "", ""}, ColmapFormat::kText, "m").message(),
+              HasSubstr("image_undistorter"));
+}
+
 TEST(ColmapText, ErrorsNameTheLine) {
   ColmapFiles files;
   files.cameras = "# one\n1 PINHOLE 640 480 500 500 320 240\n2 PINHOLE 640 480 500 500 320\n";
@@ -274,8 +309,11 @@ TEST(LoadColmapModel, SaysWhichFileIsMissing) {
   EXPECT_THAT(LoadColmapModel(folder.path()).message(), HasSubstr("cameras.bin or cameras.txt"));
   const ColmapFiles files = SerializeColmapModel(MakeModel(), ColmapFormat::kText);
   ASSERT_TRUE(WriteFileAtomically(folder / "cameras.txt", files.cameras).ok());
+  EXPECT_THAT(LoadColmapModel(folder.path()).message(), HasSubstr("images.txt"));
   ASSERT_TRUE(WriteFileAtomically(folder / "images.txt", files.images).ok());
-  EXPECT_THAT(LoadColmapModel(folder.path()).message(), HasSubstr("points3D.txt"));
+  const auto without_points = LoadColmapModel(folder.path());
+  ASSERT_TRUE(without_points.ok()) << without_points.message();
+  EXPECT_THAT(without_points->notes.front(), HasSubstr("points3D"));
   ASSERT_TRUE(WriteFileAtomically(folder / "points3D.txt", files.points).ok());
   EXPECT_TRUE(LoadColmapModel(folder.path()).ok());
 }
