@@ -204,7 +204,7 @@ class DryRunner {
       if (all.tasks.empty() && cues.cues.empty() && timeline.ok() && timeline->lanes().empty() &&
           !Names(script_, "main")) {
         all.problems.push_back(
-            AtPlace(file_, Sentence("has no function main() and no track, so nothing happens")));
+            AtPlace(file_ + ":1", Sentence("has no function main() and no track, so nothing happens")));
       }
     }
     return all;

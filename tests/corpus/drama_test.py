@@ -23,8 +23,8 @@ class Drama(SpeakingCase):
                              (DRAMA.encode("utf-16-le"), "drama.lua:1: holds a zero byte"),
                              ("--\nlocal k = actor('caf\u00e9')\n".encode("latin-1"), "drama.lua:2: is not UTF-8"),
                              ("local k = actor(\u201ckeeper\u201d)\n", "drama.lua:1: unexpected symbol"),
-                             ("", "drama.lua: has no function main()"),
-                             ("local k = actor('keeper')\n", "drama.lua: has no function main()"),
+                             ("", "drama.lua:1: has no function main()"),
+                             ("local k = actor('keeper')\n", "drama.lua:1: has no function main()"),
                              (b"\x1bLua", "drama.lua:1: is compiled Lua"),
                              ("function main()\n  table.sort({2, 1}, function(a, b) wait(1) return a < b end)\nend\n",
                               "drama.lua:2: wait: cannot wait within a function")):
