@@ -1,9 +1,11 @@
 #include "editor/colmap/colmap_text.h"
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 
 namespace lararium::train {
 namespace {
@@ -88,6 +90,9 @@ class FieldReader {
     T value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     failed_ = failed_ || error != std::errc() || end != word.data() + word.size();
+    if constexpr (std::is_floating_point_v<T>) {
+      failed_ = failed_ || !std::isfinite(value);  // "nan" and "inf" are refused.
+    }
     return value;
   }
 

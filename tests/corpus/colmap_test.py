@@ -51,6 +51,7 @@ class Colmap(Case):
         scene = self.scene
         for i, (cameras, images, points, told) in enumerate((
                 (scene.cameras, scene.images, [p.replace(".", ",") for p in scene.points], "points3D.txt:2"),
+                (scene.cameras, scene.images, [p.replace(" 0.5 ", " nan ") for p in scene.points], "points3D.txt:2"),
                 ([scene.cameras[0].replace("PINHOLE", "EUCM")+" 0.5 1"], scene.images, scene.points, "EUCM"),
                 ([scene.cameras[0].replace("PINHOLE", "FANCY")], scene.images, scene.points, "FANCY"))):
             write_model(self.folder / f"m{i}", cameras, images, points)
