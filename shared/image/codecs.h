@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,8 +35,16 @@ Result<cv::Mat> DecodeJpeg(Bytes encoded,
                            const std::string& where);
 Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& where);
 Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& where);
-// Decodes BMP and WebP.
+// Decodes HEIC and AVIF, turned as the file says.
+Result<cv::Mat> DecodeHeif(Bytes encoded, Channels channels, const std::string& where);
+// Decodes BMP, WebP and JPEG XL.
 Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& where);
+
+bool IsTiff(Bytes encoded);
+bool IsHeif(Bytes encoded);
+// Return nullopt if the header cannot be read.
+std::optional<cv::Size> ReadTiffSize(Bytes encoded);
+std::optional<cv::Size> ReadHeifSize(Bytes encoded);
 
 bool StartsWith(Bytes bytes, size_t at, std::string_view text);
 

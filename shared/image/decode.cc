@@ -1,7 +1,5 @@
 #include "shared/image/decode.h"
 
-#include <algorithm>
-#include <array>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -47,18 +45,6 @@ Result<cv::Mat> MakeImage(uint64_t width, uint64_t height, int type, const std::
   return cv::Mat(static_cast<int>(height), static_cast<int>(width), type);
 }
 
-namespace {
-
-// Accepts both byte orders, and offsets of 32 bits (42) and of 64 bits (43).
-bool IsTiff(Bytes encoded) {
-  using std::literals::string_view_literals::operator""sv;
-  static constexpr std::array kMagic = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
-  return std::any_of(kMagic.begin(), kMagic.end(),
-                     [&](std::string_view magic) { return StartsWith(encoded, 0, magic); });
-}
-
-}  // namespace
-
 Result<cv::Mat> DecodeImage(Bytes encoded,
                             Channels channels,
                             const std::string& where,
@@ -73,6 +59,9 @@ Result<cv::Mat> DecodeImage(Bytes encoded,
   }
   if (IsTiff(encoded)) {
     return DecodeTiff(encoded, channels, where);
+  }
+  if (IsHeif(encoded)) {
+    return DecodeHeif(encoded, channels, where);
   }
   return DecodeByLibav(encoded, channels, where);
 }

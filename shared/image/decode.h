@@ -1,8 +1,8 @@
 #pragma once
 
-// Reads pictures with libraries for single formats: libjpeg-turbo, libpng, libtiff, and libav for
-// the rest. (OpenCV's own readers load GDAL and a hundred further libraries at every start of a
-// program.)
+// Reads pictures with libraries for single formats: libjpeg-turbo, libpng, libtiff, libheif where
+// it is installed, and libav for the rest. (OpenCV's own readers load GDAL and a hundred further
+// libraries at every start of a program.)
 
 #include <cstddef>
 #include <cstdint>
@@ -22,10 +22,11 @@ enum class Channels : uint8_t { kGrey, kBgr, kBgra };
 
 inline constexpr int kMostJpegHalvings = 3;
 
-// Decodes a PNG, JPEG, BMP, TIFF or WebP; of several pictures in a file, the first. Incomplete
-// pictures are errors. EXIF's orientation is ignored, because a camera model describes the sensor.
-// Errors call the picture `where`. jpeg_halvings, 0 to kMostJpegHalvings: how often the width and
-// height of a JPEG are halved, rounded up, which saves time. Other formats keep their size.
+// Decodes a PNG, JPEG, BMP, TIFF, WebP, HEIC, AVIF or JPEG XL; of several pictures in a file, the
+// first. Incomplete pictures are errors. The orientation of EXIF data is ignored; HEIC, AVIF and
+// JPEG XL state theirs otherwise and are upright. Errors call the picture `where`. jpeg_halvings, 0
+// to kMostJpegHalvings: how often the width and height of a JPEG are halved, rounded up, which
+// saves time. Other formats keep their size.
 Result<cv::Mat> DecodeImage(std::span<const std::byte> encoded,
                             Channels channels,
                             const std::string& where,

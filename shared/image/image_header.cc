@@ -1,12 +1,9 @@
 #include "shared/image/image_header.h"
 
-#include <cstring>
-#include <string_view>
+#include "shared/image/codecs.h"
 
 namespace lararium::image {
 namespace {
-
-using Bytes = std::span<const std::byte>;
 
 uint32_t BigEndian(Bytes bytes) {
   uint32_t value = 0;
@@ -24,14 +21,9 @@ uint32_t LittleEndian(Bytes bytes) {
   return value;
 }
 
-bool HasAt(Bytes bytes, size_t at, std::string_view text) {
-  return at + text.size() <= bytes.size() &&
-         std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
-}
-
 // The first chunk is the header: length, "IHDR", width, height.
 std::optional<ImageHeader> ReadPng(Bytes bytes) {
-  if (bytes.size() < 24 || !HasAt(bytes, 12, "IHDR")) {
+  if (bytes.size() < 24 || !StartsWith(bytes, 12, "IHDR")) {
     return std::nullopt;
   }
   return ImageHeader{ImageHeader::Format::kPng, BigEndian(bytes.subspan(16, 4)),
@@ -69,17 +61,55 @@ std::optional<ImageHeader> ReadBmp(Bytes bytes) {
                      height > 0x80000000u ? 0u - height : height};
 }
 
+// The first chunk is a lossy picture, a lossless one, or a header of several chunks.
+std::optional<ImageHeader> ReadWebp(Bytes bytes) {
+  constexpr size_t kContent = 20;  // After "RIFF", size, "WEBP", chunk, size.
+  if (bytes.size() < kContent + 10) {
+    return std::nullopt;
+  }
+  const auto number = [&](size_t at, size_t size) {
+    return LittleEndian(bytes.subspan(kContent + at, size));
+  };
+  constexpr uint32_t k14Bits = 0x3fff;
+  if (StartsWith(bytes, 12, "VP8 ") && StartsWith(bytes, kContent + 3, "\x9d\x01\x2a")) {
+    return ImageHeader{ImageHeader::Format::kWebp, number(6, 2) & k14Bits, number(8, 2) & k14Bits};
+  }
+  if (StartsWith(bytes, 12, "VP8L") && StartsWith(bytes, kContent, "\x2f")) {
+    return ImageHeader{ImageHeader::Format::kWebp, (number(1, 4) & k14Bits) + 1,
+                       (number(1, 4) >> 14 & k14Bits) + 1};
+  }
+  if (StartsWith(bytes, 12, "VP8X")) {
+    return ImageHeader{ImageHeader::Format::kWebp, number(4, 3) + 1, number(7, 3) + 1};
+  }
+  return std::nullopt;
+}
+
+std::optional<ImageHeader> Header(ImageHeader::Format format, std::optional<cv::Size> size) {
+  return size ? std::optional(ImageHeader{format, static_cast<uint32_t>(size->width),
+                                          static_cast<uint32_t>(size->height)})
+              : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<ImageHeader> ReadImageHeader(Bytes encoded) {
-  if (HasAt(encoded, 0, "\x89PNG\r\n\x1a\n")) {
+  if (StartsWith(encoded, 0, "\x89PNG\r\n\x1a\n")) {
     return ReadPng(encoded);
   }
-  if (HasAt(encoded, 0, "\xff\xd8")) {
+  if (StartsWith(encoded, 0, "\xff\xd8")) {
     return ReadJpeg(encoded);
   }
-  if (HasAt(encoded, 0, "BM")) {
+  if (StartsWith(encoded, 0, "BM")) {
     return ReadBmp(encoded);
+  }
+  if (StartsWith(encoded, 0, "RIFF") && StartsWith(encoded, 8, "WEBP")) {
+    return ReadWebp(encoded);
+  }
+  if (IsTiff(encoded)) {
+    return Header(ImageHeader::Format::kTiff, ReadTiffSize(encoded));
+  }
+  if (IsHeif(encoded)) {
+    return Header(ImageHeader::Format::kHeif, ReadHeifSize(encoded));
   }
   return std::nullopt;
 }

@@ -71,11 +71,14 @@ class JpegReader {
     return true;
   }
 
-  bool Read(bool grey, cv::Mat& image) {
+  // image: one channel for grey, three for BGR, four for cyan, magenta, yellow and black.
+  bool Read(cv::Mat& image) {
     if (setjmp(errors_.jump) != 0) {  // NOLINT(cert-err52-cpp)
       return false;
     }
-    info_.out_color_space = grey ? JCS_GRAYSCALE : JCS_EXT_BGR;
+    info_.out_color_space = image.channels() == 4   ? JCS_CMYK
+                            : image.channels() == 1 ? JCS_GRAYSCALE
+                                                    : JCS_EXT_BGR;
     jpeg_start_decompress(&info_);
     while (info_.output_scanline < info_.output_height) {
       JSAMPROW row = image.ptr(static_cast<int>(info_.output_scanline));
@@ -150,6 +153,25 @@ class JpegWriter {
   unsigned long size_ = 0;          // NOLINT(google-runtime-int): libjpeg's type
 };
 
+// Converts cyan, magenta, yellow and black to BGR without a profile. Adobe's programs store the
+// share of the paper that stays white, others the share of ink.
+cv::Mat FromInks(const cv::Mat& inks, bool white_shares) {
+  cv::Mat bgr(inks.size(), CV_8UC3);
+  for (int y = 0; y < inks.rows; ++y) {
+    for (int x = 0; x < inks.cols; ++x) {
+      const auto white = [&](int ink) {
+        const int value = inks.at<cv::Vec4b>(y, x)[ink];
+        return white_shares ? value : 255 - value;
+      };
+      for (int channel = 0; channel < 3; ++channel) {
+        bgr.at<cv::Vec3b>(y, x)[channel] =
+            static_cast<uint8_t>((white(2 - channel) * white(3) + 127) / 255);
+      }
+    }
+  }
+  return bgr;
+}
+
 }  // namespace
 
 Result<cv::Mat> DecodeJpeg(Bytes encoded,
@@ -161,17 +183,18 @@ Result<cv::Mat> DecodeJpeg(Bytes encoded,
     return Damaged(where, reader.message());
   }
   const J_COLOR_SPACE colours = reader.info().jpeg_color_space;
-  if (colours == JCS_CMYK || colours == JCS_YCCK) {
-    return Status::Error(where, "has the colours of a printer (CMYK)", "save it again as RGB");
-  }
-  const bool grey = channels == Channels::kGrey || colours == JCS_GRAYSCALE;
+  const bool printed = colours == JCS_CMYK || colours == JCS_YCCK;
+  const bool grey = !printed && (channels == Channels::kGrey || colours == JCS_GRAYSCALE);
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
                             MakeImage(reader.info().output_width, reader.info().output_height,
-                                      grey ? CV_8UC1 : CV_8UC3, where));
-  if (!reader.Read(grey, image)) {
+                                      printed ? CV_8UC4
+                                      : grey  ? CV_8UC1
+                                              : CV_8UC3,
+                                      where));
+  if (!reader.Read(image)) {
     return Damaged(where, reader.message());
   }
-  return Converted(image, channels);
+  return Converted(printed ? FromInks(image, reader.info().saw_Adobe_marker) : image, channels);
 }
 
 Result<std::vector<std::byte>> EncodeJpeg(const cv::Mat& image, int quality) {

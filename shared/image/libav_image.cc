@@ -18,12 +18,21 @@ std::optional<AVCodecID> CodecOf(Bytes encoded) {
   if (StartsWith(encoded, 0, "RIFF") && StartsWith(encoded, 8, "WEBP")) {
     return AV_CODEC_ID_WEBP;
   }
+  // A bare codestream, or a container (ISO/IEC 18181-2).
+  using std::literals::string_view_literals::operator""sv;
+  if (StartsWith(encoded, 0, "\xff\x0a"sv) ||
+      StartsWith(encoded, 0, "\0\0\0\x0cJXL \r\n\x87\n"sv)) {
+    return AV_CODEC_ID_JPEGXL;
+  }
   return std::nullopt;
 }
 
-// Returns the size of the whole file that the file declares. libav skews a BMP that is a little too
-// short, and invents the rest of a WebP.
+// Returns the size of the whole file that the file declares; zero if the format does not state it.
+// libav skews a BMP that is a little too short, and invents the rest of a WebP.
 uint64_t ClaimedSize(AVCodecID id, Bytes encoded) {
+  if (id == AV_CODEC_ID_JPEGXL) {
+    return 0;
+  }
   const size_t at = id == AV_CODEC_ID_BMP ? 2 : 4;
   uint32_t claimed = 0;
   if (encoded.size() >= at + sizeof(claimed)) {
@@ -58,6 +67,7 @@ Result<LibavPtr<AVFrame>> DecodeFrame(AVCodecID id, Bytes encoded, const std::st
   std::memcpy(packet->data, encoded.data(), encoded.size());
   int error = avcodec_send_packet(decoder.get(), packet.get());
   if (error == 0) {
+    avcodec_send_packet(decoder.get(), nullptr);  // This marks the end of the data.
     error = avcodec_receive_frame(decoder.get(), frame.get());
   }
   if (error != 0 || frame->decode_error_flags != 0) {
@@ -91,7 +101,7 @@ Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::strin
   const std::optional<AVCodecID> codec = CodecOf(encoded);
   if (!codec) {
     return Status::Error(where, "cannot be read as an image",
-                         "give a PNG, JPEG, TIFF, WebP or BMP file");
+                         "give a PNG, JPEG, TIFF, WebP, HEIC, AVIF, JPEG XL or BMP file");
   }
   if (ClaimedSize(*codec, encoded) > encoded.size()) {
     return Damaged(where, "shorter than its header says");

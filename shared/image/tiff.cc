@@ -52,6 +52,27 @@ struct Closer {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }
 };
 
+using TiffPtr = std::unique_ptr<TIFF, Closer>;
+
+// Returns null if the file has no page that can be read.
+TiffPtr Open(Memory& memory) {
+  static const bool silent = (TIFFSetErrorHandler(nullptr), TIFFSetWarningHandler(nullptr), true);
+  static_cast<void>(silent);
+  return TiffPtr(
+      TIFFClientOpen("picture", "rm", &memory, Read, Refuse, Seek, Close, Size, nullptr, nullptr));
+}
+
+std::optional<cv::Size> SizeOf(TIFF* tiff) {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  if (tiff == nullptr || TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width) == 0 ||
+      TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height) == 0 || width > INT32_MAX ||
+      height > INT32_MAX) {
+    return std::nullopt;
+  }
+  return cv::Size(static_cast<int>(width), static_cast<int>(height));
+}
+
 // Ignores the page's orientation, as for EXIF.
 bool ReadPixels(TIFF* tiff, cv::Mat& rgba) {
   TIFFRGBAImage page = {};
@@ -67,19 +88,36 @@ bool ReadPixels(TIFF* tiff, cv::Mat& rgba) {
 
 }  // namespace
 
-Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& where) {
-  static const bool silent = (TIFFSetErrorHandler(nullptr), TIFFSetWarningHandler(nullptr), true);
-  static_cast<void>(silent);
+// Accepts both byte orders, and offsets of 32 bits (42) and of 64 bits (43).
+bool IsTiff(Bytes encoded) {
+  using std::literals::string_view_literals::operator""sv;
+  static constexpr std::array kMagic = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+  return std::any_of(kMagic.begin(), kMagic.end(),
+                     [&](std::string_view magic) { return StartsWith(encoded, 0, magic); });
+}
+
+std::optional<cv::Size> ReadTiffSize(Bytes encoded) {
   Memory memory{encoded};
-  const std::unique_ptr<TIFF, Closer> tiff(TIFFClientOpen(
-      where.c_str(), "rm", &memory, Read, Refuse, Seek, Close, Size, nullptr, nullptr));
-  uint32_t width = 0;
-  uint32_t height = 0;
-  if (tiff == nullptr || TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width) == 0 ||
-      TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height) == 0) {
+  const TiffPtr tiff = Open(memory);
+  return SizeOf(tiff.get());
+}
+
+Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& where) {
+  Memory memory{encoded};
+  const TiffPtr tiff = Open(memory);
+  const std::optional<cv::Size> size = SizeOf(tiff.get());
+  if (!size) {
     return Damaged(where, "it has no page that can be read");
   }
-  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image, MakeImage(width, height, CV_8UC4, where));
+  std::array<char, 1024> reason = {};
+  if (TIFFRGBAImageOK(tiff.get(), reason.data()) == 0) {
+    return Status::Error(
+        where, std::string("is a TIFF of a kind that is not read (") + reason.data() + ")",
+        "save it again with 8 or 16 bits for each channel");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat image,
+                            MakeImage(static_cast<uint64_t>(size->width),
+                                      static_cast<uint64_t>(size->height), CV_8UC4, where));
   if (!ReadPixels(tiff.get(), image)) {
     return Damaged(where, "its pixels cannot be read");
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
@@ -40,15 +41,33 @@ std::string Bmp(int32_t height) {
   return bytes;
 }
 
+std::string Tiff() {
+  std::vector<uint8_t> bytes;
+  EXPECT_TRUE(cv::imencode(".tif", cv::Mat(480, 640, CV_8UC1, cv::Scalar(7)), bytes));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string Webp(const std::string& chunk, std::initializer_list<int> content) {
+  return "RIFF" + Text({30, 0, 0, 0}) + "WEBP" + chunk + Text({10, 0, 0, 0}) + Text(content);
+}
+std::string LossyWebp() { return Webp("VP8 ", {0, 0, 0, 0x9d, 1, 0x2a, 0x80, 0x42, 0xe0, 0x81}); }
+std::string LosslessWebp() { return Webp("VP8L", {0x2f, 0x7f, 0xc2, 0x77, 0, 0, 0, 0, 0, 0}); }
+std::string ExtendedWebp() { return Webp("VP8X", {0, 0, 0, 0, 0x7f, 2, 0, 0xdf, 1, 0}); }
+
 TEST(ImageHeader, TellsFormatAndSize) {
   EXPECT_EQ(Read(Png()), (ImageHeader{Format::kPng, 640, 480}));
   EXPECT_EQ(Read(Jpeg()), (ImageHeader{Format::kJpeg, 640, 480}));
   EXPECT_EQ(Read(Bmp(480)), (ImageHeader{Format::kBmp, 640, 480}));
+  EXPECT_EQ(Read(Tiff()), (ImageHeader{Format::kTiff, 640, 480}));
+  EXPECT_EQ(Read(LossyWebp()), (ImageHeader{Format::kWebp, 640, 480})) << "two bits are a scale";
+  EXPECT_EQ(Read(LosslessWebp()), (ImageHeader{Format::kWebp, 640, 480}));
+  EXPECT_EQ(Read(ExtendedWebp()), (ImageHeader{Format::kWebp, 640, 480}));
   EXPECT_EQ(Read(Bmp(-480)), (ImageHeader{Format::kBmp, 640, 480})) << "the top row first";
 }
 
 TEST(ImageHeader, KnowsNothingOfWhatIsCutShort) {
-  for (const std::string& whole : {Png(), Jpeg(), Bmp(480)}) {
+  for (const std::string& whole :
+       {Png(), Jpeg(), Bmp(480), LossyWebp(), LosslessWebp(), ExtendedWebp()}) {
     for (size_t size = 0; size < whole.size(); ++size) {
       EXPECT_FALSE(Read(whole.substr(0, size)).has_value()) << size;
     }

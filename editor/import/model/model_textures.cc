@@ -87,7 +87,8 @@ Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
   const std::string at = where + ": texture '" + name + "'";
   const std::optional<image::ImageHeader> size = image::ReadImageHeader(encoded);
   if (!size) {
-    return Status::Error(at, "is neither PNG, JPEG nor BMP, or is damaged", "convert it to PNG");
+    return Status::Error(at, "is neither PNG, JPEG, WebP, TIFF nor BMP, or is damaged",
+                         "convert it to PNG");
   }
   if (size->width == 0 || size->height == 0 || size->width > 65'535 || size->height > 65'535 ||
       uint64_t{size->width} * size->height > kMaxPixels) {

@@ -41,8 +41,9 @@ int LongerSide(const cv::Size& size) { return std::max(size.width, size.height);
 
 Result<cv::Size> ReadImageSize(std::span<const std::byte> encoded, const std::string& where) {
   const std::optional<image::ImageHeader> header = image::ReadImageHeader(encoded);
-  if (!header || header->format == image::ImageHeader::Format::kBmp || header->width == 0 ||
-      header->height == 0) {
+  using Format = image::ImageHeader::Format;
+  if (!header || (header->format != Format::kPng && header->format != Format::kJpeg) ||
+      header->width == 0 || header->height == 0) {
     return Status::Error(where, "is not a PNG or JPEG image", "use another image, or none");
   }
   if (std::max(header->width, header->height) > uint32_t{kMaxTextureSide}) {
