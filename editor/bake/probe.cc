@@ -1,15 +1,11 @@
 #include "editor/bake/probe.h"
 
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfInputFile.h>
-
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <glm/common.hpp>
+#include <string_view>
 
+#include "editor/bake/exr_image.h"
 #include "editor/bake/radiance.h"
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
@@ -44,43 +40,6 @@ Status CheckSize(const std::string& where, Shape shape, int64_t width, int64_t h
                              std::to_string(kMaxWidth) + " pixels wide");
   }
   return Status();
-}
-
-// Reads the RGB channels of the data window of an OpenEXR file.
-Result<ProbeImage> ReadExr(const std::filesystem::path& file, Shape shape) {
-  try {
-    Imf::InputFile input(file.c_str());
-    const Imath::Box2i window = input.header().dataWindow();
-    const int64_t width = int64_t{window.max.x} - window.min.x + 1;
-    const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-    LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), shape, width, height));
-    ProbeImage image{static_cast<int>(width), static_cast<int>(height), {}, {}};
-    image.pixels.resize(static_cast<size_t>(width * height));
-    Imf::FrameBuffer buffer;
-    const char* names[3] = {"R", "G", "B"};
-    for (int channel = 0; channel < 3; ++channel) {
-      const Imf::Channel* found = input.header().channels().findChannel(names[channel]);
-      if (found == nullptr || found->xSampling != 1 || found->ySampling != 1) {
-        return Status::Error(file.string(),
-                             std::string("has no complete channel '") + names[channel] + "'",
-                             "save the probe as plain RGB");
-      }
-      buffer.insert(names[channel], Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][channel], window,
-                                                     sizeof(glm::vec3), sizeof(glm::vec3) * width));
-    }
-    input.setFrameBuffer(buffer);
-    input.readPixels(window.min.y, window.max.y);
-    return image;
-  } catch (const std::exception& error) {
-    return Status::Error(file.string(), std::string("cannot be read as OpenEXR: ") + error.what());
-  }
-}
-
-Result<ProbeImage> ReadRadiance(const std::filesystem::path& file, Shape shape) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
-  LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ParseRadiance(bytes, file.string()));
-  LARARIUM_RETURN_IF_ERROR(CheckSize(file.string(), shape, image.width, image.height));
-  return image;
 }
 
 std::string PixelName(const ProbeImage& image, size_t index) {
@@ -203,26 +162,36 @@ void WarnOfLowRange(ProbeImage& image, double mean) {
   }
 }
 
-Result<ProbeImage> ReadByExtension(const std::filesystem::path& file, Shape shape) {
+// The first bytes say which of the two formats a file has, because suffixes are often wrong.
+Result<ProbeImage> ReadByContent(const std::filesystem::path& file, Shape shape) {
+  const std::string where = file.string();
   const std::string extension = LowerCase(file.extension().string());
-  if (extension == ".exr") {
-    return ReadExr(file, shape);
-  }
-  if (extension == ".hdr") {
-    return ReadRadiance(file, shape);
-  }
-  for (const char* photograph : {".jpg", ".jpeg", ".png", ".tif", ".tiff"}) {
+  for (const char* photograph :
+       {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".heic", ".avif", ".webp"}) {
     if (extension == photograph) {
-      return Status::Error(file.string(), "a photograph has too small a range of brightness",
+      return Status::Error(where, "a photograph has too small a range of brightness",
                            "merge a bracketed series of them: lararium-editor probe merge");
     }
   }
-  return Status::Error(file.string(), "is not an HDR image of a supported format",
+  LARARIUM_ASSIGN_OR_RETURN(const MappedFile mapped, MappedFile::Open(file));
+  const std::string_view content(reinterpret_cast<const char*>(mapped.bytes().data()),
+                                 mapped.bytes().size());
+  if (content.starts_with("\x76\x2f\x31\x01")) {
+    return ReadExr(file, [&](int64_t width, int64_t height) {
+      return CheckSize(where, shape, width, height);
+    });
+  }
+  if (content.starts_with("#?")) {
+    LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ParseRadiance(mapped.bytes(), where));
+    LARARIUM_RETURN_IF_ERROR(CheckSize(where, shape, image.width, image.height));
+    return image;
+  }
+  return Status::Error(where, "is not an HDR image of a supported format, or is damaged",
                        "use OpenEXR (.exr) or Radiance (.hdr)");
 }
 
 Result<ProbeImage> Read(const std::filesystem::path& file, Shape shape) {
-  LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ReadByExtension(file, shape));
+  LARARIUM_ASSIGN_OR_RETURN(ProbeImage image, ReadByContent(file, shape));
   MendOverflow(image);
   LARARIUM_RETURN_IF_ERROR(MendHoles(image, file.string()));
   const double mean = MeanRadiance(image);

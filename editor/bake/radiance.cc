@@ -1,5 +1,6 @@
 #include "editor/bake/radiance.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -7,6 +8,8 @@
 #include <optional>
 #include <string_view>
 #include <vector>
+
+#include "editor/bake/chromaticities.h"
 
 namespace lararium::bake {
 namespace {
@@ -22,6 +25,36 @@ std::optional<int> WholeNumber(std::string_view text) {
   return whole && value > 0 && value <= kMaxSide ? std::optional(value) : std::nullopt;
 }
 
+std::string_view Trimmed(std::string_view text) {
+  const size_t begin = text.find_first_not_of(" \t");
+  return begin == std::string_view::npos
+             ? std::string_view()
+             : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+// Returns exactly N numbers, separated by blanks.
+template <size_t N>
+std::optional<std::array<double, N>> Numbers(std::string_view text) {
+  std::array<double, N> numbers = {};
+  for (double& number : numbers) {
+    text = Trimmed(text);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || !std::isfinite(number)) {
+      return std::nullopt;
+    }
+    text.remove_prefix(static_cast<size_t>(end - text.data()));
+  }
+  return Trimmed(text).empty() ? std::optional(numbers) : std::nullopt;
+}
+
+// How rows of the file lie in the image. Each is a column of the image if `columns`; they begin at
+// the image's right or bottom if `from_far`, and so does each of them if `reversed`.
+struct Arrangement {
+  bool columns = false;
+  bool from_far = false;
+  bool reversed = false;
+};
+
 class Reader {
  public:
   Reader(std::span<const std::byte> bytes, const std::string& where)
@@ -35,16 +68,27 @@ class Reader {
     if (pixels > 64 * static_cast<uint64_t>(text_.size())) {
       return Damaged("it is too short for its size");
     }
-    ProbeImage image{width_, height_, {}, {}};
-    image.pixels.reserve(pixels);
-    std::vector<Pixel> row(static_cast<size_t>(width_));
-    for (int y = 0; y < height_; ++y) {
+    ProbeImage image{width_, height_, std::vector<glm::vec3>(pixels), std::move(warnings_)};
+    const auto [columns, from_far, reversed] = arrangement_;
+    const int rows = columns ? width_ : height_;
+    const int length = columns ? height_ : width_;
+    std::vector<Pixel> row(static_cast<size_t>(length));
+    for (int i = 0; i < rows; ++i) {
       if (!ReadRow(row)) {
-        return Damaged("row " + std::to_string(y + 1) + " of " + std::to_string(height_));
+        return Damaged("row " + std::to_string(i + 1) + " of " + std::to_string(rows));
       }
-      for (const Pixel& pixel : row) {
-        image.pixels.push_back(Linear(pixel));
+      const int across = from_far ? rows - 1 - i : i;
+      for (int j = 0; j < length; ++j) {
+        const int along = reversed ? length - 1 - j : j;
+        const int x = columns ? across : along;
+        const int y = columns ? along : across;
+        image
+            .pixels[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)] =
+            Linear(row[static_cast<size_t>(j)]) * scale_;
       }
+    }
+    if (primaries_) {
+      LARARIUM_RETURN_IF_ERROR(ConvertToBt709(*primaries_, image, place_));
     }
     return image;
   }
@@ -81,10 +125,7 @@ class Reader {
       return Status::Error(place_, "not a Radiance .hdr image");
     }
     while ((line = Line()) && !line->empty()) {
-      if (line->starts_with("FORMAT=") && *line != "FORMAT=32-bit_rle_rgbe") {
-        return Status::Error(place_, "has colours other than red, green and blue",
-                             "export it as RGBE, or as OpenEXR");
-      }
+      LARARIUM_RETURN_IF_ERROR(ReadVariable(*line));
     }
     line = line ? Line() : std::nullopt;
     if (!line) {
@@ -93,20 +134,93 @@ class Reader {
     return ReadSize(*line);
   }
 
-  Status ReadSize(std::string_view line) {
-    const size_t x = line.find(" +X ");
-    if (line.starts_with("-Y ") && x != std::string_view::npos && x > 3) {
-      const std::optional<int> height = WholeNumber(line.substr(3, x - 3));
-      const std::optional<int> width = WholeNumber(line.substr(x + 4));
-      if (height && width) {
-        height_ = *height;
-        width_ = *width;
-        return Status();
+  // Programs that change the brightness of a picture state the factors: the light is what is
+  // stored, divided by the product of all of them. Unknown variables and comments are ignored.
+  Status ReadVariable(std::string_view line) {
+    const size_t equals = line.find('=');
+    if (line.starts_with('#') || equals == std::string_view::npos) {
+      return Status();
+    }
+    const std::string_view name = Trimmed(line.substr(0, equals));
+    const std::string_view value = Trimmed(line.substr(equals + 1));
+    if (name == "FORMAT" && value != "32-bit_rle_rgbe") {
+      return Status::Error(place_, "has colours other than red, green and blue",
+                           "export it as RGBE, or as OpenEXR");
+    }
+    if (name == "EXPOSURE") {
+      const auto exposure = Numbers<1>(value);
+      return exposure ? DivideBy({(*exposure)[0], (*exposure)[0], (*exposure)[0]}, line)
+                      : NoFactor(line);
+    }
+    if (name == "COLORCORR") {
+      const auto factors = Numbers<3>(value);
+      return factors ? DivideBy(*factors, line) : NoFactor(line);
+    }
+    if (name == "PRIMARIES") {
+      const auto numbers = Numbers<8>(value);
+      if (!numbers) {
+        return NoFactor(line);
+      }
+      const std::array<double, 8>& n = *numbers;
+      primaries_ = Chromaticities{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
+    }
+    if (name == "GAMMA" || name == "PIXASPECT") {
+      const auto number = Numbers<1>(value);
+      if (!number || (*number)[0] != 1.0) {
+        warnings_.push_back("its header's \"" + std::string(line.substr(0, 40)) +
+                            "\" is not honoured: export it without");
       }
     }
-    return Status::Error(place_,
-                         "its size \"" + std::string(line.substr(0, 40)) + "\" is not known",
-                         "export it with rows from the top, as \"-Y height +X width\"");
+    return Status();
+  }
+
+  Status NoFactor(std::string_view line) const {
+    return Status::Error(
+        place_, "its header's \"" + std::string(line.substr(0, 40)) + "\" has no possible value",
+        "export it again, or as OpenEXR");
+  }
+
+  Status DivideBy(const std::array<double, 3>& factors, std::string_view line) {
+    for (int c = 0; c < 3; ++c) {
+      scale_[c] = static_cast<float>(scale_[c] / factors[static_cast<size_t>(c)]);
+      if (!(factors[static_cast<size_t>(c)] > 0.0) || !std::isnormal(scale_[c])) {
+        return NoFactor(line);
+      }
+    }
+    return Status();
+  }
+
+  // Reads "-Y height +X width" and the seven other orders of axes and directions. The first axis is
+  // that across the file's rows.
+  Status ReadSize(std::string_view line) {
+    std::array<std::string_view, 4> words;
+    std::string_view rest = Trimmed(line);
+    for (std::string_view& word : words) {
+      word = rest.substr(0, rest.find(' '));
+      rest = Trimmed(rest.substr(word.size()));
+    }
+    const std::string_view across = words[0];
+    const std::string_view along = words[2];
+    const std::optional<int> rows = WholeNumber(words[1]);
+    const std::optional<int> length = WholeNumber(words[3]);
+    const auto names = [](std::string_view word, char axis) {
+      return word.size() == 2 && (word[0] == '+' || word[0] == '-') && word[1] == axis;
+    };
+    const bool columns = names(across, 'X') && names(along, 'Y');
+    if (!rest.empty() || !rows || !length ||
+        (!columns && !(names(across, 'Y') && names(along, 'X')))) {
+      return Status::Error(place_,
+                           "its size \"" + std::string(line.substr(0, 40)) + "\" is not known",
+                           "export it with rows from the top, as \"-Y height +X width\"");
+    }
+    // Y points up and X to the right.
+    const auto from_far = [](std::string_view word) {
+      return word[0] == (word[1] == 'Y' ? '+' : '-');
+    };
+    arrangement_ = {columns, from_far(across), from_far(along)};
+    width_ = columns ? *rows : *length;
+    height_ = columns ? *length : *rows;
+    return Status();
   }
 
   std::optional<uint8_t> Byte() {
@@ -207,6 +321,10 @@ class Reader {
   const std::string& place_;
   int width_ = 0;
   int height_ = 0;
+  Arrangement arrangement_;
+  glm::vec3 scale_ = glm::vec3(1.0f);  // Radiance for each unit that is stored.
+  std::optional<Chromaticities> primaries_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace

@@ -13,9 +13,9 @@
 
 namespace lararium::bake {
 
-// Gives the complete picture or an error. Values are linear in the units of the file; EXPOSURE
-// is not applied. Supports rows from the top and columns from the left ("-Y height +X width"),
-// as nearly all files have.
+// Gives the complete picture or an error. Values are linear radiance: what is stored, divided by
+// the header's EXPOSURE and COLORCORR, each of which may be repeated. PRIMARIES are converted to
+// those of BT.709. Rows and columns may come in every order.
 Result<ProbeImage> ParseRadiance(std::span<const std::byte> bytes, const std::string& where);
 
 }  // namespace lararium::bake

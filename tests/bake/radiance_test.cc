@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <bit>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
@@ -76,6 +77,43 @@ TEST(ParseRadiance, RepeatsPixelsOfOldRuns) {
   EXPECT_FALSE(ParseRadiance(Bytes(kHeader + "-Y 1 +X 3\n" + twice + pixel), "p").ok());
 }
 
+TEST(ParseRadiance, DividesByExposuresAndColourCorrections) {
+  const std::string pixels = {'\x80', '\x80', '\x80', '\x81'};
+  const auto image = ParseRadiance(Bytes("#?RADIANCE\nEXPOSURE= 2\nCOLORCORR=1 .5 4\n# EXPOSURE=9\n"
+                                         "EXPOSURE=4.0\nCOLORCORR=2 1 1\n\n-Y 1 +X 1\n" +
+                                         pixels),
+                                   "p.hdr");
+  ASSERT_TRUE(image.ok()) << image.message();
+  EXPECT_EQ(image->pixels[0], glm::vec3(1.0f / 16.0f, 0.25f, 1.0f / 32.0f));
+  EXPECT_TRUE(image->warnings.empty());
+}
+
+TEST(ParseRadiance, TurnsRowsAndColumnsOfEveryOrder) {
+  // The picture 1 2 4; stored as the file's rows.
+  //             8 16 32
+  const auto stored = [](std::initializer_list<int> values) {
+    std::string pixels;
+    for (const int value : values) {
+      pixels +=
+          {'\x80', '\x80', '\x80', static_cast<char>(129 + std::countr_zero(unsigned(value)))};
+    }
+    return pixels;
+  };
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"-Y 2 +X 3", stored({1, 2, 4, 8, 16, 32})}, {"+Y 2 +X 3", stored({8, 16, 32, 1, 2, 4})},
+      {"-Y 2 -X 3", stored({4, 2, 1, 32, 16, 8})}, {"+Y 2 -X 3", stored({32, 16, 8, 4, 2, 1})},
+      {"+X 3 -Y 2", stored({1, 8, 2, 16, 4, 32})}, {"-X 3 -Y 2", stored({4, 32, 2, 16, 1, 8})},
+      {"+X 3 +Y 2", stored({8, 1, 16, 2, 32, 4})}, {"-X 3 +Y 2", stored({32, 4, 16, 2, 8, 1})}};
+  for (const auto& [size, pixels] : files) {
+    const auto image = ParseRadiance(Bytes(kHeader + size + "\n" + pixels), "p.hdr");
+    ASSERT_TRUE(image.ok()) << size << image.message();
+    ASSERT_EQ(image->width, 3) << size;
+    for (size_t i = 0; i < 6; ++i) {
+      EXPECT_EQ(image->pixels[i].g, static_cast<float>(1 << i)) << size << ", pixel " << i;
+    }
+  }
+}
+
 TEST(ParseRadiance, RefusesEveryCut) {
   const std::string whole = EncodedRadiance(Light({64, 32}, true));
   for (size_t size = 0; size < whole.size(); ++size) {
@@ -90,7 +128,10 @@ TEST(ParseRadiance, SaysWhatIsWrong) {
   EXPECT_THAT(message("\x89PNG"), HasSubstr("p.hdr: not a Radiance"));
   EXPECT_THAT(message("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd"),
               HasSubstr("export it as RGBE"));
-  EXPECT_THAT(message(kHeader + "+X 2 -Y 2\n"), HasSubstr("rows from the top"));
+  EXPECT_THAT(message(kHeader + "+X 2 -X 2\n"), HasSubstr("rows from the top"));
+  EXPECT_THAT(message(kHeader + "-Y 2 +X\n"), HasSubstr("rows from the top"));
+  EXPECT_THAT(message("#?RADIANCE\nEXPOSURE=0\n\n-Y 1 +X 1\nabcd"), HasSubstr("EXPOSURE=0"));
+  EXPECT_THAT(message("#?RADIANCE\nCOLORCORR=1 2\n\n-Y 1 +X 1\nabcd"), HasSubstr("COLORCORR=1 2"));
   EXPECT_THAT(message(kHeader + "-Y 60000 +X 60000\nabcd"), HasSubstr("too short for its size"));
   EXPECT_THAT(message(kHeader + "-Y 0 +X 2\nabcd"), HasSubstr("-Y 0 +X 2"));
 }
