@@ -6,7 +6,6 @@
 #include <opencv2/photo.hpp>
 
 #include "shared/capture/frame_source.h"
-#include "shared/image/decode.h"
 
 namespace lararium::bake {
 namespace {
@@ -146,7 +145,7 @@ Result<std::vector<Bracket>> ReadBrackets(std::span<const std::filesystem::path>
   std::vector<Bracket> brackets;
   for (size_t i = 0; i < files.size(); ++i) {
     Bracket bracket{files[i].string(), {}, 0.0};
-    LARARIUM_ASSIGN_OR_RETURN(bracket.bgr, image::ReadImage(files[i], image::Channels::kBgr));
+    LARARIUM_ASSIGN_OR_RETURN(bracket.bgr, capture::ReadPhotograph(files[i]));
     bracket.exposure =
         exposures.empty() ? capture::ExifExposure(files[i]).value_or(0.0) : exposures[i];
     brackets.push_back(std::move(bracket));

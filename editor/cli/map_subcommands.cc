@@ -59,8 +59,12 @@ Status CanBeWritten(const std::filesystem::path& file) {
 Status FilmWith(const std::string& camera,
                 double seconds,
                 const std::filesystem::path& file,
-                Progress& progress) {
+                Progress& progress,
+                Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenFilmCamera(camera));
+  for (const std::string& note : source->Notes()) {
+    log.warn("{}", note);
+  }
   const auto next = [&](const FilmMoment& moment) {
     const std::string fault = FaultText(moment.coverage.fault, false);
     const std::string say = fault.empty() ? AdviceText(moment.coverage.advice, false) : fault;
@@ -87,7 +91,8 @@ Status FilmWith(const std::string& camera,
 Result<SourceDocument> ChooseRecording(const TrainCommandOptions& options,
                                        const ProjectPaths& paths,
                                        const std::string& place,
-                                       Progress& progress) {
+                                       Progress& progress,
+                                       Log& log) {
   if (!options.video.empty()) {
     return SourceDocument{SourceDocument::Kind::kVideo, paths.Shorten(options.video)};
   }
@@ -98,7 +103,7 @@ Result<SourceDocument> ChooseRecording(const TrainCommandOptions& options,
     return SourceDocument{};
   }
   const std::filesystem::path file = NewFilmFile(paths.Place(place));
-  LARARIUM_RETURN_IF_ERROR(FilmWith(options.camera, options.seconds, file, progress));
+  LARARIUM_RETURN_IF_ERROR(FilmWith(options.camera, options.seconds, file, progress, log));
   return SourceDocument{SourceDocument::Kind::kVideo, paths.Shorten(file)};
 }
 
@@ -122,7 +127,7 @@ Result<train::TrainReport> TrainFirst(const TrainCommandOptions& options,
                                       Progress& progress,
                                       Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(const SourceDocument recording,
-                            ChooseRecording(options, paths, place.name, progress));
+                            ChooseRecording(options, paths, place.name, progress, log));
   if (!recording.empty()) {
     place.training = recording;
   }
@@ -145,7 +150,8 @@ Result<train::TrainReport> TrainAnother(const TrainCommandOptions& options,
                          "train it again from the best of them");
   }
   SessionDocument session;
-  LARARIUM_ASSIGN_OR_RETURN(session.source, ChooseRecording(options, paths, place.name, progress));
+  LARARIUM_ASSIGN_OR_RETURN(session.source,
+                            ChooseRecording(options, paths, place.name, progress, log));
   LARARIUM_ASSIGN_OR_RETURN(session.intrinsics,
                             GivenIntrinsics(options.intrinsics, paths, session.source));
   LARARIUM_ASSIGN_OR_RETURN(train::TrainReport report,

@@ -15,8 +15,9 @@
 #include "editor/bake/sun_split.h"
 #include "editor/cli/place_probe_commands.h"
 #include "editor/jobs/camera_measure.h"
+#include "shared/capture/frame_source.h"
+#include "shared/core/lower_case.h"
 #include "shared/core/units.h"
-#include "shared/image/decode.h"
 #include "shared/light/camera_response.h"
 
 namespace lararium::editor {
@@ -160,8 +161,8 @@ Result<cv::Mat> BallPicture(const ProbeOptions& options, std::string& notes) {
     notes += MergeText(merged);
     return merged.image.linear;
   }
-  const std::string extension = options.files[0].extension().string();
-  if (extension == ".exr" || extension == ".hdr") {
+  const std::string extension = LowerCase(options.files[0].extension().string());
+  if (extension == ".exr" || extension == ".hdr" || extension == ".pic") {
     LARARIUM_ASSIGN_OR_RETURN(const bake::ProbeImage image, bake::ReadHdrPicture(options.files[0]));
     notes += Lines(image.warnings);
     cv::Mat linear(image.height, image.width, CV_32FC3);
@@ -172,8 +173,7 @@ Result<cv::Mat> BallPicture(const ProbeOptions& options, std::string& notes) {
     }
     return linear;
   }
-  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat bgr,
-                            image::ReadImage(options.files[0], image::Channels::kBgr));
+  LARARIUM_ASSIGN_OR_RETURN(const cv::Mat bgr, capture::ReadPhotograph(options.files[0]));
   light::CameraResponse response = light::SrgbResponse();
   if (!options.response.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(response, LoadCameraResponse(options.response));

@@ -13,6 +13,7 @@
 #include "editor/train/database_builder.h"
 #include "editor/train/image_mapping.h"
 #include "editor/train/tracks.h"
+#include "shared/capture/exif.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/file.h"
 #include "shared/core/parallel.h"
@@ -297,13 +298,14 @@ class Importer {
 
   Status OrderImages() {
     std::map<std::string, int64_t> index_of_name;
-    if (auto source = capture::OpenImageFolder(folder_); source.ok()) {
+    if (const auto source = capture::OpenImageFolder(folder_); source.ok()) {
       const int64_t count = (*source)->frame_count().value_or(0);
       for (int64_t i = 0; i < count; ++i) {
         index_of_name[(*source)->FrameName(i)] = i;
       }
     }
     bool all_known = true;
+    size_t turned = 0;
     for (const ColmapImage& image : model_.images) {
       const fs::path path(image.name);
       if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end()) {
@@ -319,6 +321,8 @@ class Importer {
       const auto known = index_of_name.find(image.name);
       all_known = all_known && known != index_of_name.end();
       import.frame_index = known != index_of_name.end() ? known->second : -1;
+      const Result<MappedFile> file = MappedFile::Open(folder_ / path);
+      turned += file.ok() && !capture::FindOrientation(file->bytes()).upright() ? 1 : 0;
       imports_.push_back(import);
     }
     std::sort(imports_.begin(), imports_.end(), [&](const Import& a, const Import& b) {
@@ -331,6 +335,18 @@ class Importer {
             "write the model again with COLMAP");
       }
       imports_[i].frame_index = all_known ? imports_[i].frame_index : static_cast<int64_t>(i);
+    }
+    if (turned > 0) {
+      log_.warn(
+          "{} images are to be shown turned (EXIF data), but the model is of their stored pixels: "
+          "turn the pixels (mogrify -auto-orient) and make the model again",
+          turned);
+    }
+    if (!all_known) {
+      log_.warn(
+          "{}: not all images of the model are found again when the folder is opened; to train the "
+          "place from them again, put all into the folder itself, or all into subfolders",
+          folder_.string());
     }
     const auto resampled = std::count_if(imports_.begin(), imports_.end(),
                                          [](const Import& i) { return i.own_camera != nullptr; });

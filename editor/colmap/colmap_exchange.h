@@ -58,9 +58,9 @@ Result<ColmapFolders> FindColmapFolders(const std::filesystem::path& model,
 // The database has one camera: the one with the most images. Images of a camera with another
 // projection are resampled to it; a warning says how many.
 //
-// Frame indices of keyframes are those of OpenImageFolder for the image folder. If an image lies
-// elsewhere or in a subfolder, frames are numbered in the order of their names. Errors name images
-// that are missing, unreadable, or whose size differs from that of their camera.
+// Frame indices of keyframes are those of OpenImageFolder for the image folder. If it does not find
+// all images, frames are numbered in the order of their names, and the log says so. Errors name
+// images that are missing, unreadable, or whose size differs from that of their camera.
 Result<vision::SceneDatabase> ImportColmap(const std::filesystem::path& model,
                                            const std::filesystem::path& images,
                                            const ColmapImportOptions& options,

@@ -312,6 +312,7 @@ Result<CommandResult> RunCalibrate(const CalibrateOptions& options, Progress& pr
     LARARIUM_RETURN_IF_ERROR(SaveDeviceCamera(options.device_out, calibration.camera));
   }
   CommandResult result{CalibrationText(calibration), CalibrationJson(calibration)};
+  AddWarnings(source->Notes(), result);
   result.failed = calibration.verdict == Calibration::Verdict::kPoor;
   return result;
 }

@@ -178,6 +178,7 @@ Result<CommandResult> RunCamera(const CameraOptions& options, Progress& progress
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
   result.text = CameraText(traits);
   result.json["camera"] = FormatFields(traits);
+  AddWarnings(source->Notes(), result);
   return result;
 }
 

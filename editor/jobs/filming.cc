@@ -41,6 +41,7 @@ class PacedRecording : public capture::FrameSource {
   double frames_per_second() const override { return recording_->frames_per_second(); }
   bool live() const override { return true; }
   std::string FrameName(int64_t index) const override { return recording_->FrameName(index); }
+  std::vector<std::string> Notes() const override { return recording_->Notes(); }
 
  private:
   using Clock = std::chrono::steady_clock;

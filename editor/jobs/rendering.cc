@@ -17,6 +17,9 @@ namespace lararium::editor {
 
 Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, capture::OpenVideo(job.video));
+  for (const std::string& note : source->Notes()) {
+    log.warn("{}", note);
+  }
   LARARIUM_ASSIGN_OR_RETURN(
       const geometry::CameraModel camera,
       job.intrinsics.empty()

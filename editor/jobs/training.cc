@@ -1,5 +1,7 @@
 #include "editor/jobs/training.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -140,6 +142,8 @@ Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
         train::TrainResult merged,
         MergeSession(paths, place, result.database, session, options, progress, log));
     result.database = std::move(merged.database);
+    std::move(merged.report.notes.begin(), merged.report.notes.end(),
+              std::back_inserter(result.report.notes));
     result.report.points = merged.report.points;
     result.report.observations = merged.report.observations;
     result.report.mean_reprojection_error_px = merged.report.mean_reprojection_error_px;
@@ -258,6 +262,7 @@ Json ReportJson(const train::TrainReport& report) {
           {"K", Json::array({camera.fx, camera.fy, camera.cx, camera.cy})},
           {"k1_k2_p1_p2", Json::array({camera.k1, camera.k2, camera.p1, camera.p2})},
           {"cameras", cameras},
+          {"warnings", report.notes},
           {"seconds", seconds}};
 }
 

@@ -62,8 +62,12 @@ class Trainer {
   }
 
   Status Read() {
-    LARARIUM_ASSIGN_OR_RETURN(survey_,
-                              SurveySource(source_, options_.max_keyframes, progress_, log_));
+    Result<Survey> survey = SurveySource(source_, options_.max_keyframes, progress_, log_);
+    report_.notes = source_.Notes();
+    for (const std::string& note : report_.notes) {
+      log_.warn("{}", note);
+    }
+    LARARIUM_ASSIGN_OR_RETURN(survey_, std::move(survey));
     report_.frames = static_cast<int>(survey_.frames.size());
     report_.keyframes = static_cast<int>(survey_.keyframes.size());
     size_t keyframe = 0;
@@ -170,19 +174,19 @@ class Trainer {
   const geometry::CameraModel& CameraAssumed(int64_t frame_index) const {
     return map_.reconstruction->cameras()[source_.CameraOf(frame_index)].model;
   }
-  // The camera that took a frame of the report, for the image as it is stored.
+  // The camera that took a frame of the report, for the upright image.
   geometry::CameraModel CameraOf(const FrameReport& frame) const {
     const auto keyframe = std::lower_bound(
         survey_.keyframes.begin(), survey_.keyframes.end(), frame.frame_index,
         [](const TrainingImage& image, int64_t index) { return image.frame_index < index; });
     const size_t source_camera = source_.CameraOf(frame.frame_index);
-    return OfStoredImages(frame.keyframe ? map_.reconstruction->CameraOf(static_cast<uint32_t>(
-                                               keyframe - survey_.keyframes.begin()))
-                                         : static_cast<uint32_t>(source_camera),
-                          source_.Cameras()[source_camera].size);
+    return OfUprightImages(frame.keyframe ? map_.reconstruction->CameraOf(static_cast<uint32_t>(
+                                                keyframe - survey_.keyframes.begin()))
+                                          : static_cast<uint32_t>(source_camera),
+                           source_.Cameras()[source_camera].size);
   }
 
-  geometry::CameraModel OfStoredImages(uint32_t camera, cv::Size size) const {
+  geometry::CameraModel OfUprightImages(uint32_t camera, cv::Size size) const {
     const geometry::CameraModel model = ModelOfArea(map_.reconstruction->cameras()[camera]);
     return model.Resized(size.width, size.height);
   }
@@ -263,7 +267,7 @@ class Trainer {
       const uint32_t index = map_.reconstruction->CameraOf(image);
       CameraReport& camera = report_.cameras[index];
       camera.camera =
-          OfStoredImages(index, source_.Cameras()[survey_.keyframes[image].camera].size);
+          OfUprightImages(index, source_.Cameras()[survey_.keyframes[image].camera].size);
       camera.given = map_.reconstruction->cameras()[index].given;
       ++camera.keyframes;
     }

@@ -46,7 +46,7 @@ struct LocatedFrame {
   bool keyframe = false;  // False if the frame was located in the finished map.
   // Of the camera in one frame time; zero if it is not known.
   ImageMotion motion = ImageMotion::Zero();
-  geometry::CameraModel camera = {};  // The camera of the image as it is stored, see SourceCamera.
+  geometry::CameraModel camera = {};  // The camera of the upright image, see SourceCamera.
 };
 
 // The results of training for one frame of the source.
@@ -65,7 +65,7 @@ struct FrameReport {
 
 // A camera that took keyframes.
 struct CameraReport {
-  geometry::CameraModel camera;  // The camera of images as they are stored, see SourceCamera.
+  geometry::CameraModel camera;  // The camera of upright images, see SourceCamera.
   bool given = false;            // The intrinsics were given.
   int keyframes = 0;             // Number of located keyframes.
 };
@@ -94,6 +94,7 @@ struct TrainReport {
   double cx_deviation_px = 0.0;
   double cy_deviation_px = 0.0;
   std::optional<Shutter> shutter;                       // Set if it is a rolling one.
+  std::vector<std::string> notes;                       // See FrameSource::Notes.
   std::vector<std::pair<std::string, double>> seconds;  // Wall-clock time of each step.
 };
 

@@ -30,7 +30,7 @@ struct TrainingCamera {
 geometry::CameraModel ModelOfArea(const TrainingCamera& camera);
 
 // The cameras of a source before training. intrinsics: those of the source's frames or, if it has
-// several cameras, those of the images of one size as they are stored. Fails if they belong to no
+// several cameras, those of the upright images of one size. Fails if they belong to no
 // camera.
 Result<std::vector<TrainingCamera>> CamerasOf(
     const capture::FrameSource& source, const std::optional<geometry::CameraModel>& intrinsics);

@@ -446,8 +446,19 @@ Status ShowSession::RunRealtime() {
   return pipeline->status();
 }
 
+void ShowSession::TellNotes(size_t first) {
+  const std::vector<std::string> notes = source_->Notes();
+  for (size_t i = first; i < notes.size(); ++i) {
+    log_.warn("{}", notes[i]);
+  }
+}
+
 Status ShowSession::Run() {
-  LARARIUM_RETURN_IF_ERROR(lock_step() ? RunLockStep() : RunRealtime());
+  TellNotes(0);
+  const size_t told = source_->Notes().size();
+  const Status played = lock_step() ? RunLockStep() : RunRealtime();
+  TellNotes(told);
+  LARARIUM_RETURN_IF_ERROR(played);
   if (OpenXrHeadset* headset = output_->openxr()) {
     LARARIUM_RETURN_IF_ERROR(headset->End());
   }

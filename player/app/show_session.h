@@ -60,6 +60,9 @@ class ShowSession {
   Status PrepareDrawing(const show::ShowContent& content, const PictureLayout& layout);
   void OpenSound();
 
+  // Logs what is to be known of the camera's source, from note `first` on.
+  void TellNotes(size_t first);
+
   // The loop.
   Status RunLockStep();
   Status RunRealtime();

@@ -4,18 +4,22 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "shared/capture/frame_source.h"
 #include "shared/core/file.h"
+#include "shared/image/decode.h"
 
 // Exchangeable image file format for digital still cameras (JEITA CP-3451):
-// fields of the Exif directory of the TIFF structure in a JPEG's APP1 segment.
+// fields of the TIFF structure in a JPEG's APP1 segment and at other places of other formats.
 
 namespace lararium::capture {
 namespace {
 
-constexpr uint16_t kMake = 0x010f;   // ASCII
-constexpr uint16_t kModel = 0x0110;  // ASCII
+constexpr uint16_t kMake = 0x010f;         // ASCII
+constexpr uint16_t kModel = 0x0110;        // ASCII
+constexpr uint16_t kOrientation = 0x0112;  // SHORT, 1 to 8
 constexpr uint16_t kExifDirectory = 0x8769;
 constexpr uint16_t kFocalLength = 0x920a;            // RATIONAL, millimetres
 constexpr uint16_t kFocalLengthIn35mmFilm = 0xa405;  // SHORT
@@ -135,12 +139,19 @@ class ExifDirectory {
   uint32_t offset_;
 };
 
-// Returns the TIFF structure in the segments before the image data; empty if there is none.
-Bytes FindExif(Bytes jpeg) {
-  static constexpr char kSignature[] = {'E', 'x', 'i', 'f', 0, 0};
-  if (BigEndian16(jpeg, 0) != 0xffd8) {
-    return {};
-  }
+using std::literals::string_view_literals::operator""sv;
+
+constexpr std::string_view kSignature = "Exif\0\0"sv;
+
+bool HasAt(Bytes bytes, size_t at, std::string_view text) {
+  return at <= bytes.size() && text.size() <= bytes.size() - at &&
+         std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
+}
+
+bool IsHeif(Bytes file) { return HasAt(file, 4, "ftyp"); }
+
+// Searches the segments before the image data.
+Bytes FindInJpeg(Bytes jpeg) {
   size_t at = 2;
   while (const std::optional<uint32_t> marker = BigEndian16(jpeg, at)) {
     const uint32_t length = BigEndian16(jpeg, at + 2).value_or(0);
@@ -148,38 +159,90 @@ Bytes FindExif(Bytes jpeg) {
       return {};
     }
     const Bytes content = jpeg.subspan(at + 4, length - 2);
-    if (*marker == 0xffe1 && content.size() > sizeof(kSignature) &&
-        std::memcmp(content.data(), kSignature, sizeof(kSignature)) == 0) {
-      return content.subspan(sizeof(kSignature));
+    if (*marker == 0xffe1 && HasAt(content, 0, kSignature)) {
+      return content.subspan(kSignature.size());
     }
     at += 2 + length;
   }
   return {};
 }
 
+// Searches the chunks of a PNG (size, name, content, checksum; the size is big-endian) or of a WebP
+// (name, size, content, padded to an even size; the size is little-endian).
+Bytes FindInChunks(Bytes file, size_t first, bool png) {
+  for (size_t at = first; at <= file.size() && file.size() - at >= 8;) {
+    uint32_t size = 0;
+    for (size_t i = 0; i < 4; ++i) {
+      const auto byte = std::to_integer<uint32_t>(file[png ? at + i : at + 7 - i]);
+      size = size << 8 | byte;
+    }
+    const Bytes content = file.subspan(at + 8);
+    if (size > content.size()) {
+      return {};
+    }
+    if (HasAt(file, png ? at + 4 : at, png ? "eXIf" : "EXIF")) {
+      const Bytes exif = content.first(size);
+      return HasAt(exif, 0, kSignature) ? exif.subspan(kSignature.size()) : exif;
+    }
+    at += png ? size_t{12} + size : size_t{8} + size + size % 2;
+  }
+  return {};
+}
+
+// Returns the TIFF structure with the EXIF data; empty if there is none. In HEIC it is an item
+// whose place other items tell; its signature leads there too.
+Bytes FindExif(Bytes file) {
+  if (HasAt(file, 0, "\xff\xd8")) {
+    return FindInJpeg(file);
+  }
+  if (HasAt(file, 0, "\x89PNG\r\n\x1a\n")) {
+    return FindInChunks(file, 8, true);
+  }
+  if (HasAt(file, 0, "RIFF") && HasAt(file, 8, "WEBP")) {
+    return FindInChunks(file, 12, false);
+  }
+  if (IsHeif(file)) {
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    for (const std::string_view order : {"II*\0"sv, "MM\0*"sv}) {
+      const size_t at = text.find(std::string(kSignature).append(order));
+      if (at != std::string_view::npos) {
+        return file.subspan(at + kSignature.size());
+      }
+    }
+    return {};
+  }
+  return file;  // A TIFF, or nothing that Tiff::Open accepts.
+}
+
 }  // namespace
 
-std::optional<uint32_t> FindFocalLengthIn35mmFilm(Bytes jpeg) {
-  const auto exif = ExifDirectory::Open(FindExif(jpeg));
+std::optional<uint32_t> FindFocalLengthIn35mmFilm(Bytes file) {
+  const auto exif = ExifDirectory::Open(FindExif(file));
   const uint32_t focal = exif ? exif->Short(kFocalLengthIn35mmFilm).value_or(0) : 0;
   return focal == 0 ? std::nullopt : std::optional(focal);
 }
 
-std::string FindCameraName(Bytes jpeg) {
-  const auto exif = ExifDirectory::Open(FindExif(jpeg));
+std::string FindCameraName(Bytes file) {
+  const auto exif = ExifDirectory::Open(FindExif(file));
   if (!exif) {
     return {};
   }
   std::string name = exif->Text(kMake) + exif->Text(kModel);
   for (const std::optional<double> focal :
-       {exif->Rational(kFocalLength), std::optional<double>(FindFocalLengthIn35mmFilm(jpeg))}) {
+       {exif->Rational(kFocalLength), std::optional<double>(FindFocalLengthIn35mmFilm(file))}) {
     name += focal ? "," + std::to_string(*focal) : "";
   }
   return name;
 }
 
-std::optional<double> FindExposure(Bytes jpeg) {
-  const auto exif = ExifDirectory::Open(FindExif(jpeg));
+image::PixelOrientation FindOrientation(Bytes file) {
+  const auto tiff = IsHeif(file) ? std::nullopt : Tiff::Open(FindExif(file));
+  const auto value = tiff ? tiff->FindValue(tiff->U32(4).value_or(0), kOrientation) : std::nullopt;
+  return image::PixelOrientation::FromExif(value ? tiff->U16(*value).value_or(0) : 0);
+}
+
+std::optional<double> FindExposure(Bytes file) {
+  const auto exif = ExifDirectory::Open(FindExif(file));
   const auto seconds = exif ? exif->Rational(kExposureTime) : std::nullopt;
   if (!seconds) {
     return std::nullopt;
@@ -196,6 +259,19 @@ double FocalPixels(uint32_t focal_in_35mm_film, int width, int height) {
 std::optional<double> ExifExposure(const std::filesystem::path& file) {
   const Result<MappedFile> mapped = MappedFile::Open(file);
   return mapped.ok() ? FindExposure(mapped->bytes()) : std::nullopt;
+}
+
+Result<cv::Mat> ReadPhotograph(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, ReadBytes(file));
+  LARARIUM_ASSIGN_OR_RETURN(cv::Mat bgr,
+                            image::DecodeImage(encoded, image::Channels::kBgr, file.string()));
+  const image::PixelOrientation orientation = FindOrientation(encoded);
+  if (orientation.upright()) {
+    return bgr;
+  }
+  cv::Mat upright;
+  orientation.Apply(bgr, upright);
+  return upright;
 }
 
 }  // namespace lararium::capture

@@ -18,7 +18,7 @@ namespace lararium::capture {
 
 // A camera that took frames of a source.
 struct SourceCamera {
-  cv::Size size;  // The size of its images as they are stored, pixels.
+  cv::Size size;  // The size of its upright images before they are put into frames, pixels.
   cv::Rect area;  // The part of the frame that shows its image; the rest is black.
   // From EXIF data, in pixels of the frame.
   std::optional<double> focal_px = std::nullopt;
@@ -57,6 +57,10 @@ class FrameSource {
   // Name of frame `index` in reports and poses.json: "%06d.png" for videos and cameras, the file
   // name for image folders.
   virtual std::string FrameName(int64_t index) const = 0;
+
+  // What a user should know of the source, each a sentence that names its file: what a film or a
+  // folder contains that is not used, or is used in another way than it is stored.
+  virtual std::vector<std::string> Notes() const { return {}; }
 };
 
 // Returns the name of a frame without a file name: "%06d.png".
@@ -64,17 +68,20 @@ std::string NumberedFrameName(int64_t index);
 
 // Opens a video with libav. Frames are numbered in the order of decoding from the start. Seek() is
 // exact, and fast within the part that was already decoded. Undecodable packets give no frame. A
-// truncated file is an error.
+// truncated file is an error. Frames are upright, of square pixels, not interlaced and in the
+// colours of BT.709, also where the film is not; covers and previews in the file are not films.
 Result<std::unique_ptr<FrameSource>> OpenVideo(const std::filesystem::path& file);
 
 // The suffixes of images in a folder, with the dot, in lower case.
 std::span<const char* const> ImageExtensions();
 
 // Opens all images of a folder in the order of their names, in which numbers count by value (2
-// before 10). Pixels stay as stored: EXIF orientation is ignored. 30 frames per second. Images of
-// one size, and of one camera and focal length if EXIF data tell these, count as of one camera. If
-// there are several sizes, each image lies in the middle of a frame that has room for all of them;
-// images with more pixels than those of the most frequent size are reduced first.
+// before 10); if the folder holds none itself, those of all folders below it, with names relative
+// to it. Hidden files are no images. Images that cannot be read are left out: Next() goes on with
+// the image after them, and Notes() names them. EXIF orientation is honoured. 30 frames per second.
+// Images of one size, and of one camera and focal length if EXIF data tell these, count as of one
+// camera. If there are several sizes, each image lies in the middle of a frame that has room for
+// all of them; images with more pixels than those of the most frequent size are reduced first.
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder);
 
 // Requested settings of a camera. Settings that the camera refuses are errors, except the rate: the
@@ -94,7 +101,10 @@ Result<std::unique_ptr<FrameSource>> OpenCamera(int number, const CameraSettings
 
 // Returns the relative exposure from the EXIF data of an image file: exposure time in seconds,
 // divided by the square of the f-number and multiplied by ISO / 100 where these are known. Returns
-// nullopt if there is no exposure time. Reads JPEG.
+// nullopt if there is no exposure time.
 std::optional<double> ExifExposure(const std::filesystem::path& file);
+
+// Reads a photograph, upright as its EXIF data say: CV_8UC3. Errors: see image::DecodeImage.
+Result<cv::Mat> ReadPhotograph(const std::filesystem::path& file);
 
 }  // namespace lararium::capture

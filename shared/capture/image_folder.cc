@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -71,7 +74,8 @@ double Diagonal(cv::Size size) { return std::hypot(size.width, size.height); }
 
 // The size and the camera of an image, as its file tells them without being decoded if possible.
 struct ImageTraits {
-  cv::Size size;  // Empty if the image cannot be read.
+  cv::Size size;  // The size of the upright image; it is empty if the image cannot be read.
+  image::PixelOrientation orientation;
   std::string camera;
   std::optional<uint32_t> focal_in_35mm_film;
 
@@ -92,9 +96,13 @@ ImageTraits TraitsOf(const std::filesystem::path& file) {
         header->height < kLargest) {
       traits.size = {static_cast<int>(header->width), static_cast<int>(header->height)};
     }
-  } else if (const auto decoded = image::ReadImage(file, image::Channels::kGrey); decoded.ok()) {
+  } else if (const auto decoded =
+                 image::DecodeImage(mapped->bytes(), image::Channels::kGrey, file.string());
+             decoded.ok()) {
     traits.size = decoded->size();
   }
+  traits.orientation = FindOrientation(mapped->bytes());
+  traits.size = traits.orientation.SizeOf(traits.size);
   traits.camera = FindCameraName(mapped->bytes());
   traits.focal_in_35mm_film = FindFocalLengthIn35mmFilm(mapped->bytes());
   return traits;
@@ -161,37 +169,35 @@ std::optional<FolderLayout> LayOut(std::span<const ImageTraits> images) {
   return layout;
 }
 
+// What a folder holds.
+struct Listing {
+  std::vector<std::string>
+      names;  // The names of the images are relative to the folder, and ordered.
+  std::vector<std::string> notes;  // Each note says what is left out.
+};
+
 class ImageFolder final : public FrameSource {
  public:
-  ImageFolder(std::filesystem::path folder, std::vector<std::string> names, FolderLayout layout)
-      : folder_(std::move(folder)), names_(std::move(names)), layout_(std::move(layout)) {}
+  ImageFolder(std::filesystem::path folder, Listing listing, FolderLayout layout)
+      : folder_(std::move(folder)),
+        names_(std::move(listing.names)),
+        notes_(std::move(listing.notes)),
+        layout_(std::move(layout)) {}
 
   Result<std::optional<Frame>> Next() override {
-    if (next_ == names_.size()) {
-      return std::optional<Frame>();
+    while (next_ < names_.size()) {
+      const size_t index = next_++;
+      if (damaged_.contains(index)) {
+        continue;
+      }
+      Result<Frame> frame = Read(index);
+      if (frame.ok()) {
+        return std::optional<Frame>(std::move(frame).value());
+      }
+      damaged_.insert(index);
+      notes_.push_back(frame.message() + " (the image is left out)");
     }
-    const size_t index = next_++;
-    const std::filesystem::path file = folder_ / names_[index];
-    Frame frame;
-    frame.index = static_cast<int64_t>(index);
-    frame.capture_time = static_cast<double>(index) / kFramesPerSecond;
-    LARARIUM_ASSIGN_OR_RETURN(frame.bgr, image::ReadImage(file, image::Channels::kBgr));
-    const SourceCamera& camera = layout_.cameras[layout_.camera_of_image[index]];
-    if (frame.bgr.size() != camera.size) {
-      return Status::Error(file.string(), "is " + SizeText(frame.bgr.size()) + ", but was " +
-                                              SizeText(camera.size) +
-                                              " when the folder was opened");
-    }
-    if (camera.area.size() != camera.size) {
-      cv::resize(frame.bgr, frame.bgr, camera.area.size(), 0.0, 0.0, cv::INTER_AREA);
-    }
-    if (camera.area.size() != layout_.frame) {
-      cv::Mat framed(layout_.frame, CV_8UC3, cv::Scalar::all(0));
-      frame.bgr.copyTo(framed(camera.area));
-      frame.bgr = framed;
-    }
-    cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
-    return std::optional<Frame>(std::move(frame));
+    return std::optional<Frame>();
   }
 
   Status Seek(int64_t index) override {
@@ -218,60 +224,183 @@ class ImageFolder final : public FrameSource {
   size_t CameraOf(int64_t index) const override {
     return Known(index) ? layout_.camera_of_image[static_cast<size_t>(index)] : 0;
   }
+  std::vector<std::string> Notes() const override { return notes_; }
 
  private:
   bool Known(int64_t index) const {
     return index >= 0 && index < static_cast<int64_t>(names_.size());
   }
 
+  Result<Frame> Read(size_t index) const {
+    const std::filesystem::path file = folder_ / names_[index];
+    Frame frame;
+    frame.index = static_cast<int64_t>(index);
+    frame.capture_time = static_cast<double>(index) / kFramesPerSecond;
+    LARARIUM_ASSIGN_OR_RETURN(frame.bgr, ReadPhotograph(file));
+    const SourceCamera& camera = layout_.cameras[layout_.camera_of_image[index]];
+    if (frame.bgr.size() != camera.size) {
+      return Status::Error(file.string(), "is " + SizeText(frame.bgr.size()) + ", but was " +
+                                              SizeText(camera.size) +
+                                              " when the folder was opened");
+    }
+    if (camera.area.size() != camera.size) {
+      cv::resize(frame.bgr, frame.bgr, camera.area.size(), 0.0, 0.0, cv::INTER_AREA);
+    }
+    if (camera.area.size() != layout_.frame) {
+      cv::Mat framed(layout_.frame, CV_8UC3, cv::Scalar::all(0));
+      frame.bgr.copyTo(framed(camera.area));
+      frame.bgr = framed;
+    }
+    cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
+    return frame;
+  }
+
   std::filesystem::path folder_;
   std::vector<std::string> names_;
+  std::vector<std::string> notes_;
   FolderLayout layout_;
+  std::set<size_t> damaged_;  // Indices of images that could not be read.
   size_t next_ = 0;
 };
 
-Result<std::vector<std::string>> ListImages(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::directory_iterator entry(folder, error);
-  std::vector<std::string> names;
-  for (const std::filesystem::directory_iterator end; !error && entry != end;
-       entry.increment(error)) {
-    if (IsImageName(entry->path()) && entry->is_regular_file(error)) {
-      names.push_back(entry->path().filename().string());
+// Formats of pictures that are not read, and what to do with them.
+struct UnreadFormat {
+  const char* name;
+  std::vector<std::string_view> extensions;
+  const char* remedy;
+};
+
+const std::array<UnreadFormat, 2>& UnreadFormats() {
+  static const std::array<UnreadFormat, 2> kFormats = {
+      {{"camera raw files",
+        {".3fr", ".arw", ".cr2", ".cr3", ".crw", ".dng", ".erf", ".iiq", ".kdc", ".mrw", ".nef",
+         ".nrw", ".orf", ".pef", ".raf", ".rw2", ".rwl", ".srw", ".x3f"},
+        "develop them as JPEG or TIFF"},
+       {"pictures of formats that are not read",
+        {".exr", ".gif", ".hdr", ".j2k", ".jp2", ".jps", ".jxr", ".pcx", ".ppm", ".psd", ".tga",
+         ".xcf"},
+        "save them as PNG or JPEG"}}};
+  return kFormats;
+}
+
+// Collects the files of one folder, or of it and all folders below.
+class Lister {
+ public:
+  explicit Lister(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // Hidden files and folders are left out; macOS puts one beside every file that it copies to a
+  // foreign disk ("._IMG_0001.JPG"), and it is no picture.
+  // deepest: how many folders below the first one are searched at most.
+  Status List(int deepest) {
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator entry(folder_, error);
+    for (const std::filesystem::recursive_directory_iterator end; !error && entry != end;
+         entry.increment(error)) {
+      const std::string name = entry->path().filename().string();
+      std::error_code unknown;
+      if (entry->is_directory(unknown)) {
+        if (entry.depth() >= deepest || name.starts_with('.')) {
+          entry.disable_recursion_pending();
+        }
+      } else if (!name.starts_with('.') && entry->is_regular_file(unknown)) {
+        Add(entry->path());
+      }
+    }
+    return error ? Status::Error(folder_.string(),
+                                 "cannot be read as a folder (" + error.message() + ")")
+                 : Status();
+  }
+
+  std::vector<std::string>& names() { return names_; }
+
+  // One sentence for each kind of pictures that are not read.
+  std::vector<std::string> UnreadNotes() const {
+    std::vector<std::string> notes;
+    for (size_t i = 0; i < unread_.size(); ++i) {
+      size_t count = 0;
+      std::string extensions;
+      for (const auto& [extension, files] : unread_[i]) {
+        count += files;
+        extensions += (extensions.empty() ? "" : ", ") + extension;
+      }
+      if (count > 0) {
+        notes.push_back(folder_.string() + ": " + std::to_string(count) + " " +
+                        UnreadFormats()[i].name + " (" + extensions +
+                        ") are left out: " + UnreadFormats()[i].remedy);
+      }
+    }
+    return notes;
+  }
+
+ private:
+  void Add(const std::filesystem::path& file) {
+    if (IsImageName(file)) {
+      names_.push_back(file.lexically_relative(folder_).string());
+      return;
+    }
+    const std::string extension = LowerCase(file.extension().string());
+    for (size_t i = 0; i < unread_.size(); ++i) {
+      const auto& known = UnreadFormats()[i].extensions;
+      if (std::find(known.begin(), known.end(), extension) != known.end()) {
+        ++unread_[i][extension];
+      }
     }
   }
-  if (error) {
-    return Status::Error(folder.string(), "cannot be read as a folder (" + error.message() + ")");
+
+  std::filesystem::path folder_;
+  std::vector<std::string> names_;
+  std::array<std::map<std::string, size_t>, 2> unread_;  // Numbers of files by extension.
+};
+
+// The images of a folder, or of all folders below it if it holds none itself. (A folder of
+// photographs often has a folder of thumbnails beside them; COLMAP's projects may have one folder
+// for each camera.)
+Result<Listing> ListImages(const std::filesystem::path& folder) {
+  Lister flat(folder);
+  LARARIUM_RETURN_IF_ERROR(flat.List(0));
+  Lister deep(folder);
+  LARARIUM_RETURN_IF_ERROR(deep.List(flat.names().empty() ? INT_MAX : 1));
+  Lister& used = flat.names().empty() ? deep : flat;
+  Listing listing{std::move(used.names()), used.UnreadNotes()};
+  if (&used == &flat && deep.names().size() > listing.names.size()) {
+    listing.notes.push_back(
+        folder.string() + ": " + std::to_string(deep.names().size() - listing.names.size()) +
+        " images in its subfolders are left out: put all images into the folder "
+        "itself, or all into subfolders");
   }
-  if (names.empty()) {
-    return Status::Error(folder.string(), "contains no images",
-                         "give a folder of png, jpg, tif, webp or bmp files");
+  if (listing.names.empty()) {
+    std::string unread;
+    for (const std::string& note : listing.notes) {
+      unread += "; " + note;
+    }
+    return Status::Error(folder.string(), "contains no images that are read" + unread,
+                         "give a folder of jpg, png, heic, avif, jxl, tif, webp or bmp files");
   }
-  std::sort(names.begin(), names.end(), NaturalLess);
-  return names;
+  std::sort(listing.names.begin(), listing.names.end(), NaturalLess);
+  return listing;
 }
 
 }  // namespace
 
 std::span<const char* const> ImageExtensions() {
-  static constexpr std::array kExtensions = {".png", ".jpg",  ".jpeg", ".bmp",
-                                             ".tif", ".tiff", ".webp"};
+  static constexpr std::array kExtensions = {".png",  ".jpg",  ".jpeg", ".bmp", ".tif",  ".tiff",
+                                             ".webp", ".heic", ".heif", ".hif", ".avif", ".jxl"};
   return kExtensions;
 }
 
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder) {
-  LARARIUM_ASSIGN_OR_RETURN(std::vector<std::string> names, ListImages(folder));
-  std::vector<ImageTraits> traits(names.size());
-  ParallelFor(names.size(), [&](size_t i) { traits[i] = TraitsOf(folder / names[i]); });
+  LARARIUM_ASSIGN_OR_RETURN(Listing listing, ListImages(folder));
+  std::vector<ImageTraits> traits(listing.names.size());
+  ParallelFor(traits.size(), [&](size_t i) { traits[i] = TraitsOf(folder / listing.names[i]); });
   std::optional<FolderLayout> layout = LayOut(traits);
   if (!layout) {
     // Says what is wrong with one of them.
     LARARIUM_RETURN_IF_ERROR(
-        image::ReadImage(folder / names.front(), image::Channels::kBgr).status());
+        image::ReadImage(folder / listing.names.front(), image::Channels::kBgr).status());
     return Status::Error(folder.string(), "contains no image that can be read");
   }
   return std::unique_ptr<FrameSource>(
-      std::make_unique<ImageFolder>(folder, std::move(names), *std::move(layout)));
+      std::make_unique<ImageFolder>(folder, std::move(listing), *std::move(layout)));
 }
 
 }  // namespace lararium::capture

@@ -45,6 +45,7 @@ class LoopedSource final : public FrameSource {
   double frames_per_second() const override { return recording_->frames_per_second(); }
   bool live() const override { return recording_->live(); }
   std::string FrameName(int64_t index) const override { return NumberedFrameName(index); }
+  std::vector<std::string> Notes() const override { return recording_->Notes(); }
 
  private:
   std::unique_ptr<FrameSource> recording_;

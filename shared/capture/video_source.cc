@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgproc.hpp>
+#include <tuple>
+#include <utility>
 #include <vector>
 
-#include "shared/capture/frame_pool.h"
+#include "shared/capture/film_converter.h"
 #include "shared/capture/frame_source.h"
 #include "shared/image/libav.h"
 
@@ -18,7 +20,8 @@ using image::LibavPtr;
 // Only plain video containers are allowed: playlists and similar formats would open further files
 // or addresses that the file names.
 constexpr char kContainers[] =
-    "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,ogg,flv,asf,ivf,m4v,h264,hevc,mjpeg";
+    "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,ogg,flv,asf,ivf,m4v,h264,hevc,mjpeg,mxf,"
+    "dv";
 
 struct FormatDeleter {
   void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
@@ -29,6 +32,7 @@ struct Decoder {
   std::unique_ptr<AVFormatContext, FormatDeleter> format;
   LibavPtr<AVCodecContext> codec;
   AVStream* stream = nullptr;
+  int films = 0;  // The number of streams that could be shown.
   bool draining = false;
 };
 
@@ -75,13 +79,39 @@ int ThreadCount(const AVCodecContext& codec) {
   return int64_t{codec.width} * codec.height <= kLargePixels ? 1 : 0;
 }
 
+// Chooses the largest film, and of equally large ones the one that the file recommends. Covers and
+// previews are streams too: some say so, others hold one picture or are small. Returns -1 if there
+// is no film.
+int ChooseStream(const AVFormatContext& format, Decoder& decoder) {
+  constexpr int kNoFilm =
+      AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS | AV_DISPOSITION_STILL_IMAGE;
+  int best = -1;
+  std::tuple<bool, int64_t, bool> best_rank;
+  for (unsigned i = 0; i < format.nb_streams; ++i) {
+    const AVStream& stream = *format.streams[i];
+    if (stream.codecpar->codec_type != AVMEDIA_TYPE_VIDEO || (stream.disposition & kNoFilm) != 0 ||
+        avcodec_find_decoder(stream.codecpar->codec_id) == nullptr) {
+      continue;
+    }
+    ++decoder.films;
+    const std::tuple rank(stream.nb_frames != 1,
+                          int64_t{stream.codecpar->width} * stream.codecpar->height,
+                          (stream.disposition & AV_DISPOSITION_DEFAULT) != 0);
+    if (best < 0 || rank > best_rank) {
+      best = static_cast<int>(i);
+      best_rank = rank;
+    }
+  }
+  return best;
+}
+
 Status OpenCodec(const std::filesystem::path& file, Decoder& decoder) {
   AVFormatContext* format = decoder.format.get();
-  const AVCodec* codec = nullptr;
-  const int index = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+  const int index = ChooseStream(*format, decoder);
   if (index < 0) {
     return VideoError(file, "contains no video that can be decoded");
   }
+  const AVCodec* codec = avcodec_find_decoder(format->streams[index]->codecpar->codec_id);
   decoder.stream = format->streams[index];
   for (unsigned i = 0; i < format->nb_streams; ++i) {
     if (static_cast<int>(i) != index) {
@@ -130,20 +160,6 @@ int64_t EstimateFrameCount(const Decoder& decoder, double frames_per_second) {
   return 0;
 }
 
-// Returns the YCbCr matrix. Files that do not state it use BT.709 from 720 lines on.
-const int* ColourMatrix(const AVFrame& frame) {
-  int matrix = frame.colorspace;
-  if (matrix == AVCOL_SPC_UNSPECIFIED || matrix == AVCOL_SPC_RGB) {
-    matrix = frame.height >= 720 ? SWS_CS_ITU709 : SWS_CS_ITU601;
-  }
-  return sws_getCoefficients(matrix);
-}
-
-bool IsFullRange(const AVFrame& frame) {
-  return frame.color_range == AVCOL_RANGE_JPEG || frame.format == AV_PIX_FMT_YUVJ420P ||
-         frame.format == AV_PIX_FMT_YUVJ422P || frame.format == AV_PIX_FMT_YUVJ444P;
-}
-
 // Frames are numbered in the order in which the decoder returns them when the file is read from its
 // start, because containers may state wrong counts and packets may be undecodable. Times of frames
 // are learned while decoding. A jump goes to a key frame, identifies the frame by its time, and
@@ -164,10 +180,12 @@ class VideoSource final : public FrameSource {
     if (!decoded) {
       return VideoError(file_, "contains no frame that can be decoded");
     }
-    width_ = picture_->width;
-    height_ = picture_->height;
-    if (width_ < 16 || height_ < 16 || width_ > 16384 || height_ > 16384) {
-      return VideoError(file_, "has an image size outside 16 to 16384 pixels");
+    LARARIUM_ASSIGN_OR_RETURN(
+        FilmConverter converter,
+        FilmConverter::Create(file_, *decoder_.format, *decoder_.stream, *picture_));
+    converter_.emplace(std::move(converter));
+    if (converter_->high_dynamic_range()) {
+      LARARIUM_RETURN_IF_ERROR(MeasureHighlights());
     }
     pending_ = true;
     return Status();
@@ -198,13 +216,50 @@ class VideoSource final : public FrameSource {
 
   std::optional<int64_t> frame_count() const override { return count_; }
   int64_t estimated_frame_count() const override { return count_.value_or(estimated_count_); }
-  int width() const override { return width_; }
-  int height() const override { return height_; }
+  int width() const override { return converter_->size().width; }
+  int height() const override { return converter_->size().height; }
   double frames_per_second() const override { return frames_per_second_; }
   bool live() const override { return false; }
   std::string FrameName(int64_t index) const override { return NumberedFrameName(index); }
+  std::vector<std::string> Notes() const override {
+    std::vector<std::string> notes = converter_->notes();
+    if (undecodable_ > 0) {
+      notes.push_back(file_.string() + ": " + std::to_string(undecodable_) +
+                      " of its packets cannot be decoded; their frames are missing");
+    }
+    if (decoder_.films > 1) {
+      notes.push_back(file_.string() + ": holds " + std::to_string(decoder_.films) +
+                      " films; stream " + std::to_string(decoder_.stream->index) + " is used");
+    }
+    return notes;
+  }
 
  private:
+  // Measures the present picture, and others at places all over the film.
+  Status MeasureHighlights() {
+    constexpr int kPlaces = 4;
+    LARARIUM_RETURN_IF_ERROR(converter_->MeasureHighlights(*picture_));
+    LARARIUM_ASSIGN_OR_RETURN(Decoder decoder, OpenDecoder(file_));
+    std::swap(decoder_, decoder);
+    LibavPtr<AVFrame> first = std::exchange(picture_, LibavPtr<AVFrame>(av_frame_alloc()));
+    Status measured;
+    for (int place = 1; place < kPlaces && measured.ok(); ++place) {
+      if (av_seek_frame(decoder_.format.get(), -1, decoder_.format->duration / kPlaces * place,
+                        AVSEEK_FLAG_BACKWARD) < 0) {
+        break;
+      }
+      avcodec_flush_buffers(decoder_.codec.get());
+      decoder_.draining = false;
+      if (const Result<bool> received = ReceivePicture(); received.ok() && *received) {
+        measured = converter_->MeasureHighlights(*picture_);
+      }
+    }
+    std::swap(decoder_, decoder);
+    picture_ = std::move(first);
+    undecodable_ = 0;  // Errors behind a jump are no damage.
+    return measured;
+  }
+
   // Decodes frame `index` into picture_.
   Status Reach(int64_t index) {
     const auto next_key = std::lower_bound(key_frames_.begin(), key_frames_.end(), next_index_);
@@ -320,54 +375,30 @@ class VideoSource final : public FrameSource {
                                    " (" + LibavMessage(read) + ")");
     }
     if (packet_->stream_index == decoder_.stream->index) {
-      avcodec_send_packet(decoder_.codec.get(), packet_.get());
+      const bool first_time = next_index_ >= static_cast<int64_t>(times_.size());
+      const int sent = avcodec_send_packet(decoder_.codec.get(), packet_.get());
+      undecodable_ += sent < 0 && first_time ? 1 : 0;
     }
     av_packet_unref(packet_.get());
     return Status();
   }
 
   Result<Frame> Convert() {
-    if (picture_->width != width_ || picture_->height != height_) {
-      return VideoError(file_,
-                        "changes its image size at frame " + std::to_string(next_index_ - 1));
-    }
-    LARARIUM_RETURN_IF_ERROR(PrepareScaler());
     Frame frame;
     frame.index = next_index_ - 1;
     frame.capture_time = seconds_[static_cast<size_t>(frame.index)];
-    frame.bgr = pool_.Take(height_, width_, CV_8UC3);
-    uint8_t* planes[] = {frame.bgr.data};
-    const int strides[] = {static_cast<int>(frame.bgr.step)};
-    sws_scale(scaler_.get(), picture_->data, picture_->linesize, 0, height_, planes, strides);
-    frame.grey = pool_.Take(height_, width_, CV_8UC1);
-    cv::cvtColor(frame.bgr, frame.grey, cv::COLOR_BGR2GRAY);
+    LARARIUM_RETURN_IF_ERROR(converter_->Convert(*picture_, frame));
     return frame;
-  }
-
-  Status PrepareScaler() {
-    const auto format = static_cast<AVPixelFormat>(picture_->format);
-    scaler_.reset(sws_getCachedContext(
-        scaler_.release(), width_, height_, format, width_, height_, AV_PIX_FMT_BGR24,
-        SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr));
-    if (scaler_ == nullptr) {
-      return VideoError(file_, "has a pixel format that cannot be converted");
-    }
-    sws_setColorspaceDetails(scaler_.get(), ColourMatrix(*picture_), IsFullRange(*picture_) ? 1 : 0,
-                             sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
-    return Status();
   }
 
   std::filesystem::path file_;
   Decoder decoder_;
   LibavPtr<AVPacket> packet_;
   LibavPtr<AVFrame> picture_;
-  LibavPtr<SwsContext> scaler_;
-  FramePool pool_;
+  std::optional<FilmConverter> converter_;  // Set by Start().
   double frames_per_second_;
   int64_t estimated_count_;
   std::optional<int64_t> count_;
-  int width_ = 0;
-  int height_ = 0;
 
   int64_t next_index_ = 0;      // index of the frame that the decoder returns next
   bool has_picture_ = false;    // True if picture_ is frame next_index_ - 1.
@@ -377,6 +408,7 @@ class VideoSource final : public FrameSource {
   // order, they continue at its frame rate.
   std::vector<double> seconds_;
   std::vector<int64_t> key_frames_;
+  int undecodable_ = 0;  // The number of packets that gave an error when they were first read.
   bool times_are_ordered_ = true;
 };
 

@@ -6,6 +6,10 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/dovi_meta.h>
+#include <libavutil/pixdesc.h>
+#include <libavutil/spherical.h>
+#include <libavutil/stereo3d.h>
 #include <libswscale/swscale.h>
 }
 
@@ -35,6 +39,30 @@ inline bool IsKeyFrame(const AVFrame& frame) {
   return (frame.flags & AV_FRAME_FLAG_KEY) != 0;
 #else
   return frame.key_frame != 0;
+#endif
+}
+
+inline bool IsInterlaced(const AVFrame& frame) {
+#ifdef AV_FRAME_FLAG_INTERLACED
+  return (frame.flags & AV_FRAME_FLAG_INTERLACED) != 0;
+#else
+  return frame.interlaced_frame != 0;
+#endif
+}
+
+// Returns what a container says of a stream; null if it says nothing of this type or too little of
+// it to be a T.
+template <typename T>
+const T* StreamSideData(const AVStream& stream, AVPacketSideDataType type) {
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
+  const AVPacketSideData* found = av_packet_side_data_get(
+      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, type);
+  return found != nullptr && found->size >= sizeof(T) ? reinterpret_cast<const T*>(found->data)
+                                                      : nullptr;
+#else
+  size_t size = 0;
+  const uint8_t* found = av_stream_get_side_data(&stream, type, &size);
+  return found != nullptr && size >= sizeof(T) ? reinterpret_cast<const T*>(found) : nullptr;
 #endif
 }
 

@@ -203,6 +203,62 @@ TEST(OpenVideo, TimeGoesOnWhereTheFilesOwnTimesLoseTheirOrder) {
   }
 }
 
+// Writes an MP4 with a large cover, a small preview and the film, in this order.
+void WriteVideoWithCover(const std::filesystem::path& file) {
+  constexpr int kFilmFrames = 5;
+  const cv::Size sizes[] = {{640, 480}, {kWidth / 2, kHeight / 2}, {kWidth, kHeight}};
+  AVFormatContext* format = nullptr;
+  ASSERT_GE(avformat_alloc_output_context2(&format, nullptr, "mp4", file.c_str()), 0);
+  for (const cv::Size& size : sizes) {
+    AVStream* stream = avformat_new_stream(format, nullptr);
+    stream->codecpar->codec_type = AVMEDIA_TYPE_VIDEO;
+    stream->codecpar->codec_id = AV_CODEC_ID_MJPEG;
+    stream->codecpar->width = size.width;
+    stream->codecpar->height = size.height;
+    stream->time_base = {1, 25};
+  }
+  format->streams[0]->disposition = AV_DISPOSITION_ATTACHED_PIC;
+  ASSERT_GE(avio_open(&format->pb, file.c_str(), AVIO_FLAG_WRITE), 0);
+  ASSERT_GE(avformat_write_header(format, nullptr), 0);
+  const LibavPtr<AVPacket> packet(av_packet_alloc());
+  for (int i = 0; i < kFilmFrames; ++i) {
+    for (int stream = i == 0 ? 0 : 1; stream < 3; ++stream) {
+      cv::Mat image;
+      cv::resize(NumberedImage(stream == 0 ? 1023 : i), image, sizes[stream]);
+      std::vector<uint8_t> jpeg;
+      cv::imencode(".jpg", image, jpeg);
+      ASSERT_EQ(av_new_packet(packet.get(), static_cast<int>(jpeg.size())), 0);
+      std::copy(jpeg.begin(), jpeg.end(), packet->data);
+      packet->stream_index = stream;
+      packet->pts = packet->dts = av_rescale_q(i, {1, 25}, format->streams[stream]->time_base);
+      packet->duration = av_rescale_q(1, {1, 25}, format->streams[stream]->time_base);
+      packet->flags = AV_PKT_FLAG_KEY;
+      ASSERT_GE(av_interleaved_write_frame(format, packet.get()), 0);
+      av_packet_unref(packet.get());
+    }
+  }
+  ASSERT_EQ(av_write_trailer(format), 0);
+  avio_closep(&format->pb);
+  avformat_free_context(format);
+}
+
+TEST(OpenVideo, PlaysTheFilmAndNotItsCoverOrPreview) {
+  test::TemporaryFolder folder;
+  const auto file = folder / "cover.mp4";
+  ASSERT_NO_FATAL_FAILURE(WriteVideoWithCover(file));
+  const auto source = OpenVideo(file);
+  ASSERT_TRUE(source.ok()) << source.message();
+  EXPECT_EQ((*source)->width(), kWidth);
+  for (int i = 0; i < 5; ++i) {
+    const auto frame = (*source)->Next();
+    ASSERT_TRUE(frame.ok()) << frame.message();
+    ASSERT_TRUE(frame->has_value()) << i;
+    EXPECT_EQ(ReadNumber((*frame)->grey), i);
+  }
+  EXPECT_FALSE((*source)->Next()->has_value());
+  EXPECT_THAT((*source)->Notes(), ::testing::ElementsAre(HasSubstr("holds 2 films; stream")));
+}
+
 TEST(OpenVideo, RefusesWhatIsNoVideo) {
   test::TemporaryFolder folder;
   ASSERT_TRUE(WriteFileAtomically(folder / "empty.mp4", "").ok());

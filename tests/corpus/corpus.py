@@ -1,5 +1,6 @@
 """Support for tests of inputs as people have them: each test makes its input, runs the editor on it in
 an empty folder and states what a user expects. CMakeLists.txt runs the files with unittest."""
+import json
 import os
 import pathlib
 import shutil
@@ -22,19 +23,25 @@ class Case(unittest.TestCase):
         self.home = self.folder / "home"
         self.home.mkdir()
 
-    def run_program(self, name, *arguments, code=0, timeout=120):
-        """Runs a program of Lararium and returns all it said. Its exit status must be `code`."""
+    def run_program(self, name, *arguments, code=0, timeout=120, errors=subprocess.STDOUT):
+        """Runs a program of Lararium and returns all it said. Its exit status must be `code`, unless that is
+        None. `errors` says where its errors and its log go."""
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         environment["HOME"] = str(self.home)
         done = subprocess.run(
             [BIN / name, *arguments], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
+            stdout=subprocess.PIPE, stderr=errors, timeout=timeout)
         said = done.stdout.decode("utf-8", "surrogateescape")
-        self.assertEqual(done.returncode, code, f"{name} {arguments} said:\n{said}")
+        self.assertEqual(done.returncode, done.returncode if code is None else code,
+                         f"{name} {arguments} said:\n{said}")
         return said
 
     def editor(self, *arguments, **options):
         return self.run_program("lararium-editor", *arguments, **options)
+
+    def editor_json(self, *arguments, **options):
+        """The result of a subcommand as the JSON object that it prints."""
+        return json.loads(self.editor(*arguments, "--json", errors=subprocess.DEVNULL, **options))
 
     def player(self, *arguments, **options):
         return self.run_program("lararium-player", *arguments, **options)

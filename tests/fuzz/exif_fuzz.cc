@@ -15,5 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (const auto focal = lararium::capture::FindFocalLengthIn35mmFilm(bytes)) {
     CHECK(*focal > 0);
   }
+  const auto orientation = lararium::capture::FindOrientation(bytes);
+  CHECK(orientation.SizeOf({3, 2}).area() == 6);
   return 0;
 }
