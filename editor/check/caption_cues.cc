@@ -6,16 +6,19 @@
 namespace lararium::editor {
 namespace {
 
-// The line that a cue of the complete drama belongs to: among the lines being said then, or
-// still readable, the one that began last.
-const SaidLine* FindSaid(const std::vector<SaidLine>& said, double time) {
-  constexpr double kEarly = 0.1;  // Seconds that a cue may precede its line.
-  constexpr double kLate = 4.0;   // Seconds that a cue may follow the end of its line.
+// The line that a cue of the complete drama belongs to: the one during which it is shown longest,
+// because programs that round to seconds begin cues before their lines. A cue that is shown during
+// no line belongs to the last one that can still be read.
+const SaidLine* FindSaid(const std::vector<SaidLine>& said, const bake::FileCue& cue) {
+  constexpr double kLate = 4.0;  // Seconds that a cue may follow the end of its line.
   const SaidLine* found = nullptr;
+  double longest = -kLate;
   for (const SaidLine& line : said) {
-    if (time >= line.begin - kEarly && time < line.begin + line.seconds + kLate &&
-        (found == nullptr || line.begin >= found->begin)) {
+    const double shared =
+        std::min(cue.end, line.begin + line.seconds) - std::max(cue.begin, line.begin);
+    if (shared > longest && (shared > 0.0 || cue.begin >= line.begin)) {
       found = &line;
+      longest = shared;
     }
   }
   return found;
@@ -63,7 +66,7 @@ std::map<std::string, std::vector<bake::FileCue>> CuesByLine(std::vector<bake::F
     first.emplace(line.line, line.begin);
   }
   for (const bake::FileCue& cue : cues) {
-    const SaidLine* line = FindSaid(said, cue.begin);
+    const SaidLine* line = FindSaid(said, cue);
     if (line == nullptr) {
       char text[64];
       std::snprintf(text, sizeof(text), "nobody speaks at %.2f s: '", cue.begin);

@@ -70,6 +70,23 @@ TEST(CaptionCues, ThoseOfADramaComeBackToTheirLines) {
   }
 }
 
+TEST(CaptionCues, OneThatIsRoundedToSecondsBelongsToTheLineDuringWhichItIsShown) {
+  const std::vector<SaidLine> said = {{"salvete", "keeper", 10.9, 2.2, false},
+                                      {"vale", "girl", 13.6, 1.5, false}};
+  std::vector<std::string> warnings;
+  const auto lines = CuesByLine(
+      {{"3", 15.0, 17.0, "late"}, {"1", 10.0, 13.0, "first"}, {"2", 13.0, 15.0, "second"}}, said,
+      warnings);
+  EXPECT_THAT(warnings, IsEmpty());
+  ASSERT_EQ(lines.size(), 2u);
+  ASSERT_EQ(lines.at("salvete").size(), 1u);
+  EXPECT_EQ(lines.at("salvete")[0].text, "first");
+  EXPECT_EQ(lines.at("salvete")[0].begin, 0.0);
+  ASSERT_EQ(lines.at("vale").size(), 2u);
+  EXPECT_EQ(lines.at("vale")[0].text, "second");
+  EXPECT_EQ(lines.at("vale")[1].text, "late");
+}
+
 TEST(CaptionCues, OneWhileNobodySpeaksIsTold) {
   std::vector<std::string> warnings;
   const auto lines = CuesByLine({{"1", 5.0, 6.0, "Silence"}}, Said(), warnings);

@@ -58,6 +58,7 @@ class Captions(SpeakingCase):
         self.assert_taken(re.sub(r"(,\d)\d\d\b", r"\1", srt))
         self.assert_taken(re.sub(r"\b00:00:", "0:0:", srt))
         self.assert_taken(re.sub(r"\b00:(\d\d:\d\d,)", r"\1", srt))
+        self.assert_taken(re.sub(r",\d\d\d", "", srt))
         self.assert_taken(srt.replace(" --> ", "-->"))
         self.assert_taken(srt.replace(" --> ", " -> "))
         self.assert_taken(re.sub(r"(?m)(-->.*)$", r"\1  X1:100 X2:540 Y1:400 Y2:460", srt))
