@@ -19,6 +19,24 @@ namespace {
 
 bool IsWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
+bool IsSound(std::string_view extension) {
+  return std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) !=
+         SoundExtensions().end();
+}
+
+// The files of a folder that are not hidden, sorted.
+std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.is_regular_file(ignored) && !entry.path().filename().string().starts_with('.')) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 // The name in a call such as sound("bell"), whose brackets are optional in Lua. rest: the text
 // after the word sound. Empty where there is no literal name.
 std::string NameInCall(std::string_view rest) {
@@ -55,6 +73,30 @@ void ForEachNamedSound(std::string_view script, const See& see) {
   }
 }
 
+// The files in the folder of sounds that no sound is played from.
+std::vector<Status> FindUnusedFiles(const ProjectPaths& paths) {
+  constexpr std::string_view kNotPlayed[] = {".mp3", ".m4a", ".aac", ".aif", ".aiff",
+                                             ".wma", ".caf", ".mp4", ".mov"};
+  std::map<std::string, std::filesystem::path> used;
+  for (const SoundFile& sound : FindSounds(paths)) {
+    used[sound.name] = sound.built_in ? std::filesystem::path() : sound.file;
+  }
+  std::vector<Status> unused;
+  for (const std::filesystem::path& file : FilesOf(paths.folder / "audio")) {
+    const std::string extension = LowerCase(file.extension().string());
+    const std::filesystem::path& taken = used[file.stem().string()];
+    if (IsSound(extension) && taken != file) {
+      unused.push_back(Status::Error(
+          file.string(), taken.filename().string() + " is the sound of that name", "rename one"));
+    } else if (taken.empty() && std::find(std::begin(kNotPlayed), std::end(kNotPlayed),
+                                          extension) != std::end(kNotPlayed)) {
+      unused.push_back(Status::Error(file.string(), "is not played as a sound",
+                                     "save it as WAV, FLAC, Ogg or Opus"));
+    }
+  }
+  return unused;
+}
+
 }  // namespace
 
 Status BringInSound(const ProjectPaths& paths,
@@ -65,8 +107,7 @@ Status BringInSound(const ProjectPaths& paths,
     return Status::Error("the sound '" + name + "'", "cannot be the name of a file",
                          "use letters, digits, '_' and '-'");
   }
-  if (std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) ==
-      SoundExtensions().end()) {
+  if (!IsSound(extension)) {
     return Status::Error(file.string(), "is not a sound file", "use .wav, .flac, .ogg or .opus");
   }
   LARARIUM_ASSIGN_OR_RETURN(const auto bytes, ReadBytes(file, audio::SoundReader::kMaxBytes));
@@ -77,21 +118,12 @@ Status BringInSound(const ProjectPaths& paths,
 }
 
 std::vector<SoundFile> FindSounds(const ProjectPaths& paths) {
-  std::vector<std::filesystem::path> files;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(paths.folder / "audio", ignored)) {
-    const std::string extension = LowerCase(entry.path().extension().string());
-    if (entry.is_regular_file(ignored) &&
-        std::find(SoundExtensions().begin(), SoundExtensions().end(), extension) !=
-            SoundExtensions().end()) {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
   std::map<std::string, SoundFile> sounds;
-  for (const std::filesystem::path& file : files) {
+  for (const std::filesystem::path& file : FilesOf(paths.folder / "audio")) {
     const std::string name = file.stem().string();
-    sounds.insert({name, {name, file, false}});
+    if (IsSound(LowerCase(file.extension().string()))) {
+      sounds.insert({name, {name, file, false}});
+    }
   }
   for (const bake::BuiltInSound& sound : bake::BuiltInSounds()) {
     const std::string name(sound.name);
@@ -159,7 +191,7 @@ std::vector<MissingSound> FindMissingSounds(const ProjectPaths& paths,
 }
 
 std::vector<Status> FindSilences(const ProjectPaths& paths, const ProjectDocument& document) {
-  std::vector<Status> problems;
+  std::vector<Status> problems = FindUnusedFiles(paths);
   for (const MissingSound& sound : FindMissingSounds(paths, document, "")) {
     problems.push_back(Status::Error(sound.who, "there is no sound '" + sound.name + "'",
                                      "add audio/" + sound.name +

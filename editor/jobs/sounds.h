@@ -38,7 +38,9 @@ Status BringInSound(const ProjectPaths& paths,
                     const std::string& name,
                     const std::filesystem::path& file);
 
-// One Status for each sound that an object or a place uses but that does not exist.
+// One Status for each sound that an object or a place uses but that does not exist, and for each
+// file that no sound is played from: one in a container that is not played, or the second of two of
+// one name.
 std::vector<Status> FindSilences(const ProjectPaths& paths, const ProjectDocument& document);
 
 }  // namespace lararium::editor

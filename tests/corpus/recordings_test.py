@@ -67,6 +67,17 @@ class Recordings(SpeakingCase):
         self.assertIn("audio/Latin: holds recordings or captions, but 'Latin' is no language of the lines", said)
         self.assertNotIn("._hail", said)
 
+    def test_sounds_that_are_not_played_are_told(self):
+        audio = self.project / "audio"
+        audio.mkdir()
+        for name in ("bell.m4a", "DRUM.WAV", "gong.wav", "gong.flac", "gong.m4a", "._horn.wav"):
+            shutil.copy(self.folder / "s.wav", audio / name)
+        said = self.editor("check", "p.lararium", "--seconds", "1", code=1)
+        self.assertIn("audio/bell.m4a: is not played as a sound; save it as WAV", said)
+        self.assertIn("audio/gong.wav: gong.flac is the sound of that name", said)
+        for name in ("DRUM.WAV", "gong.m4a", "horn"):
+            self.assertNotIn(name + ":", said)
+
     def test_two_recordings_or_one_that_is_no_sound_are_one_line(self):
         (self.folder / "no.wav").write_bytes(b"this is no sound at all, whatever its name says")
         for files, told in (((("s.wav", "hail.wav"), ("s.wav", "hail.WAV")), "keep one of them"),
