@@ -128,6 +128,14 @@ TEST_F(BundleTest, MembersCanComeFromFiles) {
   EXPECT_THAT(WriteBundle(path_, test::ExampleManifest(), members).message(), HasSubstr("missing"));
 }
 
+TEST_F(BundleTest, ItsNameMayHaveAllTheBytesThatNamesOfFilesHave) {
+  const std::filesystem::path longest = folder_ / (std::string(247, 'n') + ".larshow");
+  ASSERT_EQ(longest.filename().string().size(), 255u);
+  const Status written = WriteBundle(longest, test::ExampleManifest(), Members());
+  ASSERT_TRUE(written.ok()) << written.message();
+  EXPECT_EQ(*ReadText(longest), GoodFile());
+}
+
 TEST_F(BundleTest, IsAZipThatOthersRead) {
   GoodFile();
   zip_t* archive = zip_open(path_.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, nullptr);
