@@ -29,11 +29,12 @@ class SpeakingCase(Case):
 
     def setUp(self):
         super().setUp()
-        if not self.made.exists():
-            self.new_project(str(self.made))
-            self.editor("cast", str(self.made), "--name", "keeper", "--plain")
-            (self.made / "lines.csv").write_text(LINES, encoding="utf-8")
-            (self.made / "drama.lua").write_text(DRAMA, encoding="utf-8")
-            self.editor("bake", str(self.made))
         self.project = self.folder / "p.lararium"
+        if not self.made.exists():
+            self.new_project()
+            self.editor("cast", "p.lararium", "--name", "keeper", "--plain")
+            (self.project / "lines.csv").write_text(LINES, encoding="utf-8")
+            (self.project / "drama.lua").write_text(DRAMA, encoding="utf-8")
+            self.editor("bake", "p.lararium", timeout=400)
+            shutil.move(self.project, self.made)
         shutil.copytree(self.made, self.project)
