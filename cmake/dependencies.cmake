@@ -16,6 +16,7 @@ find_package(glm REQUIRED)
 find_package(OpenXR QUIET)
 find_package(X11 REQUIRED)
 find_package(assimp 5.2 REQUIRED)
+find_package(draco REQUIRED)
 # Its version file refuses every version but the one that is asked for.
 find_package(meshoptimizer REQUIRED)
 find_package(OpenEXR 3.1 REQUIRED)

@@ -114,20 +114,23 @@ CommandResult List(const ProjectDocument& document) {
 
 // Builds the figure, so that errors in its file or clips are reported now, and lists its clips.
 Result<CommandResult> Build(const ProjectPaths& paths, const CastDocument& member) {
-  LARARIUM_ASSIGN_OR_RETURN(const human::Human human, BakeHuman(paths, member));
+  LARARIUM_ASSIGN_OR_RETURN(const BakedHuman baked, BakeHuman(paths, member));
   CommandResult result;
-  if (const Status drawn = LeaveThumbnail(paths.Human(member.name), human); !drawn.ok()) {
+  for (const std::string& warning : baked.warnings) {
+    result.text += "warning: " + warning + "\n";
+  }
+  if (const Status drawn = LeaveThumbnail(paths.Human(member.name), baked.human); !drawn.ok()) {
     // Happens on machines without OpenGL.
     result.text += "no thumbnail: " + drawn.message() + "\n";
   }
   Json clips = Json::array();
   result.text += member.name + ": clips";
-  for (const human::Clip& clip : human.clips) {
+  for (const human::Clip& clip : baked.human.clips) {
     clips.push_back(clip.name);
     result.text += " " + clip.name;
   }
   result.text += "\n";
-  result.json = {{"name", member.name}, {"clips", clips}};
+  result.json = {{"name", member.name}, {"clips", clips}, {"warnings", baked.warnings}};
   return result;
 }
 

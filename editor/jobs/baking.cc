@@ -38,7 +38,8 @@ namespace {
 
 // Part of every hash. Increase it when a change of the code gives another product from the same
 // sources.
-constexpr std::string_view kBakerVersion = "5";
+constexpr std::string_view kBakerVersion = "6";
+constexpr size_t kMaxHashFileBytes = size_t{1} << 16;
 
 std::filesystem::path LightFile(const ProjectPaths& paths,
                                 const PlaceDocument& place,
@@ -58,7 +59,8 @@ std::filesystem::path MeshFile(const ProjectPaths& paths,
   return paths.Place(place.name) / "baked" / (occluder.name + ".larmesh");
 }
 
-// The file beside a product that stores the hash of its inputs.
+// The file beside a product that stores the hash of its inputs in its first line, and the warnings
+// of making it in the others.
 std::filesystem::path HashFile(std::filesystem::path product) { return product += ".from"; }
 
 Result<std::string> HashOf(std::string_view settings,
@@ -71,15 +73,28 @@ Result<std::string> HashOf(std::string_view settings,
   return bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(all))));
 }
 
-bool UpToDate(const std::filesystem::path& product, const std::string& hash) {
-  const Result<std::string> known = ReadText(HashFile(product), 1024);
-  return FileExists(product) && known.ok() && *known == hash;
+// The warnings of a product that exists and was made with these inputs; otherwise nullopt.
+std::optional<std::vector<std::string>> WarningsIfUpToDate(const std::filesystem::path& product,
+                                                           const std::string& hash) {
+  const Result<std::string> known = ReadText(HashFile(product), kMaxHashFileBytes);
+  if (!FileExists(product) || !known.ok() || (*known + "\n").rfind(hash + "\n", 0) != 0) {
+    return std::nullopt;
+  }
+  std::istringstream lines(known->substr(hash.size()));
+  std::vector<std::string> warnings;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty()) {
+      warnings.push_back(line);
+    }
+  }
+  return warnings;
 }
 
 // Writes the product before its hash: after a crash in between it is only baked again.
 Status WriteProduct(const std::filesystem::path& product,
                     std::span<const std::byte> bytes,
-                    const std::string& hash) {
+                    const std::string& hash,
+                    std::span<const std::string> warnings) {
   std::error_code error;
   std::filesystem::create_directories(product.parent_path(), error);
   if (error) {
@@ -87,7 +102,14 @@ Status WriteProduct(const std::filesystem::path& product,
                          "cannot make the folder: " + error.message());
   }
   LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(product, bytes));
-  return WriteFileAtomically(HashFile(product), std::string_view(hash));
+  std::string text = hash;
+  for (std::string line : warnings) {
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    if (text.size() + line.size() < kMaxHashFileBytes) {
+      text += "\n" + line;
+    }
+  }
+  return WriteFileAtomically(HashFile(product), std::string_view(text));
 }
 
 // The relative duration of steps.
@@ -112,7 +134,7 @@ struct BakeStep {
 // Whether the product exists and matches its present inputs.
 bool IsMade(const BakeStep& step) {
   const Result<std::string> hash = HashOf(step.settings, step.sources);
-  return hash.ok() && UpToDate(step.product, *hash);
+  return hash.ok() && WarningsIfUpToDate(step.product, *hash);
 }
 
 std::vector<std::byte> BytesOf(std::string_view text) {
@@ -193,8 +215,13 @@ BakeStep MeshStep(const ProjectPaths& paths,
           MeshFile(paths, place, occluder),
           {file},
           "occluder",
-          [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
-            LARARIUM_ASSIGN_OR_RETURN(const geometry::TriangleMesh mesh, import::ImportMesh(file));
+          [=](std::vector<std::string>& warnings) -> Result<std::vector<std::byte>> {
+            std::vector<std::string> notes;
+            LARARIUM_ASSIGN_OR_RETURN(const geometry::TriangleMesh mesh,
+                                      import::ImportMesh(file, notes));
+            for (const std::string& note : notes) {
+              warnings.push_back(occluder.name + ": " + note);
+            }
             return stage::SerializeMesh(mesh);
           }};
 }
@@ -270,6 +297,10 @@ FigureSource ImportedFigure(const ProjectPaths& paths, const CastDocument& membe
     import::ImportOptions options;
     LARARIUM_ASSIGN_OR_RETURN(options.bones, GivenBoneNames(bone_map, member.bones));
     LARARIUM_ASSIGN_OR_RETURN(import::ImportedHuman imported, import::ImportPerson(model, options));
+    if (!imported.is_human) {
+      imported.notes.emplace_back(
+          "no human body was recognised; it is taken to stand Y up, facing +Z, as glTF's do");
+    }
     for (const std::string& note : imported.notes) {
       warnings.push_back(member.name + ": " + note);
     }
@@ -282,7 +313,10 @@ FigureSource ImportedFigure(const ProjectPaths& paths, const CastDocument& membe
   return figure;
 }
 
-Status AddClips(const ProjectPaths& paths, const CastDocument& member, human::Human& human) {
+Status AddClips(const ProjectPaths& paths,
+                const CastDocument& member,
+                human::Human& human,
+                std::vector<std::string>& warnings) {
   for (const ClipDocument& document : member.clips) {
     import::ClipImportOptions options;
     options.retarget.name = document.name;
@@ -290,6 +324,9 @@ Status AddClips(const ProjectPaths& paths, const CastDocument& member, human::Hu
     LARARIUM_ASSIGN_OR_RETURN(
         import::ImportedClip imported,
         import::ImportClip(paths.Resolve(document.file), human.skeleton, options));
+    for (const std::string& note : imported.notes) {
+      warnings.push_back(member.name + ", " + document.name + ": " + note);
+    }
     LARARIUM_RETURN_IF_ERROR(import::AddClip(std::move(imported.clip), human));
   }
   return Status();
@@ -312,7 +349,7 @@ BakeStep HumanStep(const ProjectPaths& paths,
                   std::vector<std::string>& warnings) -> Result<std::vector<std::byte>> {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, make(warnings));
     human.name = member.name;
-    LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, human));
+    LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, human, warnings));
     return human::SerializeHuman(human);
   };
   return step;
@@ -401,8 +438,13 @@ BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& obj
   if (use != file && FileExists(use)) {
     step.sources.push_back(use);
   }
-  step.make = [file](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
-    LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop, import::ImportObject(file));
+  step.make = [file, name = object.name](
+                  std::vector<std::string>& warnings) -> Result<std::vector<std::byte>> {
+    std::vector<std::string> notes;
+    LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop, import::ImportObject(file, notes));
+    for (const std::string& note : notes) {
+      warnings.push_back(name + ": " + note);
+    }
     return LitProp(prop, file.string());
   };
   return step;
@@ -515,14 +557,17 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
   return steps;
 }
 
-// Returns true where the product had to be made.
+// Returns true where the product had to be made. Adds the warnings of making it, now or before.
 Result<bool> RunStep(const BakeStep& step, std::vector<std::string>& warnings) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string hash, HashOf(step.settings, step.sources));
-  if (UpToDate(step.product, hash)) {
+  if (const auto known = WarningsIfUpToDate(step.product, hash)) {
+    warnings.insert(warnings.end(), known->begin(), known->end());
     return false;
   }
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, step.make(warnings));
-  LARARIUM_RETURN_IF_ERROR(WriteProduct(step.product, bytes, hash));
+  std::vector<std::string> added;
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, step.make(added));
+  LARARIUM_RETURN_IF_ERROR(WriteProduct(step.product, bytes, hash, added));
+  warnings.insert(warnings.end(), added.begin(), added.end());
   return true;
 }
 
@@ -611,12 +656,13 @@ std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDo
   return names;
 }
 
-Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member) {
+Result<BakedHuman> BakeHuman(const ProjectPaths& paths, const CastDocument& member) {
   const NoProgress silent;
-  std::vector<std::string> warnings;
+  BakedHuman baked;
   LARARIUM_ASSIGN_OR_RETURN(const BakeStep step, HumanStep(paths, member, silent));
-  LARARIUM_RETURN_IF_ERROR(RunStep(step, warnings).status());
-  return LoadBakedHuman(paths, member);
+  LARARIUM_RETURN_IF_ERROR(RunStep(step, baked.warnings).status());
+  LARARIUM_ASSIGN_OR_RETURN(baked.human, LoadBakedHuman(paths, member));
+  return baked;
 }
 
 Result<std::vector<light::PlacedProbe>> LoadBakedProbes(const ProjectPaths& paths,
@@ -672,7 +718,7 @@ std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocume
   const std::filesystem::path plain = paths.Human(member.name);
   const std::filesystem::path lit = paths.LitHuman(member.name);
   const Result<std::string> hash = HashOf(TransferSettings(), {HashFile(plain)});
-  return hash.ok() && UpToDate(lit, *hash) ? lit : plain;
+  return hash.ok() && WarningsIfUpToDate(lit, *hash) ? lit : plain;
 }
 
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member) {
@@ -697,7 +743,8 @@ Result<show::CastMember> ShareBakedHuman(const ProjectPaths& paths,
 
 Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& member) {
   human::Human figure = MakePlainFigure(member);
-  LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, figure));
+  std::vector<std::string> told_when_baked;
+  LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, figure, told_when_baked));
   return figure;
 }
 

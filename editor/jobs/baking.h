@@ -25,7 +25,7 @@ namespace lararium::editor {
 struct BakeReport {
   std::vector<std::string> baked;      // Names of the products that were generated.
   std::vector<std::string> unchanged;  // Names of the products that were up to date.
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;   // Warnings of all products, generated now or before.
 };
 
 enum class BakeWhat { kAll, kAllButPeople, kPeople };
@@ -40,8 +40,12 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
 // The names of the cast members whose product is missing or stale.
 std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document);
 
+struct BakedHuman {
+  human::Human human;
+  std::vector<std::string> warnings;
+};
 // Generates one person without light transfer, where it is missing or stale.
-Result<human::Human> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
+Result<BakedHuman> BakeHuman(const ProjectPaths& paths, const CastDocument& member);
 
 //
 // These functions load products. They fail where a product was never baked.

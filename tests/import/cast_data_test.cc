@@ -145,7 +145,7 @@ TEST_P(CastPresets, TurnTheirEyesAboutTheMiddleOfTheBall) {
   const human::Human& human = Preset(GetParam());
   const human::SkinnedMesh& eyes = Mesh(human, "HighPolyEyes");
   for (const char* joint : {"l_eyeball_joint", "r_eyeball_joint"}) {
-    const size_t index = JointIndex(human.skeleton, joint);
+    const size_t index = IndexOfJoint(human.skeleton, joint);
     const glm::vec3 centre = RestPosition(human.skeleton, joint);
     float least = 1.0f;
     float most = 0.0f;
@@ -195,7 +195,7 @@ TEST_P(CastPresets, HaveCapsulesThatFollowTheirSkin) {
   std::set<size_t> clothed;
   for (const char* joint : {"sacroiliac", "vl1", "vt10", "vt4", "vt1", "l_hip", "r_hip",
                             "l_shoulder", "r_shoulder", "l_knee", "r_knee"}) {
-    clothed.insert(JointIndex(human.skeleton, joint));
+    clothed.insert(IndexOfJoint(human.skeleton, joint));
   }
   std::vector<float> outside;
   const human::SkinnedMesh& skin = human.meshes[0];

@@ -35,7 +35,7 @@ class ModelClips : public ::testing::Test {
     }
     const Json sampler = {{"input", figure_.AddFloats(times, 1)},
                           {"output", figure_.AddFloats(rotations, 4)}};
-    const Json target = {{"node", JointIndex(PlainSkeleton(), "l_elbow")}, {"path", "rotation"}};
+    const Json target = {{"node", IndexOfJoint(PlainSkeleton(), "l_elbow")}, {"path", "rotation"}};
     figure_.json["animations"].push_back(
         {{"name", name},
          {"samplers", Json::array({sampler})},
@@ -49,7 +49,7 @@ class ModelClips : public ::testing::Test {
     LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<ModelScene> model, ReadModelScene(file));
     LARARIUM_ASSIGN_OR_RETURN(const BindPose bind, FindBindPose(*model));
     LARARIUM_ASSIGN_OR_RETURN(const ModelRig rig,
-                              FindRig(*model, bind, Content::kMotion, {}, notes));
+                              FindRig(*model, bind, Content::kMotion, {}, true, notes));
     LARARIUM_ASSIGN_OR_RETURN(const glm::mat4 actor_from_scene,
                               PlaceFigure(*model, {}, rig, 1.0f, notes));
     LARARIUM_ASSIGN_OR_RETURN(skeleton_, BuildSkeleton(*model, bind, {}, rig, actor_from_scene));

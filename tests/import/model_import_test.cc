@@ -58,27 +58,29 @@ glm::vec3 At(const human::Human& human, const std::string& joint) {
 }
 
 TEST_F(ModelImport, SplitsPolygonsIntoTriangles) {
-  const auto mesh = ImportMesh(Write("square.obj", kSquare));
+  std::vector<std::string> notes;
+  const auto mesh = ImportMesh(Write("square.obj", kSquare), notes);
   ASSERT_TRUE(mesh.ok()) << mesh.message();
   EXPECT_EQ(mesh->indices.size(), 6u);
   EXPECT_NEAR(mesh->normals[0].z, 1.0f, 1e-6f);
 }
 
 TEST_F(ModelImport, RefusesFilesThatAreNoModels) {
+  std::vector<std::string> notes;
   for (const char* name : {"a.glb", "a.gltf", "a.fbx", "a.obj", "a.dae", "a.bvh", "a.xyz"}) {
     for (const std::string_view content :
          {std::string_view(""), std::string_view("garbage"), std::string_view("{}"),
           std::string_view("glTF\x02\0\0\0\xff\xff\xff\xff", 12),
           std::string_view("Kaydara FBX Binary  \0\x1a\0\xff\xff\xff\xff", 27)}) {
       const auto file = Write(name, content);
-      const auto mesh = ImportMesh(file);
+      const auto mesh = ImportMesh(file, notes);
       ASSERT_FALSE(mesh.ok()) << name;
       EXPECT_THAT(mesh.message(), HasSubstr(name));
       EXPECT_FALSE(ImportHuman(file).ok());
       EXPECT_FALSE(ImportMotion(file).ok());
     }
   }
-  EXPECT_FALSE(ImportMesh(folder_ / "absent.glb").ok());
+  EXPECT_FALSE(ImportMesh(folder_ / "absent.glb", notes).ok());
 }
 
 TEST_F(ModelImport, AsksForAnArmatureWhereThereIsNone) {
@@ -224,13 +226,13 @@ TEST_F(ModelImport, FindsTexturesBesideTheModelAndNowhereElse) {
   std::filesystem::create_directories(folder_ / "textures");
   Write("skin.png", "x");
   Write("textures/eye.png", "x");
-  EXPECT_EQ(FindTexture(model, "skin.png"), folder_ / "skin.png");
-  EXPECT_EQ(FindTexture(model, "C:\\Users\\somebody\\skin.png"), folder_ / "skin.png");
-  EXPECT_EQ(FindTexture(model, "/home/somebody/eye.png"), folder_ / "textures" / "eye.png");
-  EXPECT_EQ(FindTexture(model, "textures%2Feye.png"), folder_ / "textures" / "eye.png");
+  EXPECT_EQ(FindReferenced(model, "skin.png"), folder_ / "skin.png");
+  EXPECT_EQ(FindReferenced(model, "C:\\Users\\somebody\\skin.png"), folder_ / "skin.png");
+  EXPECT_EQ(FindReferenced(model, "/home/somebody/eye.png"), folder_ / "textures" / "eye.png");
+  EXPECT_EQ(FindReferenced(model, "textures%2Feye.png"), folder_ / "textures" / "eye.png");
   for (const char* path :
        {"/etc/passwd", "../../etc/passwd", "..", "%2e%2e/%2e%2e/etc/passwd", ""}) {
-    EXPECT_EQ(FindTexture(model, path), "") << path;
+    EXPECT_EQ(FindReferenced(model, path), "") << path;
   }
 }
 
@@ -273,7 +275,7 @@ TEST_F(ModelImport, ReadsMorphTargetsSparsely) {
 
 TEST_F(ModelImport, ReadsVrmOfBothVersions) {
   const human::Skeleton skeleton = PlainSkeleton();
-  const auto node = [&](const char* joint) { return JointIndex(skeleton, joint); };
+  const auto node = [&](const char* joint) { return IndexOfJoint(skeleton, joint); };
   const size_t bearer = skeleton.size();  // The node that has the mesh.
   const size_t chain[] = {node("l_elbow"), node("l_wrist"), node("l_middle1")};
   for (const bool old : {true, false}) {
@@ -384,7 +386,7 @@ const std::vector<Hostile>& HostileFigures() {
       {"text for a number", [](auto& f) { f.json["accessors"][0]["count"] = "many"; }},
       {"list for an object", [](auto& f) { f.json["nodes"][0] = Json::array(); }},
       {"unknown compression",
-       [](auto& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }},
+       [](auto& f) { f.json["extensionsRequired"] = {"KHR_texture_basisu"}; }},
       {"version 1", [](auto& f) { f.json["asset"]["version"] = "1.0"; }},
       {"no asset", [](auto& f) { f.json.erase("asset"); }},
       {"NaN positions",

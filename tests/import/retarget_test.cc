@@ -64,7 +64,7 @@ Skeleton Scaled(Skeleton skeleton, float scale) {
 // Bound with spread arms; frames stay parallel to the actor's.
 Skeleton WithSpreadArms(Skeleton skeleton) {
   for (const auto& [side, sign] : {std::pair{"r_", 1.0f}, std::pair{"l_", -1.0f}}) {
-    const size_t shoulder = JointIndex(skeleton, std::string(side) + "shoulder");
+    const size_t shoulder = IndexOfJoint(skeleton, std::string(side) + "shoulder");
     const glm::quat turn = human::TurnZ(sign * 0.99f);
     for (size_t j = 0; j < skeleton.size(); ++j) {
       bool below = false;
@@ -137,7 +137,7 @@ TEST(Retarget, ToTheSameSkeletonIsTheSameMotion) {
   for (size_t key = 0; key < source.KeyCount(skeleton.size()); key += 7) {
     const auto own = Positions(skeleton, source, key), got = Positions(skeleton, *result, key);
     for (const char* joint : {"r_wrist", "l_ankle", "skullbase", "r_knee"}) {
-      const size_t j = JointIndex(skeleton, joint);
+      const size_t j = IndexOfJoint(skeleton, joint);
       // The height of a standing ankle is only known from the motion itself.
       EXPECT_NEAR(glm::distance(own[j], got[j]), 0.0f, 0.03f) << joint << " at key " << key;
     }
@@ -153,7 +153,7 @@ TEST(Retarget, ToATallerFigureTakesLongerSteps) {
   EXPECT_EQ(result->name, "walk");
   EXPECT_NEAR(result->stride, 1.25f * 4.0f * Walk().stride, 0.02f * result->stride);
   const auto first = Positions(taller, *result, 0);
-  const size_t root = JointIndex(taller, "humanoid_root");
+  const size_t root = IndexOfJoint(taller, "humanoid_root");
   const auto last = Positions(taller, *result, result->KeyCount(taller.size()) - 1);
   EXPECT_LT(glm::distance(first[root], last[root]), 0.05f);  // The stride is removed from the keys.
 }
@@ -166,8 +166,8 @@ TEST(Retarget, TurnsAWalkInAnyDirectionTowardsMinusZ) {
     ASSERT_TRUE(result.ok()) << result.message();
     EXPECT_NEAR(result->stride, 3.0f * Walk().stride, 0.03f);
     const auto positions = Positions(skeleton, *result, 0);
-    EXPECT_GT(positions[JointIndex(skeleton, "r_hip")].x,
-              positions[JointIndex(skeleton, "l_hip")].x + 0.1f);
+    EXPECT_GT(positions[IndexOfJoint(skeleton, "r_hip")].x,
+              positions[IndexOfJoint(skeleton, "l_hip")].x + 0.1f);
   }
 }
 
@@ -176,7 +176,7 @@ TEST(Retarget, HoldsFeetThatStand) {
   Skeleton other = Scaled(skeleton, 0.8f);
   // With shins longer than thighs, copying the angles of the source would make the feet slide.
   for (const char* ankle : {"r_ankle", "l_ankle"}) {
-    other.rest[JointIndex(other, ankle)].translation *= 1.15f;
+    other.rest[IndexOfJoint(other, ankle)].translation *= 1.15f;
   }
   const Clip source = Travelling(Walk(), skeleton.size(), 4, 0.0f);
   RetargetOptions options;
@@ -201,8 +201,8 @@ TEST(Retarget, KeepsTheArmsOfAFigureBoundWithSpreadArmsWhereTheSourceHasThem) {
     for (size_t key = 0; key < 20; key += 5) {
       const auto a = Positions(*from, *there, key), b = Positions(*to, *back, key);
       for (const std::string side : {"r_", "l_"}) {
-        const size_t wrist = JointIndex(skeleton, side + "wrist");
-        const size_t elbow = JointIndex(skeleton, side + "elbow");
+        const size_t wrist = IndexOfJoint(skeleton, side + "wrist");
+        const size_t elbow = IndexOfJoint(skeleton, side + "elbow");
         const glm::vec3 own = glm::normalize(a[wrist] - a[elbow]);
         EXPECT_GT(glm::dot(own, glm::normalize(b[wrist] - b[elbow])), 0.999f);
       }

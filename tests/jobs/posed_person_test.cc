@@ -16,7 +16,7 @@ constexpr uint32_t kTip = 12;
 
 // 3x5 vertices that are attached to one joint and extend backwards from it.
 human::SkinnedMesh Strip(const human::Skeleton& skeleton, const char* joint) {
-  const auto index = static_cast<uint8_t>(import::JointIndex(skeleton, joint));
+  const auto index = static_cast<uint8_t>(import::IndexOfJoint(skeleton, joint));
   const glm::vec3 root = import::RestPosition(skeleton, joint);
   human::SkinnedMesh mesh;
   mesh.name = joint;
@@ -72,7 +72,7 @@ std::shared_ptr<const human::Human> Somebody() {
 }
 
 glm::vec3 JointOf(const PosedPerson& person, const char* name) {
-  return person.actor_from_joint()[import::JointIndex(person.human().skeleton, name)][3];
+  return person.actor_from_joint()[import::IndexOfJoint(person.human().skeleton, name)][3];
 }
 
 TEST(PosedPerson, StandsWithTheArmsDown) {

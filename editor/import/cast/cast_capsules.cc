@@ -100,7 +100,7 @@ class CapsuleMaker {
            float radius_a,
            float radius_b) {
     human::BodyCapsule capsule;
-    capsule.joint = static_cast<uint32_t>(JointIndex(skeleton_, joint));
+    capsule.joint = static_cast<uint32_t>(IndexOfJoint(skeleton_, joint));
     const glm::vec3 origin = Place(joint);
     capsule.a = a - origin;
     capsule.b = b - origin;
@@ -112,9 +112,9 @@ class CapsuleMaker {
   // The axis is the middle of the flesh at both ends. That is not the line between the joints:
   // the calf is behind its bone.
   void AddLimb(const Limb& limb) {
-    std::vector<size_t> joints = {JointIndex(skeleton_, limb.joint)};
+    std::vector<size_t> joints = {IndexOfJoint(skeleton_, limb.joint)};
     for (const std::string& name : limb.with) {
-      joints.push_back(JointIndex(skeleton_, name));
+      joints.push_back(IndexOfJoint(skeleton_, name));
     }
     const glm::vec3 from = Place(limb.joint);
     const glm::vec3 to = Place(limb.end);
@@ -162,7 +162,7 @@ class CapsuleMaker {
   bool IsOfTrunk(size_t vertex) const {
     std::vector<size_t> joints;
     for (const char* joint : kTrunkJoints) {
-      joints.push_back(JointIndex(skeleton_, joint));
+      joints.push_back(IndexOfJoint(skeleton_, joint));
     }
     return WeightOf(vertex, joints) > 0.6f;
   }
@@ -197,8 +197,8 @@ class CapsuleMaker {
 
   // The skull above the eyes, and the face from the eyes down to the chin.
   void AddHead() {
-    const size_t skull[] = {JointIndex(skeleton_, "skullbase")};
-    const size_t jaw[] = {JointIndex(skeleton_, "temporomandibular")};
+    const size_t skull[] = {IndexOfJoint(skeleton_, "skullbase")};
+    const size_t jaw[] = {IndexOfJoint(skeleton_, "temporomandibular")};
     const float eyes = 0.5f * (Place("l_eyeball_joint").y + Place("r_eyeball_joint").y);
     Box cranium;
     Box chin;

@@ -17,7 +17,7 @@ class Moved {
   Moved(const human::Skeleton& skeleton, std::initializer_list<const char*> names)
       : by_(skeleton.size(), false) {
     for (const char* name : names) {
-      by_[JointIndex(skeleton, name)] = true;
+      by_[IndexOfJoint(skeleton, name)] = true;
     }
     for (size_t joint = 0; joint < by_.size(); ++joint) {
       const int16_t parent = skeleton.parents[joint];

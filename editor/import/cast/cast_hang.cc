@@ -154,7 +154,7 @@ class HairHanger {
         body_(body),
         skeleton_(skeleton),
         layer_(hair.mesh, skeleton),
-        skull_(JointIndex(skeleton, "skullbase")) {}
+        skull_(IndexOfJoint(skeleton, "skullbase")) {}
 
   std::vector<human::SpringChain> Run() {
     MeasureClearance();

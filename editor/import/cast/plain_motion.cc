@@ -100,13 +100,13 @@ class PoseMaker {
                               ? rotations_[i]
                               : glm::normalize(glm::inverse(rotations_[parent]) * rotations_[i]);
     }
-    pose_[JointIndex(skeleton_, "humanoid_root")].translation = posture.pelvis_position;
+    pose_[IndexOfJoint(skeleton_, "humanoid_root")].translation = posture.pelvis_position;
     return pose_;
   }
 
  private:
   void Set(const std::string& joint, const glm::quat& rotation) {
-    rotations_[JointIndex(skeleton_, joint)] = rotation;
+    rotations_[IndexOfJoint(skeleton_, joint)] = rotation;
   }
 
   void SetTrunk(const Posture& posture) {

@@ -53,7 +53,7 @@ void Append(human::Skeleton& skeleton,
   rest.translation = position;
   int16_t parent_index = human::Skeleton::kNoParent;
   if (!parent.empty()) {
-    parent_index = static_cast<int16_t>(JointIndex(skeleton, parent));
+    parent_index = static_cast<int16_t>(IndexOfJoint(skeleton, parent));
     rest.translation -= RestPosition(skeleton, parent);
   }
   skeleton.names.push_back(name);
@@ -83,14 +83,14 @@ human::Skeleton PlainSkeleton() {
   return skeleton;
 }
 
-size_t JointIndex(const human::Skeleton& skeleton, std::string_view name) {
+size_t IndexOfJoint(const human::Skeleton& skeleton, std::string_view name) {
   const auto index = skeleton.Find(name);
   CHECK(index.has_value());
   return *index;
 }
 
 glm::vec3 RestPosition(const human::Skeleton& skeleton, std::string_view name) {
-  return -glm::vec3(skeleton.joint_from_actor[JointIndex(skeleton, name)][3]);
+  return -glm::vec3(skeleton.joint_from_actor[IndexOfJoint(skeleton, name)][3]);
 }
 
 }  // namespace lararium::import

@@ -21,7 +21,7 @@ inline constexpr const char* kSkirtJoints[6] = {"tunic_front_r", "tunic_side_r",
 human::Skeleton PlainSkeleton();
 
 // RestPosition gives the position of a joint at rest, in the actor frame. The joint must exist.
-size_t JointIndex(const human::Skeleton& skeleton, std::string_view name);
+size_t IndexOfJoint(const human::Skeleton& skeleton, std::string_view name);
 glm::vec3 RestPosition(const human::Skeleton& skeleton, std::string_view name);
 
 }  // namespace lararium::import

@@ -26,7 +26,7 @@ JointShares Mix(const JointShares& a, const JointShares& b, float share_of_b) {
 
 size_t MirroredJoint(const human::Skeleton& skeleton, size_t joint) {
   const std::string& name = skeleton.names[joint];
-  return name.starts_with("r_") ? JointIndex(skeleton, "l_" + name.substr(2)) : joint;
+  return name.starts_with("r_") ? IndexOfJoint(skeleton, "l_" + name.substr(2)) : joint;
 }
 
 // Each joint of a chain takes over from the previous one at the bend between them, so that only
@@ -59,7 +59,7 @@ PlainSkin::PlainSkin(const human::Skeleton& skeleton) : skeleton_(skeleton) {
           Joint("r_middle1", fore, 0.012f)};
   thumb_ = skeleton.Find("r_thumb1").value();
   for (size_t i = 0; i < 6; ++i) {
-    skirt_[i] = JointIndex(skeleton, kSkirtJoints[i]);
+    skirt_[i] = IndexOfJoint(skeleton, kSkirtJoints[i]);
   }
 }
 
@@ -88,13 +88,13 @@ JointShares PlainSkin::MirrorJoints(JointShares weights) const {
 PlainSkin::Link PlainSkin::Joint(const char* name,
                                  const glm::vec3& direction,
                                  float half_width) const {
-  return {JointIndex(skeleton_, name), RestPosition(skeleton_, name), glm::normalize(direction),
+  return {IndexOfJoint(skeleton_, name), RestPosition(skeleton_, name), glm::normalize(direction),
           half_width};
 }
 
 // The head ends at the inclined edge of the jaw.
 PlainSkin::Link PlainSkin::HeadLink() const {
-  return {JointIndex(skeleton_, "skullbase"),
+  return {IndexOfJoint(skeleton_, "skullbase"),
           {0.0f, 1.530f, 0.0f},
           glm::normalize(glm::vec3(0.0f, 0.86f, -0.50f)),
           0.030f};

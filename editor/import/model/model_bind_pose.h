@@ -3,6 +3,7 @@
 // Finds the pose in which the meshes of a scene were bound; it may differ from the rest pose of
 // the nodes.
 
+#include <algorithm>
 #include <glm/mat4x4.hpp>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct BindPose {
   std::vector<glm::mat4> scene_from_node;  // Finite, for every node.
   // For each mesh of the scene, the nodes of its bones.
   std::vector<std::vector<int>> nodes_of_mesh;
+
+  bool HasSkin() const {
+    return std::any_of(nodes_of_mesh.begin(), nodes_of_mesh.end(),
+                       [](const std::vector<int>& nodes) { return !nodes.empty(); });
+  }
 };
 
 // Computes the pose of each bone from its offset matrix. A mesh gives the positions of its

@@ -8,6 +8,7 @@
 #include "editor/import/model/model_meshes.h"
 #include "editor/import/model/model_parts.h"
 #include "editor/import/model/model_placement.h"
+#include "editor/import/model/model_rest_pose.h"
 #include "editor/import/model/model_skeleton.h"
 #include "editor/import/model/model_springs.h"
 #include "editor/import/model/model_surfaces.h"
@@ -30,6 +31,7 @@ Status AddBody(const ModelScene& model,
                const ModelSkeleton& skeleton,
                BuiltModel& built) {
   human::Human& human = built.human;
+  built.notes.insert(built.notes.end(), model.notes.surface.begin(), model.notes.surface.end());
   ModelSurfaces surfaces = ReadSurfaces(model, parts, built.notes);
   human.meshes = BuildMeshes(parts, skeleton, surfaces);
   human.materials = std::move(surfaces.materials);
@@ -53,13 +55,23 @@ Result<BuiltModel> BuildModel(const ModelScene& model,
                               const ImportOptions& options,
                               Content content) {
   BuiltModel built;
-  LARARIUM_ASSIGN_OR_RETURN(const BindPose bind, FindBindPose(model));
+  built.notes = model.notes.structure;
+  LARARIUM_ASSIGN_OR_RETURN(BindPose bind, FindBindPose(model));
   std::vector<Part> parts;
   if (content == Content::kFigure) {
     LARARIUM_ASSIGN_OR_RETURN(parts, GatherParts(model, bind));
   }
-  LARARIUM_ASSIGN_OR_RETURN(const ModelRig rig,
-                            FindRig(model, bind, content, options.bones, built.notes));
+  LARARIUM_ASSIGN_OR_RETURN(ModelRig rig, FindRig(model, bind, content, options.bones,
+                                                  options.needs_skeleton, built.notes));
+  if (content == Content::kMotion && !bind.HasSkin()) {
+    if (auto rest = FindRestInMotion(model, rig, built.notes)) {
+      bind.scene_from_node = *std::move(rest);
+      std::vector<std::string> told_before;
+      LARARIUM_ASSIGN_OR_RETURN(rig,
+                                FindRig(model, bind, content, options.bones, true, told_before));
+      rig.is_posed = true;
+    }
+  }
   DescribeRig(rig, built);
   LARARIUM_ASSIGN_OR_RETURN(const glm::mat4 actor_from_scene,
                             PlaceFigure(model, parts, rig, options.metres_per_unit, built.notes));

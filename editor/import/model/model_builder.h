@@ -13,6 +13,7 @@ namespace lararium::import {
 //  FindBindPose    the pose of the nodes when the meshes were bound
 //  GatherParts     the meshes in that pose
 //  FindRig         the bones and their joints
+//  FindRestInMotion  for a motion without a skin, the pose at rest
 //  PlaceFigure     axes, unit and position
 //  BuildSkeleton   the joints
 //  ReadSurfaces    materials and images

@@ -25,7 +25,7 @@ glm::vec3 Snapped(const glm::vec3& direction) {
 
 }  // namespace
 
-std::optional<FigureFrame> FindFigureFrame(const Rig& rig, const BoneMap& map) {
+std::optional<FigureFrame> FindFigureFrame(const Rig& rig, const BoneMap& map, bool is_posed) {
   if (!map.IsHuman()) {
     return std::nullopt;
   }
@@ -38,13 +38,13 @@ std::optional<FigureFrame> FindFigureFrame(const Rig& rig, const BoneMap& map) {
   const glm::vec3 up = Snapped(rise / height);
   glm::vec3 right(0.0f);
   for (const std::string joint : {"hip", "knee", "shoulder"}) {
-    right += at("r_" + joint) - at("l_" + joint);
+    right += joint == "knee" && is_posed ? glm::vec3(0.0f) : at("r_" + joint) - at("l_" + joint);
   }
   right -= glm::dot(right, up) * up;
   if (!(glm::length(right) > 0.01f * height)) {
     return std::nullopt;
   }
-  right = Snapped(glm::normalize(right));
+  right = is_posed ? glm::normalize(right) : Snapped(glm::normalize(right));
   right = glm::normalize(right - glm::dot(right, up) * up);
   const glm::vec3 back = glm::cross(right, up);
   FigureFrame frame;

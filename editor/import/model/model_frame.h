@@ -15,8 +15,9 @@ struct FigureFrame {
 };
 
 // Uses the mapped joints: up is from ankles to head, right from left to right limbs; snaps to
-// the axes of the file if they are nearly parallel. Gives nullopt if the map is not human or
-// the figure is flat.
-std::optional<FigureFrame> FindFigureFrame(const Rig& rig, const BoneMap& map);
+// the axes of the file if they are nearly parallel. A figure that is posed, one of a motion, may
+// face any way: then only up snaps, and its knees do not count. Gives nullopt if the map is not
+// human or the figure is flat.
+std::optional<FigureFrame> FindFigureFrame(const Rig& rig, const BoneMap& map, bool is_posed);
 
 }  // namespace lararium::import

@@ -1,10 +1,14 @@
 #include "editor/import/model/model_gltf.h"
 
+#include <sodium.h>
+
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <optional>
+
+#include "editor/import/model/model_textures.h"
+#include "shared/core/file.h"
 
 namespace lararium::import {
 namespace {
@@ -23,26 +27,8 @@ uint32_t ReadU32(std::span<const std::byte> bytes, size_t at) {
   return value;
 }
 
-void AppendU32(std::vector<std::byte>& bytes, uint32_t value) {
-  const auto* begin = reinterpret_cast<const std::byte*>(&value);
-  bytes.insert(bytes.end(), begin, begin + sizeof(value));
-}
-
 std::string_view Text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-const Json* Find(const Json& json, const char* key) {
-  if (!json.is_object()) {
-    return nullptr;
-  }
-  const auto found = json.find(key);
-  return found == json.end() ? nullptr : &*found;
-}
-
-std::string TextOr(const Json& json, const char* key, const std::string& instead) {
-  const Json* text = Find(json, key);
-  return text != nullptr && text->is_string() ? text->get<std::string>() : instead;
 }
 
 const Json& Entry(const Json& json, const char* list, size_t index) {
@@ -54,7 +40,8 @@ const Json& Entry(const Json& json, const char* list, size_t index) {
 
 bool CanBeRead(const std::string& extension) {
   for (const char* known : {"KHR_materials_", "KHR_texture_transform", "KHR_lights_punctual",
-                            "KHR_xmp", "VRM", "EXT_texture_webp"}) {
+                            "KHR_xmp", "VRM", "EXT_texture_webp", "KHR_draco_mesh_compression",
+                            "EXT_meshopt_compression", "KHR_mesh_quantization"}) {
     if (extension.starts_with(known)) {
       return true;
     }
@@ -163,7 +150,7 @@ class Checker {
           return Status::Error(place_,
                                "needs the glTF extension " + extension.dump().substr(0, 80) +
                                    ", which is not supported",
-                               "export it without compression and quantization");
+                               "export it without that");
         }
       }
     }
@@ -197,14 +184,11 @@ class Checker {
       LARARIUM_ASSIGN_OR_RETURN(const int64_t length,
                                 Number(buffer, "byteLength", kMaxBytes, where, std::nullopt));
       const std::string uri = TextOr(buffer, "uri", "");
-      if (uri.starts_with("data:")) {
-        const size_t comma = uri.find(',');
-        if (comma == std::string::npos || (uri.size() - comma) * 3 / 4 + 3 < size_t(length)) {
-          return Problem(where, "holds fewer bytes than it says");
-        }
-      } else if (uri.empty() && (i > 0 || document_.binary.size() < size_t(length))) {
+      const bool is_stand_in = FindExtension(buffer, "EXT_meshopt_compression") != nullptr;
+      const size_t in_glb = document_.buffers.empty() ? 0 : document_.buffers[0].size();
+      if (uri.empty() && !is_stand_in && (i > 0 || in_glb < size_t(length))) {
         return Problem(where, "the file ends before its data does", "copy the whole file again");
-      } else if (!uri.empty() && !IsSafeRelativePath(uri)) {
+      } else if (!uri.empty() && !uri.starts_with("data:") && !IsSafeRelativePath(uri)) {
         return Problem(where,
                        "names a file outside the model's folder: '" + uri.substr(0, 80) + "'",
                        "put all files of the model into one folder");
@@ -230,30 +214,6 @@ class Checker {
       }
     }
     return Status();
-  }
-
-  static int64_t ComponentBytes(int64_t type) {
-    switch (type) {
-      case 5120:
-      case 5121:
-        return 1;
-      case 5122:
-      case 5123:
-        return 2;
-      case 5125:
-      case 5126:
-        return 4;
-      default:
-        return 0;
-    }
-  }
-
-  static int64_t Components(const std::string& type) {
-    static const std::map<std::string, int64_t> kTypes = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3},
-                                                          {"VEC4", 4},   {"MAT2", 4}, {"MAT3", 9},
-                                                          {"MAT4", 16}};
-    const auto found = kTypes.find(type);
-    return found == kTypes.end() ? 0 : found->second;
   }
 
   // Checks that `count` elements are inside a buffer view.
@@ -290,7 +250,8 @@ class Checker {
                                 Number(accessor, "count", kMaxElements, where, std::nullopt));
       LARARIUM_ASSIGN_OR_RETURN(const int64_t type,
                                 Number(accessor, "componentType", 6000, where, std::nullopt));
-      const int64_t bytes = ComponentBytes(type) * Components(TextOr(accessor, "type", ""));
+      const auto bytes = static_cast<int64_t>(GltfComponentBytes(type) *
+                                              GltfComponents(TextOr(accessor, "type", "")));
       if (bytes == 0) {
         return Problem(where, "its type is not one of glTF");
       }
@@ -319,37 +280,9 @@ class Checker {
     if (type != 5121 && type != 5123 && type != 5125) {
       return Problem(where, "its indices must be whole numbers");
     }
-    LARARIUM_RETURN_IF_ERROR(CheckExtent(*indices, ComponentBytes(type), count, where));
-    LARARIUM_RETURN_IF_ERROR(CheckExtent(*values, element_bytes, count, where));
-    return CheckSparseIndices(*indices, type, count, element_count, where);
-  }
-
-  // Only indices in the GLB's own chunk can be checked here; others are refused.
-  Status CheckSparseIndices(const Json& indices,
-                            int64_t type,
-                            int64_t count,
-                            int64_t element_count,
-                            const std::string& where) const {
-    const Json& view = At("bufferViews", Find(indices, "bufferView")->get<size_t>());
-    if (!document_.is_binary || Find(view, "buffer")->get<size_t>() != 0) {
-      return Problem(where, "sparse data outside a GLB is not supported", "export it as .glb");
-    }
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t view_at,
-                              Number(view, "byteOffset", kMaxBytes, where, 0));
-    LARARIUM_ASSIGN_OR_RETURN(const int64_t at, Number(indices, "byteOffset", kMaxBytes, where, 0));
-    const int64_t bytes = ComponentBytes(type);
-    const size_t first = size_t(view_at + at);
-    if (first + size_t(bytes * count) > document_.binary.size()) {
-      return Problem(where, "reaches beyond the file");
-    }
-    for (int64_t i = 0; i < count; ++i) {
-      uint32_t index = 0;
-      std::memcpy(&index, document_.binary.data() + first + size_t(i * bytes), size_t(bytes));
-      if (index >= element_count) {
-        return Problem(where, "an index is out of range");
-      }
-    }
-    return Status();
+    LARARIUM_RETURN_IF_ERROR(
+        CheckExtent(*indices, static_cast<int64_t>(GltfComponentBytes(type)), count, where));
+    return CheckExtent(*values, element_bytes, count, where);
   }
 
   // Checks that each accessor of a primitive has one element per vertex.
@@ -530,7 +463,7 @@ Result<GltfDocument> SplitBinary(std::span<const std::byte> bytes, const std::st
   GltfDocument document;
   document.is_binary = true;
   size_t at = kHeaderBytes;
-  bool has_json = false, has_binary = false;
+  bool has_json = false;
   while (at + kChunkHeaderBytes <= bytes.size()) {
     const size_t length = ReadU32(bytes, at);
     const uint32_t type = ReadU32(bytes, at + 4);
@@ -545,9 +478,8 @@ Result<GltfDocument> SplitBinary(std::span<const std::byte> bytes, const std::st
       }
       LARARIUM_ASSIGN_OR_RETURN(document.json, ParseJson(Text(chunk), where));
       has_json = true;
-    } else if (type == kBinaryChunk && !has_binary) {
-      document.binary.assign(chunk.begin(), chunk.end());
-      has_binary = true;
+    } else if (type == kBinaryChunk && document.buffers.empty()) {
+      document.buffers.emplace_back(chunk.begin(), chunk.end());
     }
     at += length + (4 - length % 4) % 4;
   }
@@ -602,39 +534,41 @@ Result<GltfDocument> ParseGltf(std::span<const std::byte> bytes, const std::stri
   return document;
 }
 
-std::vector<std::byte> SerializeWithIndexNames(const GltfDocument& document) {
-  Json json = document.json;
-  for (const auto& [list, letter] : {std::pair{"nodes", "n"}, std::pair{"meshes", "m"}}) {
-    if (json.contains(list)) {
-      for (size_t i = 0; i < json[list].size(); ++i) {
-        json[list][i]["name"] = letter + std::to_string(i);
+Status ReadGltfBuffers(const std::filesystem::path& file, GltfDocument& document) {
+  const Json* buffers = Find(document.json, "buffers");
+  document.buffers.resize(buffers == nullptr ? 0 : buffers->size());
+  for (size_t i = 0; i < document.buffers.size(); ++i) {
+    const std::string uri = TextOr((*buffers)[i], "uri", "");
+    const std::string where = file.string() + ": buffers[" + std::to_string(i) + "]";
+    if (uri.starts_with("data:")) {
+      LARARIUM_ASSIGN_OR_RETURN(document.buffers[i], DecodeDataUri(uri, where));
+    } else if (!uri.empty()) {
+      const std::filesystem::path found = FindReferenced(file, uri);
+      if (found.empty()) {
+        return Status::Error(where, "its file '" + uri.substr(0, 256) + "' is missing",
+                             "put all files of the model into one folder");
       }
+      LARARIUM_ASSIGN_OR_RETURN(document.buffers[i], ReadBytes(found));
+    }
+    if (!uri.empty() && document.buffers[i].size() < WholeOr((*buffers)[i], "byteLength", 0)) {
+      return Status::Error(where, "holds fewer bytes than it says", "copy all files again");
     }
   }
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::vector<std::byte> bytes;
-  if (!document.is_binary) {
-    const auto begin = reinterpret_cast<const std::byte*>(text.data());
-    return {begin, begin + text.size()};
+  return Status();
+}
+
+Result<std::vector<std::byte>> DecodeDataUri(std::string_view uri, const std::string& where) {
+  const size_t comma = uri.find(',');
+  const std::string_view text = uri.substr(comma == uri.npos ? uri.size() : comma + 1);
+  std::vector<std::byte> bytes(text.size() / 4 * 3 + 3);
+  size_t size = 0;
+  if (comma == uri.npos || uri.substr(0, comma).find("base64") == uri.npos ||
+      sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), text.data(),
+                        text.size(), " \r\n\t=", &size, nullptr,
+                        sodium_base64_VARIANT_ORIGINAL_NO_PADDING) != 0) {
+    return Status::Error(where, "its data is not valid base64", "export the file again");
   }
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  const size_t binary_bytes = (document.binary.size() + 3) / 4 * 4;
-  const size_t total = kHeaderBytes + kChunkHeaderBytes + text.size() +
-                       (binary_bytes == 0 ? 0 : kChunkHeaderBytes + binary_bytes);
-  bytes.reserve(total);
-  AppendU32(bytes, 0x46546c67);
-  AppendU32(bytes, 2);
-  AppendU32(bytes, static_cast<uint32_t>(total));
-  AppendU32(bytes, static_cast<uint32_t>(text.size()));
-  AppendU32(bytes, kJsonChunk);
-  const auto begin = reinterpret_cast<const std::byte*>(text.data());
-  bytes.insert(bytes.end(), begin, begin + text.size());
-  if (binary_bytes > 0) {
-    AppendU32(bytes, static_cast<uint32_t>(binary_bytes));
-    AppendU32(bytes, kBinaryChunk);
-    bytes.insert(bytes.end(), document.binary.begin(), document.binary.end());
-    bytes.resize(total);
-  }
+  bytes.resize(size);
   return bytes;
 }
 
@@ -645,12 +579,64 @@ bool IsSafeRelativePath(std::string_view uri) {
   }
   std::string path(uri);
   std::replace(path.begin(), path.end(), '\\', '/');
-  for (const auto& part : std::filesystem::path(path)) {
-    if (part == "..") {
-      return false;
-    }
+  const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
+  return *normal.begin() != ".." && path.find("%2e") == std::string::npos &&
+         path.find("%2E") == std::string::npos;
+}
+
+const Json* Find(const Json& json, const char* key) {
+  if (!json.is_object()) {
+    return nullptr;
   }
-  return path.find("%2e") == std::string::npos && path.find("%2E") == std::string::npos;
+  const auto found = json.find(key);
+  return found == json.end() ? nullptr : &*found;
+}
+
+const Json* FindExtension(const Json& json, const char* name) {
+  const Json* extensions = Find(json, "extensions");
+  return extensions == nullptr ? nullptr : Find(*extensions, name);
+}
+
+std::string TextOr(const Json& json, const char* key, const std::string& instead) {
+  const Json* text = Find(json, key);
+  return text != nullptr && text->is_string() ? text->get<std::string>() : instead;
+}
+
+size_t WholeOr(const Json& json, const char* key, size_t instead) {
+  const Json* value = Find(json, key);
+  const bool is_whole = value != nullptr && value->is_number_integer() &&
+                        (value->is_number_unsigned() || value->get<int64_t>() >= 0);
+  return is_whole ? value->get<size_t>() : instead;
+}
+
+float NumberOr(const Json& json, const char* key, float instead) {
+  const Json* value = Find(json, key);
+  return value != nullptr && value->is_number() ? value->get<float>() : instead;
+}
+
+bool ReadNumbers(const Json& json, const char* key, std::span<float> values) {
+  const Json* list = Find(json, key);
+  if (list == nullptr || !list->is_array() || list->size() != values.size() ||
+      !std::all_of(list->begin(), list->end(), [](const Json& n) { return n.is_number(); })) {
+    return false;
+  }
+  std::transform(list->begin(), list->end(), values.begin(),
+                 [](const Json& number) { return number.get<float>(); });
+  return true;
+}
+
+size_t GltfComponentBytes(int64_t type) {
+  static const std::map<int64_t, size_t> kTypes = {{5120, 1}, {5121, 1}, {5122, 2},
+                                                   {5123, 2}, {5125, 4}, {5126, 4}};
+  const auto found = kTypes.find(type);
+  return found == kTypes.end() ? 0 : found->second;
+}
+
+size_t GltfComponents(const std::string& type) {
+  static const std::map<std::string, size_t> kTypes = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  const auto found = kTypes.find(type);
+  return found == kTypes.end() ? 0 : found->second;
 }
 
 }  // namespace lararium::import

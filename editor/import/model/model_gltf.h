@@ -1,10 +1,11 @@
 #pragma once
 
-// Validates the JSON of a glTF 2.0 file before a library reads it. Assimp drops the VRM
-// extensions, follows some indices without checking them, and confuses bones with equal names;
-// after SerializeWithIndexNames each node and mesh has its index as its name.
+// Checks the JSON of a glTF 2.0 file before its data is read, so that indices and extents in it
+// can be used without further checks.
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,7 +17,8 @@ namespace lararium::import {
 
 struct GltfDocument {
   Json json;
-  std::vector<std::byte> binary;  // The second chunk of a GLB.
+  // The bytes of each buffer; of a GLB only the second chunk until ReadGltfBuffers is called.
+  std::vector<std::vector<std::byte>> buffers;
   bool is_binary = false;
 
   // The name in the file, or the index if it has none.
@@ -33,10 +35,30 @@ bool LooksLikeGltf(std::span<const std::byte> bytes);
 // Each names the location in the file.
 Result<GltfDocument> ParseGltf(std::span<const std::byte> bytes, const std::string& where);
 
-// The document with node i named "n<i>" and mesh i "m<i>", in its original format.
-std::vector<std::byte> SerializeWithIndexNames(const GltfDocument& document);
+// Decodes the buffers that are part of the document and reads those in files beside `file`, never
+// outside its folder.
+Status ReadGltfBuffers(const std::filesystem::path& file, GltfDocument& document);
+
+// Decodes base64 in a "data:" URI. Errors name `where`.
+Result<std::vector<std::byte>> DecodeDataUri(std::string_view uri, const std::string& where);
 
 // Says whether a path from a file stays below the folder of the file.
 bool IsSafeRelativePath(std::string_view uri);
+
+// ---- Fields that may be missing or of another type ----
+
+const Json* Find(const Json& json, const char* key);
+// An extension of an object of the document.
+const Json* FindExtension(const Json& json, const char* name);
+std::string TextOr(const Json& json, const char* key, const std::string& instead);
+// A whole number of at least 0.
+size_t WholeOr(const Json& json, const char* key, size_t instead);
+float NumberOr(const Json& json, const char* key, float instead);
+// Reads a list of exactly as many numbers as `values` has; otherwise leaves them unchanged.
+bool ReadNumbers(const Json& json, const char* key, std::span<float> values);
+
+// Bytes of a component type, and components of an element type; 0 for unknown ones.
+size_t GltfComponentBytes(int64_t type);
+size_t GltfComponents(const std::string& type);
 
 }  // namespace lararium::import

@@ -1,9 +1,6 @@
 #include "editor/import/model/model_import.h"
 
-#include <cstring>
 #include <functional>
-#include <glm/matrix.hpp>
-#include <span>
 
 #include "editor/import/model/model_builder.h"
 #include "editor/import/model/model_isolation.h"
@@ -14,8 +11,6 @@
 
 namespace lararium::import {
 namespace {
-
-constexpr size_t kMaxMeshVertices = 2'000'000;
 
 using Bytes = std::vector<std::byte>;
 using Work = std::function<Result<Bytes>()>;
@@ -84,70 +79,6 @@ Result<ImportedHuman> Import(const std::filesystem::path& file,
   return imported;
 }
 
-Result<geometry::TriangleMesh> MergeMeshes(const std::filesystem::path& file) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<ModelScene> model, ReadModelScene(file));
-  const SceneNodes& nodes = model->nodes;
-  std::vector<glm::mat4> scene_from_node(nodes.size());
-  nodes.Globals(nodes.local, scene_from_node);
-  geometry::TriangleMesh result;
-  for (size_t n = 0; n < nodes.size(); ++n) {
-    for (unsigned i = 0; i < nodes.nodes[n]->mNumMeshes; ++i) {
-      const aiMesh& mesh = *model->scene->mMeshes[nodes.nodes[n]->mMeshes[i]];
-      const auto first = static_cast<uint32_t>(result.positions.size());
-      if (first + size_t{mesh.mNumVertices} > kMaxMeshVertices) {
-        return Status::Error(
-            file.string(), "there are more than " + std::to_string(kMaxMeshVertices) + " vertices");
-      }
-      for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-        result.positions.emplace_back(scene_from_node[n] *
-                                      glm::vec4(ToGlm(mesh.mVertices[v]), 1.0f));
-      }
-      for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-        const aiFace& face = mesh.mFaces[f];
-        for (unsigned k = 0; face.mNumIndices == 3 && k < 3; ++k) {
-          result.indices.push_back(first + face.mIndices[k]);
-        }
-      }
-    }
-  }
-  return result;
-}
-
-Result<Bytes> PackMesh(const geometry::TriangleMesh& mesh) {
-  const uint64_t count = mesh.positions.size();
-  Bytes bytes(sizeof(count));
-  std::memcpy(bytes.data(), &count, sizeof(count));
-  const auto positions = std::as_bytes(std::span(mesh.positions));
-  const auto indices = std::as_bytes(std::span(mesh.indices));
-  bytes.insert(bytes.end(), positions.begin(), positions.end());
-  bytes.insert(bytes.end(), indices.begin(), indices.end());
-  return bytes;
-}
-
-Result<geometry::TriangleMesh> UnpackMesh(std::span<const std::byte> bytes,
-                                          const std::string& where) {
-  uint64_t count = 0;
-  geometry::TriangleMesh mesh;
-  if (bytes.size() >= sizeof(count)) {
-    std::memcpy(&count, bytes.data(), sizeof(count));
-    bytes = bytes.subspan(sizeof(count));
-  }
-  if (count > kMaxMeshVertices || count * sizeof(glm::vec3) > bytes.size()) {
-    return Status::Error(where, "its reader returned invalid data");
-  }
-  mesh.positions.resize(count);
-  const size_t position_bytes = count * sizeof(glm::vec3);
-  if (count > 0) {
-    std::memcpy(static_cast<void*>(mesh.positions.data()), bytes.data(), position_bytes);
-  }
-  bytes = bytes.subspan(position_bytes);
-  mesh.indices.resize(bytes.size() / sizeof(uint32_t));
-  if (!mesh.indices.empty()) {
-    std::memcpy(mesh.indices.data(), bytes.data(), mesh.indices.size() * sizeof(uint32_t));
-  }
-  return mesh;
-}
-
 }  // namespace
 
 Result<ImportedHuman> ImportPerson(const std::filesystem::path& file,
@@ -171,21 +102,6 @@ Result<ImportedHuman> ImportMotion(const std::filesystem::path& file,
     return Status::Error(file.string(), "there is no animation in it", "export it with one");
   }
   return imported;
-}
-
-Result<geometry::TriangleMesh> ImportMesh(const std::filesystem::path& file) {
-  const Work work = [&]() -> Result<Bytes> {
-    LARARIUM_ASSIGN_OR_RETURN(const geometry::TriangleMesh mesh, MergeMeshes(file));
-    return PackMesh(mesh);
-  };
-  LARARIUM_ASSIGN_OR_RETURN(const Bytes bytes, RunInChild(file.string(), work));
-  LARARIUM_ASSIGN_OR_RETURN(geometry::TriangleMesh result, UnpackMesh(bytes, file.string()));
-  if (result.indices.empty()) {
-    return Status::Error(file.string(), "there is no triangle in it");
-  }
-  LARARIUM_RETURN_IF_ERROR(result.Validate(file.string()));
-  geometry::ComputeNormals(result);
-  return result;
 }
 
 }  // namespace lararium::import

@@ -1,9 +1,9 @@
 #pragma once
 
 // Imports figures and meshes from files of other programs (glTF 2.0, VRM, FBX, Collada, OBJ,
-// BVH). Any file gives a value or a Status that names it: assimp's readers run in a child
-// process with limits on memory and time, so that a crash or hang is an error too, and the
-// result of the child is validated.
+// BVH). Any file gives a value or a Status that names it: its reader runs in a child process
+// with limits on memory and time, so that a crash or hang is an error too, and the result of
+// the child is validated.
 
 #include <filesystem>
 #include <optional>
@@ -25,6 +25,7 @@ struct ImportOptions {
   std::optional<float> metres_per_unit;
   float keys_per_second = 30.0f;  // Rate at which clips are resampled.
   bool in_child_process = true;   // False for tests that examine the reader itself.
+  bool needs_skeleton = true;     // False for objects, whose nodes are their parts.
 };
 
 struct ImportedHuman {
@@ -57,7 +58,8 @@ Result<ImportedHuman> ImportMotion(const std::filesystem::path& file,
                                    const ImportOptions& options = {});
 
 // Imports all meshes of the file as one, transformed by their nodes, in the axes and units of
-// the file.
-Result<geometry::TriangleMesh> ImportMesh(const std::filesystem::path& file);
+// the file. What the reader guessed or left out is added to `notes`.
+Result<geometry::TriangleMesh> ImportMesh(const std::filesystem::path& file,
+                                          std::vector<std::string>& notes);
 
 }  // namespace lararium::import

@@ -49,7 +49,7 @@ class PartGatherer {
         LARARIUM_RETURN_IF_ERROR(GatherPart(n, node.mMeshes[i]));
       }
     }
-    if (model_.extension == ".bvh" || parts_.empty()) {
+    if (parts_.empty()) {
       return Status::Error(model_.place(), "there is no mesh in it",
                            "import it as a clip, or export it with its mesh");
     }

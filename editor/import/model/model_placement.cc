@@ -20,10 +20,8 @@ constexpr float kWellPlaced = 0.02f;  // A figure this close to the floor is not
 constexpr float kFarOff = 0.25f;
 
 glm::mat3 FindRotation(const ModelRig& rig, std::vector<std::string>& notes) {
-  const auto frame = FindFigureFrame(rig.bones, rig.map);
-  if (!frame) {
-    notes.push_back(
-        "no human body was recognised; it is taken to stand Y up, facing +Z, as glTF's do");
+  const auto frame = FindFigureFrame(rig.bones, rig.map, rig.is_posed);
+  if (!frame) {  // Y up, facing +Z, as figures in glTF do.
     return glm::mat3(-1, 0, 0, 0, 1, 0, 0, 0, -1);
   }
   if (!frame->sides_fit_feet) {
@@ -133,7 +131,8 @@ Result<glm::mat4> PlaceFigure(const ModelScene& model,
   const glm::mat3 rotation = FindRotation(rig, notes);
   const Extent extent = FindExtent(rotation, parts, rig, model.nodes);
   const float height = extent.high - extent.low;
-  if (!(height > 0.0f) || !std::isfinite(height)) {
+  const bool may_be_flat = !is_human && !parts.empty();
+  if (!(height > 0.0f || may_be_flat) || !std::isfinite(height)) {
     return Status::Error(model.place(), "the figure has no height", "export it again");
   }
   // A mesh has some unit, if only that of the format; captured motion may have none.

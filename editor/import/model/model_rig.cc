@@ -97,6 +97,7 @@ Result<ModelRig> FindRig(const ModelScene& model,
                          const BindPose& bind,
                          Content content,
                          const BoneNames& saved,
+                         bool needs_skeleton,
                          std::vector<std::string>& notes) {
   ModelRig result;
   result.bone_nodes = BoneNodes(model, bind, content);
@@ -112,9 +113,9 @@ Result<ModelRig> FindRig(const ModelScene& model,
     given.push_back(VrmBones(model, bone_of_node, result.node_of_bone));
   }
   result.map = MapBones(result.bones, given);
-  if (result.bone_nodes.empty() && !result.map.IsHuman()) {
+  if (needs_skeleton && result.bone_nodes.empty() && !result.map.IsHuman()) {
     return Status::Error(model.place(), "no part of it is bound to a skeleton",
-                         "import it as a prop, or export it with its armature");
+                         "add it as an object, or export it with its armature");
   }
   return result;
 }

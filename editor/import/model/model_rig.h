@@ -23,15 +23,17 @@ struct ModelRig {
   // VRM names them as bones, or they swing. If it is empty, the model is a puppet of rigid
   // parts, and any of its nodes may move.
   std::set<int> bone_nodes;
+  bool is_posed = false;  // The pose is one of a motion: the figure may face any way.
 };
 
 // The rig contains the bone nodes and all their ancestors, without the pivots of FBX. `saved`
-// is the map that the user trusts; bones in it that do not exist are listed in `notes`. Errors:
-// a scene that is neither bound to a skeleton nor built like a human body.
+// is the map that the user trusts; bones in it that do not exist are listed in `notes`. Errors,
+// if `needs_skeleton`: a scene that is neither bound to a skeleton nor built like a human body.
 Result<ModelRig> FindRig(const ModelScene& model,
                          const BindPose& bind,
                          Content content,
                          const BoneNames& saved,
+                         bool needs_skeleton,
                          std::vector<std::string>& notes);
 
 }  // namespace lararium::import

@@ -11,6 +11,8 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "editor/import/model/bvh_scene.h"
+#include "editor/import/model/survey_offset.h"
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
 #include "shared/core/memory.h"
@@ -19,6 +21,7 @@ namespace lararium::import {
 namespace {
 
 constexpr size_t kMaxNodes = 20'000;
+constexpr char kPivot[] = "_$AssimpFbx$_";  // Marks the nodes that assimp adds for FBX.
 
 // Reads only files below one folder.
 class FolderFiles : public Assimp::DefaultIOSystem {
@@ -54,23 +57,44 @@ void Configure(ModelScene& model) {
   importer.SetIOHandler(new FolderFiles(std::filesystem::absolute(model.file).parent_path()));
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  // Without the mesh that assimp makes from its bones, a BVH does not pass assimp's checks.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, model.extension != ".bvh");
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
 }
 
-const aiScene* Read(ModelScene& model, std::span<const std::byte> gltf) {
-  constexpr unsigned kSteps = aiProcess_ValidateDataStructure | aiProcess_Triangulate |
-                              aiProcess_SortByPType | aiProcess_GenSmoothNormals;
-  if (gltf.empty()) {
-    return model.importer.ReadFile(std::filesystem::absolute(model.file).string(), kSteps);
-  }
-  return model.importer.ReadFileFromMemory(gltf.data(), gltf.size(), kSteps,
-                                           model.extension.c_str() + 1);
+Status ReadGltf(std::span<const std::byte> bytes, ModelScene& model) {
+  LARARIUM_ASSIGN_OR_RETURN(model.gltf, ParseGltf(bytes, model.place()));
+  LARARIUM_RETURN_IF_ERROR(ReadGltfBuffers(model.file, *model.gltf));
+  model.extension = model.gltf->is_binary ? ".glb" : ".gltf";
+  LARARIUM_ASSIGN_OR_RETURN(model.own_scene,
+                            ReadGltfScene(*model.gltf, model.place(), model.notes));
+  model.gltf->buffers.clear();
+  model.vrm = ReadVrm(*model.gltf);
+  model.scene = model.own_scene.get();
+  return Status();
 }
 
 Status CannotBeImported(const std::filesystem::path& file, const std::string& why) {
   return Status::Error(file.string(), "cannot be imported: " + why,
                        "export it again, best as glTF 2.0 binary (.glb)");
+}
+
+// Reads the file, or `bytes` if it is not empty.
+Status ReadWithAssimp(std::span<const std::byte> bytes, ModelScene& model) {
+  constexpr unsigned kSteps = aiProcess_ValidateDataStructure | aiProcess_Triangulate |
+                              aiProcess_SortByPType | aiProcess_GenSmoothNormals;
+  try {
+    Configure(model);
+    model.scene =
+        bytes.empty()
+            ? model.importer.ReadFile(std::filesystem::absolute(model.file).string(), kSteps)
+            : model.importer.ReadFileFromMemory(bytes.data(), bytes.size(), kSteps,
+                                                model.extension.c_str() + 1);
+  } catch (const std::exception& exception) {
+    return CannotBeImported(model.file, exception.what());
+  } catch (...) {
+    return CannotBeImported(model.file, "its reader gave up");
+  }
+  return model.scene != nullptr ? Status()
+                                : CannotBeImported(model.file, model.importer.GetErrorString());
 }
 
 // The keys on either side of a time; `share` gets the weight of the second.
@@ -167,7 +191,8 @@ float ModelScene::StatedMetresPerUnit() const {
   return centimetres > 0.0 && centimetres < 1e6 ? static_cast<float>(0.01 * centimetres) : 1.0f;
 }
 
-Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& file) {
+Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& file,
+                                                   glm::dvec3* survey_offset) {
   auto model = std::make_unique<ModelScene>();
   model->file = file;
   model->extension = LowerCase(file.extension().string());
@@ -175,29 +200,25 @@ Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& 
   if (bytes.empty()) {
     return Status::Error(file.string(), "the file is empty");
   }
-  std::vector<std::byte> gltf;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (LooksLikeGltf(bytes)) {
-    LARARIUM_ASSIGN_OR_RETURN(model->gltf, ParseGltf(bytes, file.string()));
-    model->extension = model->gltf->is_binary ? ".glb" : ".gltf";
-    gltf = SerializeWithIndexNames(*model->gltf);
-  }
-  Release(bytes);
-  try {
-    Configure(*model);
-    model->scene = Read(*model, gltf);
-    if (model->scene == nullptr) {
-      return CannotBeImported(file, model->importer.GetErrorString());
+    LARARIUM_RETURN_IF_ERROR(ReadGltf(bytes, *model));
+  } else if (model->extension == ".bvh" || LooksLikeBvh(text)) {
+    LARARIUM_ASSIGN_OR_RETURN(model->own_scene,
+                              ReadBvhScene(text, model->place(), model->notes.structure));
+    model->scene = model->own_scene.get();
+  } else {
+    const glm::dvec3 offset =
+        survey_offset == nullptr ? glm::dvec3(0.0) : TakeOffSurvey(model->extension, bytes);
+    if (offset == glm::dvec3(0.0)) {
+      Release(bytes);
+    } else {
+      *survey_offset = offset;
     }
-  } catch (const std::exception& exception) {
-    return CannotBeImported(file, exception.what());
-  } catch (...) {
-    return CannotBeImported(file, "its reader gave up");
+    LARARIUM_RETURN_IF_ERROR(ReadWithAssimp(bytes, *model));
   }
   if (model->scene->mRootNode == nullptr) {
     return CannotBeImported(file, "there is nothing in it");
-  }
-  if (model->gltf) {
-    model->vrm = ReadVrm(*model->gltf);
   }
   LARARIUM_ASSIGN_OR_RETURN(model->nodes, ListNodes(*model));
   return model;
@@ -214,7 +235,7 @@ int SceneNodes::FindGltf(size_t gltf_node) const {
 }
 
 bool SceneNodes::IsPivot(size_t node) const {
-  return std::strstr(nodes[node]->mName.C_Str(), "_$AssimpFbx$_") != nullptr;
+  return std::strstr(nodes[node]->mName.C_Str(), kPivot) != nullptr;
 }
 
 void SceneNodes::Globals(std::span<const glm::mat4> from_local,
@@ -234,6 +255,7 @@ AnimationSampler::AnimationSampler(const aiAnimation& animation, const SceneNode
     const int node = nodes.Find(keys.mNodeName);
     if (node != SceneNodes::kNoParent) {
       channels_.push_back({&keys, nodes.nodes[static_cast<size_t>(node)], node});
+      ReplacePivots(nodes, node);
       Extend(keys.mPositionKeys, keys.mNumPositionKeys, first, last);
       Extend(keys.mRotationKeys, keys.mNumRotationKeys, first, last);
       Extend(keys.mScalingKeys, keys.mNumScalingKeys, first, last);
@@ -245,7 +267,23 @@ AnimationSampler::AnimationSampler(const aiAnimation& animation, const SceneNode
   }
 }
 
+// Assimp 5.2 puts translation and pre-rotation of an FBX node into pivots above it, but keeps
+// them in the channel of the node too.
+void AnimationSampler::ReplacePivots(const SceneNodes& nodes, int node) {
+  const std::string pivot =
+      std::string(nodes.nodes[static_cast<size_t>(node)]->mName.C_Str()) + kPivot;
+  for (int above = nodes.parents[static_cast<size_t>(node)];
+       above != SceneNodes::kNoParent &&
+       std::string_view(nodes.nodes[static_cast<size_t>(above)]->mName.C_Str()).starts_with(pivot);
+       above = nodes.parents[static_cast<size_t>(above)]) {
+    replaced_pivots_.push_back(static_cast<size_t>(above));
+  }
+}
+
 void AnimationSampler::Sample(double seconds, std::span<glm::mat4> local) const {
+  for (const size_t pivot : replaced_pivots_) {
+    local[pivot] = glm::mat4(1.0f);
+  }
   const double ticks = first_tick_ + seconds * ticks_per_second_;
   for (const Channel& channel : channels_) {
     local[static_cast<size_t>(channel.node)] = SampleChannel(*channel.keys, *channel.rest, ticks);

@@ -1,7 +1,8 @@
 #pragma once
 
-// A model file as assimp reads it, with additional information that our code needs. Internal to
-// editor/import: only code in the child process of model_isolation reads foreign files with it.
+// A model file as a scene of assimp, with additional information that our code needs. glTF and
+// BVH have readers of our own, assimp reads the other formats. Internal to editor/import: only
+// code in the child process of model_isolation reads foreign files with it.
 
 #include <assimp/scene.h>
 
@@ -16,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/import/model/model_gltf.h"
+#include "editor/import/model/gltf_scene.h"
 #include "editor/import/model/vrm.h"
 #include "shared/core/status.h"
 
@@ -45,13 +46,15 @@ struct SceneNodes {
 };
 
 struct ModelScene {
-  Assimp::Importer importer;  // owns the scene
+  Assimp::Importer importer;           // Owns the scene if assimp has read it.
+  std::unique_ptr<aiScene> own_scene;  // The scene if a reader of ours has.
   const aiScene* scene = nullptr;
   SceneNodes nodes;
   std::optional<GltfDocument> gltf;
   std::optional<Vrm> vrm;  // Only in glTF files.
   std::filesystem::path file;
   std::string extension;  // Lower case, with its dot.
+  GltfNotes notes;        // The reader lists here what it guessed or left out.
 
   // The name of the file, for errors.
   std::string place() const { return file.string(); }
@@ -60,8 +63,10 @@ struct ModelScene {
   float StatedMetresPerUnit() const;
 };
 
-// Opens no files outside the folder of the file. Errors name the file.
-Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& file);
+// Opens no files outside the folder of the file. If `survey_offset` is given, it gets what was
+// taken off the positions of a mesh in survey coordinates (TakeOffSurvey). Errors name the file.
+Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& file,
+                                                   glm::dvec3* survey_offset = nullptr);
 
 // One animation, sampled at any time.
 class AnimationSampler {
@@ -79,7 +84,10 @@ class AnimationSampler {
     const aiNode* rest;
     int node;
   };
+  void ReplacePivots(const SceneNodes& nodes, int node);
+
   std::vector<Channel> channels_;
+  std::vector<size_t> replaced_pivots_;  // Nodes whose part a channel contains too.
   double ticks_per_second_ = 25.0;
   double first_tick_ = 0.0;
   double duration_ = 0.0;

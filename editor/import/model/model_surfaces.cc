@@ -166,7 +166,7 @@ class SurfaceReader {
   }
 
   std::optional<ModelImage> ReadBeside(const std::string& uri) {
-    const std::filesystem::path file = FindTexture(model_.file, uri);
+    const std::filesystem::path file = FindReferenced(model_.file, uri);
     auto bytes = file.empty() ? Result<std::vector<std::byte>>(Status::Error(
                                     uri.substr(0, 256), "is not in the model's folder"))
                               : ReadBytes(file, kMaxImageBytes);

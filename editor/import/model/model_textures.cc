@@ -55,22 +55,22 @@ std::string Unescaped(std::string_view uri) {
 
 }  // namespace
 
-std::filesystem::path FindTexture(const std::filesystem::path& model, std::string_view uri) {
+std::filesystem::path FindReferenced(const std::filesystem::path& model, std::string_view uri) {
   if (uri.size() > 4096) {
     return {};
   }
-  const std::string path = Unescaped(uri);
   const std::filesystem::path folder = model.parent_path();
-  const std::string bare =
-      path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
   std::vector<std::filesystem::path> candidates;
-  if (IsSafeRelativePath(path)) {
-    candidates.push_back(folder / path);
-  }
-  if (IsSafeRelativePath(bare)) {
-    candidates.push_back(folder / bare);
-    candidates.push_back(folder / "textures" / bare);
-    candidates.push_back(folder / (model.stem().string() + ".fbm") / bare);
+  for (const std::string& path : {Unescaped(uri), std::string(uri)}) {
+    if (IsSafeRelativePath(path)) {
+      candidates.push_back(folder / std::filesystem::path(path).lexically_normal());
+    }
+    const std::string bare = path.substr(path.rfind('/') + 1);
+    if (IsSafeRelativePath(bare)) {
+      candidates.push_back(folder / bare);
+      candidates.push_back(folder / "textures" / bare);
+      candidates.push_back(folder / (model.stem().string() + ".fbm") / bare);
+    }
   }
   for (const std::filesystem::path& candidate : candidates) {
     std::error_code error;

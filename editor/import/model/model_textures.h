@@ -26,10 +26,11 @@ struct TextureUse {
   int normal = -1;
 };
 
-// Finds the image of a model: at the path in the file, otherwise by its bare name beside the
-// model, in textures/ or in MODEL.fbm/ (paths of the author's computer are common). Never
-// outside the folder of the model. Empty if it is not found.
-std::filesystem::path FindTexture(const std::filesystem::path& model, std::string_view uri);
+// Finds an image or another part of a model: at the path in the file, with and without escapes
+// such as %20, otherwise by its bare name beside the model, in textures/ or in MODEL.fbm/ (paths
+// of the author's computer are common). Never outside the folder of the model. Empty if it is
+// not found.
+std::filesystem::path FindReferenced(const std::filesystem::path& model, std::string_view uri);
 
 // Decodes an image (PNG, JPEG or BMP), scales it down to kMaxTextureSide and encodes it as
 // JPEG, or as PNG if a part is transparent. Errors name `where`. Refuses images of more than 67

@@ -140,12 +140,16 @@ std::filesystem::path UseFileBeside(const std::filesystem::path& model) {
   return beside.replace_extension(kUseExtension);
 }
 
-Result<stage::Prop> ImportObject(const std::filesystem::path& file) {
+Result<stage::Prop> ImportObject(const std::filesystem::path& file,
+                                 std::vector<std::string>& notes) {
   if (EndsWith(file, kUseExtension)) {
     return RealThing(file);
   }
-  LARARIUM_ASSIGN_OR_RETURN(const human::Human model, ImportHuman(file));
-  LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, FromModel(model, file));
+  ImportOptions options;
+  options.needs_skeleton = false;
+  LARARIUM_ASSIGN_OR_RETURN(ImportedHuman model, ImportPerson(file, options));
+  notes = std::move(model.notes);
+  LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, FromModel(model.human, file));
   LARARIUM_ASSIGN_OR_RETURN(prop.use, FindUse(file));
   LARARIUM_RETURN_IF_ERROR(prop.Validate(file.string()));
   return prop;

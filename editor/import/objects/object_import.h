@@ -4,6 +4,8 @@
 // that only need a description.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "shared/core/status.h"
 #include "shared/stage/prop.h"
@@ -13,8 +15,10 @@ namespace lararium::import {
 // Reads a model (glTF, FBX, ...). Its nodes become parts, at most Prop::kMaxParts that have
 // meshes or lead to such parts. NAME.object.json beside it describes its use, otherwise the
 // `object` in the extras of its scene (glTF); without either it is scenery. The file may also
-// be NAME.object.json itself: a real object, which is used and not drawn.
-Result<stage::Prop> ImportObject(const std::filesystem::path& file);
+// be NAME.object.json itself: a real object, which is used and not drawn. What the reader guessed
+// or left out is added to `notes`.
+Result<stage::Prop> ImportObject(const std::filesystem::path& file,
+                                 std::vector<std::string>& notes);
 
 // The file for the use of a model.
 std::filesystem::path UseFileBeside(const std::filesystem::path& model);
