@@ -1,5 +1,6 @@
 #include "editor/check/drama_checks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "editor/document/check_sentences.h"
+#include "editor/text/text.h"
 #include "shared/core/utf8.h"
 #include "shared/drama/lua_tokens.h"
 #include "shared/drama/timeline_text.h"
@@ -20,11 +22,13 @@ using drama::CueRecord;
 using drama::LaneKind;
 using drama::TaskRecord;
 
-constexpr double kMoment = 0.1;                   // Overlaps of fewer seconds are ignored.
-constexpr double kTurn = 1.0;                     // Seconds that a person may wait for an object.
-constexpr float kCell = 0.5f;                     // metres
-constexpr float kLeap = 0.3f;                     // Metres in a tick that no one can walk.
-constexpr float kLow = 0.3f;                      // Lower occluders are stepped over.
+constexpr double kMoment = 0.1;  // Overlaps of fewer seconds are ignored.
+constexpr double kTurn = 1.0;    // Seconds that a person may wait for an object.
+constexpr float kCell = 0.5f;    // metres
+constexpr float kLeap = 0.3f;    // Metres in a tick that no one can walk.
+constexpr float kLow = 0.3f;     // Lower occluders are stepped over.
+// Occluders that are farther from the origin, larger or smaller hide nobody, metres.
+constexpr double kFarOff = 100.0, kLargest = 10'000.0, kSmallest = 0.01;
 constexpr float kHigh = 1.5f;                     // Higher occluders are passed under.
 constexpr float kHeights[] = {0.4f, 0.9f, 1.3f};  // Heights at which paths are tested.
 constexpr size_t kMostSteps = 50;
@@ -472,6 +476,35 @@ std::vector<Sentence> StepListener::Problems(const std::string& script,
   std::vector<Sentence> problems;
   for (const Step& step : steps_) {
     problems.push_back(AtPlace(where(step), AtTime(step.what, step.time)));
+  }
+  return problems;
+}
+
+// ---- Occluders ----
+
+std::vector<Sentence> CheckOccluders(std::span<const stage::Place> places) {
+  std::vector<Sentence> problems;
+  for (const stage::Place& place : places) {
+    for (const stage::Occluder& occluder : place.occluders) {
+      Eigen::AlignedBox3d box;
+      for (const glm::vec3& position : occluder.mesh.positions) {
+        const Eigen::Vector3d corner = geometry::ToEigen(position).cast<double>();
+        box.extend(occluder.stage_from_mesh * corner);
+      }
+      const double away = box.exteriorDistance(Eigen::Vector3d::Zero().eval());
+      const double size = box.diagonal().norm();
+      if (away > kFarOff) {
+        problems.push_back(AtPlace(
+            place.name,
+            Sentence("occluder '%s' lies %s m from the stage; place it with model points or --at",
+                     {occluder.name, std::to_string(std::lround(away))})));
+      } else if (size > kLargest || size < kSmallest) {
+        problems.push_back(
+            AtPlace(place.name,
+                    Sentence("occluder '%s' is %s m long; if its unit is not the metre, scale it",
+                             {occluder.name, Text("%.3g", size)})));
+      }
+    }
   }
   return problems;
 }

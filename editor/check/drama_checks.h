@@ -98,6 +98,10 @@ class StepListener {
   std::vector<Step> steps_;
 };
 
+// Finds occluders that are too far from the stage, too large or too small to hide anybody: their
+// unit or their coordinates are others than the stage's.
+std::vector<Sentence> CheckOccluders(std::span<const stage::Place> places);
+
 // Samples the ground below the feet of people; without a surface for shadows they seem to
 // float.
 class GroundListener {

@@ -302,6 +302,7 @@ class DryRunner {
     Append(CheckTurns(tasks), problems);
     Append(steps.Problems(script_, file_, tasks), problems);
     Append(ground.Problems(), problems);
+    Append(CheckOccluders(places_), problems);
     Append(CheckSaid(paths_, lines_, seen.said, tasks), problems);
     seen.report.tasks = TasksJson(tasks);
   }

@@ -280,6 +280,24 @@ std::vector<std::string> GroundProblems(const stage::Stage& stage,
   return EnglishOf(ground.Problems());
 }
 
+TEST(CheckOccluders, FindsThoseInOtherUnitsOrCoordinates) {
+  std::vector<stage::Place> places(1);
+  places[0].name = "bar";
+  stage::Occluder& wall = places[0].occluders.emplace_back();
+  wall.name = "wall";
+  wall.mesh = {
+      .positions = {{-2, 0, -3}, {2, 0, -3}, {2, 3, -3}}, .normals = {}, .indices = {0, 1, 2}};
+  EXPECT_THAT(EnglishOf(CheckOccluders(places)), IsEmpty());
+  wall.stage_from_mesh.translation.x() = 4'500'000.0;
+  EXPECT_THAT(EnglishOf(CheckOccluders(places)),
+              ElementsAre(HasSubstr("occluder 'wall' lies 4499998 m from the stage")));
+  wall.stage_from_mesh.translation.x() = 0.0;
+  for (const double scale : {0.001, 10'000.0}) {
+    wall.stage_from_mesh.scale = scale;
+    EXPECT_THAT(EnglishOf(CheckOccluders(places)), ElementsAre(HasSubstr("unit"))) << scale;
+  }
+}
+
 TEST_F(DramaChecksTest, PeopleWithoutAnythingThatCatchesTheirShadowsSeemToFloat) {
   const char* const script = R"(actor("keeper"):place{x = 1, z = 1})";
   const auto problems = [&](float height, bool receives_shadow, float half_width = 3.0f) {

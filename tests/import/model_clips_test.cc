@@ -53,7 +53,7 @@ class ModelClips : public ::testing::Test {
     LARARIUM_ASSIGN_OR_RETURN(const glm::mat4 actor_from_scene,
                               PlaceFigure(*model, {}, rig, 1.0f, notes));
     LARARIUM_ASSIGN_OR_RETURN(skeleton_, BuildSkeleton(*model, bind, {}, rig, actor_from_scene));
-    return SampleClips(*model, bind, skeleton_, keys_per_second);
+    return SampleClips(*model, bind, skeleton_, keys_per_second, notes);
   }
 
   test::TemporaryFolder folder_;

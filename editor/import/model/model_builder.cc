@@ -80,8 +80,8 @@ Result<BuiltModel> BuildModel(const ModelScene& model,
   if (content == Content::kFigure) {
     LARARIUM_RETURN_IF_ERROR(AddBody(model, bind, parts, skeleton, built));
   }
-  LARARIUM_ASSIGN_OR_RETURN(built.human.clips,
-                            SampleClips(model, bind, skeleton, options.keys_per_second));
+  LARARIUM_ASSIGN_OR_RETURN(
+      built.human.clips, SampleClips(model, bind, skeleton, options.keys_per_second, built.notes));
   built.human.skeleton = std::move(skeleton.joints);
   built.human.name = options.name.empty() ? model.file.stem().string() : options.name;
   built.human.credits = CreditsOf(model, options);

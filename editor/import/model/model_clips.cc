@@ -69,8 +69,13 @@ class ClipSampler {
               float keys_per_second)
       : model_(model), bind_(bind), skeleton_(skeleton), keys_per_second_(keys_per_second) {}
 
-  Result<std::vector<human::Clip>> Sample() {
+  Result<std::vector<human::Clip>> Sample(std::vector<std::string>& notes) {
     for (unsigned i = 0; i < model_.scene->mNumAnimations; ++i) {
+      const aiAnimation& animation = *model_.scene->mAnimations[i];
+      if (animation.mNumMeshChannels > 0 || animation.mNumMorphMeshChannels > 0) {
+        notes.push_back("clip '" + std::string(animation.mName.C_Str()) +
+                        "': the motion of its morph targets is left out");
+      }
       LARARIUM_RETURN_IF_ERROR(AddClip(*model_.scene->mAnimations[i]));
     }
     return std::move(clips_);
@@ -163,8 +168,9 @@ class ClipSampler {
 Result<std::vector<human::Clip>> SampleClips(const ModelScene& model,
                                              const BindPose& bind,
                                              const ModelSkeleton& skeleton,
-                                             float keys_per_second) {
-  return ClipSampler(model, bind, skeleton, keys_per_second).Sample();
+                                             float keys_per_second,
+                                             std::vector<std::string>& notes) {
+  return ClipSampler(model, bind, skeleton, keys_per_second).Sample(notes);
 }
 
 }  // namespace lararium::import

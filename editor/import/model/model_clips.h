@@ -13,10 +13,12 @@ namespace lararium::import {
 
 // Samples each animation at about this rate, with the last key exactly at its end. Clips keep
 // their root motion; they loop if the end equals the beginning. "Armature|Walk" becomes Walk,
-// and names are unique. Errors: a clip that is too long, or keys that are not finite.
+// and names are unique. What clips move besides nodes is listed in `notes`. Errors: a clip that is
+// too long, or keys that are not finite.
 Result<std::vector<human::Clip>> SampleClips(const ModelScene& model,
                                              const BindPose& bind,
                                              const ModelSkeleton& skeleton,
-                                             float keys_per_second);
+                                             float keys_per_second,
+                                             std::vector<std::string>& notes);
 
 }  // namespace lararium::import

@@ -99,6 +99,10 @@ class SurfaceReader {
         AddMaterial(*scene.mMaterials[index]);
       }
     }
+    if (used.size() > kMaxMaterials) {
+      notes_.push_back("it has " + std::to_string(used.size()) + " materials; those after the " +
+                       std::to_string(kMaxMaterials) + "th are left out");
+    }
     return std::move(read_);
   }
 
@@ -121,11 +125,32 @@ class SurfaceReader {
     use.normal = FindImage(source, {aiTextureType_NORMALS});
     const bool textured = use.colour >= 0;
     SetAlpha(source, textured, material);
+    if (!model_.gltf) {  // The reader of glTF tells this itself.
+      TellOtherTextures(source, material.name);
+    }
     const glm::vec3 colour = ColourOf(source, model_.gltf.has_value());
     material.colour = textured ? colour : glm::vec3(1.0f);
     read_.vertex_colours.push_back(textured ? glm::vec3(1.0f) : colour);
     read_.materials.push_back(material);
     read_.uses.push_back(use);
+  }
+
+  void TellOtherTextures(const aiMaterial& source, const std::string& name) {
+    std::string list;
+    for (const auto& [type, what] : {std::pair{aiTextureType_EMISSIVE, "emission"},
+                                     {aiTextureType_SPECULAR, "specular colour"},
+                                     {aiTextureType_OPACITY, "opacity"},
+                                     {aiTextureType_HEIGHT, "bumps"},
+                                     {aiTextureType_DISPLACEMENT, "displacement"},
+                                     {aiTextureType_METALNESS, "metal"},
+                                     {aiTextureType_AMBIENT_OCCLUSION, "occlusion"}}) {
+      if (source.GetTextureCount(type) > 0) {
+        list += (list.empty() ? "" : ", ") + std::string(what);
+      }
+    }
+    if (!list.empty()) {
+      notes_.push_back("material '" + name + "': its textures of " + list + " are not taken over");
+    }
   }
 
   // The index of an image, which is added if it is new; -1 if there is no usable one.

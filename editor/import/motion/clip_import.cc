@@ -61,6 +61,10 @@ Result<ImportedClip> ImportClip(const std::filesystem::path& file,
   LARARIUM_ASSIGN_OR_RETURN(ImportedHuman source, ImportMotion(file, import_options));
   LARARIUM_ASSIGN_OR_RETURN(const human::Clip* clip,
                             Choose(source.human.clips, options.source_clip, file.string()));
+  if (source.human.clips.size() > 1 && options.source_clip.empty()) {
+    source.notes.push_back("it has " + std::to_string(source.human.clips.size()) +
+                           " clips; the longest, '" + clip->name + "', is taken");
+  }
   ImportedClip imported;
   RetargetOptions retarget = options.retarget;
   const float calibration =

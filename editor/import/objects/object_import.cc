@@ -149,6 +149,10 @@ Result<stage::Prop> ImportObject(const std::filesystem::path& file,
   options.needs_skeleton = false;
   LARARIUM_ASSIGN_OR_RETURN(ImportedHuman model, ImportPerson(file, options));
   notes = std::move(model.notes);
+  const human::Human& human = model.human;
+  if (!human.clips.empty() || !human.morphs.empty() || !human.springs.empty()) {
+    notes.emplace_back("objects are rigid: its clips, morph targets and springs are left out");
+  }
   LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, FromModel(model.human, file));
   LARARIUM_ASSIGN_OR_RETURN(prop.use, FindUse(file));
   LARARIUM_RETURN_IF_ERROR(prop.Validate(file.string()));
