@@ -16,11 +16,11 @@
 #include <exception>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <tuple>
 #include <vector>
 
 #include "editor/bake/chromaticities.h"
+#include "shared/core/file.h"
 #include "shared/core/lower_case.h"
 
 namespace lararium::bake {
@@ -243,7 +243,7 @@ Status WriteExr(const std::filesystem::path& file,
                 int width,
                 int height,
                 std::span<const glm::vec4> pixels) {
-  const std::filesystem::path unfinished = file.string() + ".part";
+  LARARIUM_ASSIGN_OR_RETURN(FileReplacement replacement, FileReplacement::Begin(file));
   try {
     Imf::Header header(width, height);
     Imf::FrameBuffer buffer;
@@ -255,15 +255,13 @@ Status WriteExr(const std::filesystem::path& file,
           Imf::Slice::Make(Imf::FLOAT, &pixels[0][channel], header.dataWindow(), sizeof(glm::vec4),
                            sizeof(glm::vec4) * static_cast<size_t>(width)));
     }
-    Imf::OutputFile output(unfinished.c_str(), header);
+    Imf::OutputFile output(replacement.unfinished().c_str(), header);
     output.setFrameBuffer(buffer);
     output.writePixels(height);
   } catch (const std::exception& error) {
     return Status::Error(file.string(), std::string("cannot be written: ") + error.what());
   }
-  std::error_code error;
-  std::filesystem::rename(unfinished, file, error);
-  return error ? Status::Error(file.string(), "cannot be written: " + error.message()) : Status();
+  return replacement.Commit();
 }
 
 }  // namespace lararium::bake

@@ -203,8 +203,8 @@ class DryRunner {
       Append(CheckCues(script_, file_, cues), all.problems);
       if (all.tasks.empty() && cues.cues.empty() && timeline.ok() && timeline->lanes().empty() &&
           !Names(script_, "main")) {
-        all.problems.push_back(
-            AtPlace(file_ + ":1", Sentence("has no function main() and no track, so nothing happens")));
+        all.problems.push_back(AtPlace(
+            file_ + ":1", Sentence("has no function main() and no track, so nothing happens")));
       }
     }
     return all;

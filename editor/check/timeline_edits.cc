@@ -312,7 +312,7 @@ std::string FormatCopied(std::span<const CopiedItem> items) {
     list.push_back(
         {{"lane", drama::NameOf(item.lane)}, {"actor", item.actor}, {"item", item.fields}});
   }
-  return Json{{"lararium_timeline", list}}.dump(1, ' ', false, Json::error_handler_t::replace);
+  return DumpJson(Json{{"lararium_timeline", list}}, 1);
 }
 
 std::optional<std::vector<CopiedItem>> ParseCopied(std::string_view text) {

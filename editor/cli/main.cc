@@ -21,7 +21,9 @@
 #include "editor/jobs/portrait.h"
 #include "editor/jobs/reference.h"
 #include "editor/window/window.h"
+#include "shared/core/json.h"
 #include "shared/core/log.h"
+#include "shared/core/uncaught.h"
 
 namespace {
 
@@ -33,7 +35,7 @@ constexpr int kFailed = 1;
 
 int ReportFailure(const Status& status, bool json) {
   if (json) {
-    std::printf("%s\n", Json{{"error", status.message()}}.dump(1).c_str());
+    std::printf("%s\n", DumpJson(Json{{"error", status.message()}}, 1).c_str());
   }
   std::fprintf(stderr, "%s\n", status.message().c_str());
   return kFailed;
@@ -128,6 +130,7 @@ Result<CommandResult> Run(const CommandLine& line, Log& log) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ReportUncaughtExceptions();
   const auto parsed = ParseCommandLine(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) {
     return *code;
@@ -145,7 +148,7 @@ int main(int argc, char** argv) {
     return ReportFailure(result.status(), line.json);
   }
   if (line.json) {
-    std::printf("%s\n", result->json.dump(1).c_str());
+    std::printf("%s\n", DumpJson(result->json, 1).c_str());
   } else {
     std::fputs(result->text.c_str(), stdout);
   }

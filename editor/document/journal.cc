@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shared/core/file.h"
+#include "shared/core/json.h"
 
 namespace lararium::editor {
 namespace {
@@ -35,9 +36,7 @@ std::string Record(std::string_view header, std::string_view payload) {
   return record;
 }
 
-std::string Dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string Dump(const Json& json) { return DumpJson(json); }
 
 std::string EditHeader(std::string_view kind, const drama::TextEdit& edit) {
   return std::string(kind) + ' ' + std::to_string(edit.offset) + ' ' +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "editor/text/text.h"
@@ -103,7 +104,13 @@ BackgroundTask::BackgroundTask(TaskKind kind, Work work, std::vector<TaskStep> s
     : kind_(kind), steps_(std::move(steps)) {
   thread_ = std::jthread([this, work = std::move(work)] {
     Reporter reporter(*this);
-    Status status = work(reporter);
+    Status status;
+    try {
+      status = work(reporter);
+    } catch (const std::bad_alloc&) {
+      status = Status::Error(Tr(TaskName(kind_)), "the system has no more memory",
+                             "close other programs and try again");
+    }
     TrimHeap();  // Such work often frees much memory at its end.
     const std::lock_guard lock(mutex_);
     outcome_ = std::move(status);

@@ -91,6 +91,7 @@ Status ExportProject(const ProjectPaths& paths,
   if (!request.key.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(key, bundle::LoadSecretKey(request.key));
   }
+  LARARIUM_RETURN_IF_ERROR(RequireSpace(request.out.parent_path()));
   LARARIUM_RETURN_IF_ERROR(Bake(paths, document, progress).status());
   exporter::ExportContent content;
   content.title = document.title;

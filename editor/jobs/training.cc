@@ -11,6 +11,7 @@
 #include "editor/jobs/training_report.h"
 #include "editor/train/capture_report.h"
 #include "editor/train/session_merge.h"
+#include "shared/core/file.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::editor {
@@ -131,6 +132,7 @@ Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                                       const TrainingOptions& options,
                                       Progress& progress,
                                       Log& log) {
+  LARARIUM_RETURN_IF_ERROR(RequireSpace(paths.Scene(place.name).parent_path()));
   const SessionDocument first{place.training, place.intrinsics};
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSource(paths, first.source));
   LARARIUM_ASSIGN_OR_RETURN(train::TrainResult result,
@@ -157,6 +159,7 @@ Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
                                         const TrainingOptions& options,
                                         Progress& progress,
                                         Log& log) {
+  LARARIUM_RETURN_IF_ERROR(RequireSpace(paths.Scene(place.name).parent_path()));
   LARARIUM_ASSIGN_OR_RETURN(const SceneDatabase map, LoadMap(paths, place.name));
   LARARIUM_ASSIGN_OR_RETURN(train::TrainResult result,
                             MergeSession(paths, place, map, session, options, progress, log));

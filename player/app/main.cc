@@ -12,6 +12,7 @@
 #include "player/benchmark/benchmark.h"
 #include "player/staff/staff_page.h"
 #include "shared/core/log.h"
+#include "shared/core/uncaught.h"
 
 namespace {
 
@@ -39,6 +40,7 @@ Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log
 }  // namespace
 
 int main(int argc, char** argv) {
+  ReportUncaughtExceptions();
   const auto start = std::chrono::steady_clock::now();
   const Command command = ParseCommandLine(argc, argv);
   if (const int* code = std::get_if<int>(&command)) {

@@ -107,7 +107,7 @@ std::string StaffJson(const StaffState& state, const StaffMachine& machine) {
       {"restarts", state.restarts},
       {"memory_mib", machine.memory_mib},
       {"warnings", JsonOf(machine.warnings)}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return DumpJson(json);
 }
 
 }  // namespace lararium::player

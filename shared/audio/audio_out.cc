@@ -3,11 +3,12 @@
 #include <sndfile.h>
 
 #include <chrono>
-#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "shared/audio/openal_out.h"
 #include "shared/audio/sound_graph.h"
+#include "shared/core/file.h"
 
 namespace lararium::audio {
 namespace {
@@ -38,12 +39,13 @@ class NoOut : public AudioOut {
 class FileOut : public AudioOut {
  public:
   static Result<std::unique_ptr<AudioOut>> Create(const std::filesystem::path& file) {
-    auto out = std::unique_ptr<FileOut>(new FileOut(file));
+    LARARIUM_ASSIGN_OR_RETURN(FileReplacement replacement, FileReplacement::Begin(file));
+    auto out = std::unique_ptr<FileOut>(new FileOut(file, std::move(replacement)));
     SF_INFO info = {};
     info.samplerate = SoundGraph::kRate;
     info.channels = 2;
     info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_16;
-    out->sound_ = sf_open(out->temporary_.c_str(), SFM_WRITE, &info);
+    out->sound_ = sf_open(out->replacement_.unfinished().c_str(), SFM_WRITE, &info);
     if (out->sound_ == nullptr) {
       return Status::Error(file.string(), std::string("cannot be written: ") + sf_strerror(nullptr),
                            "check the folder");
@@ -56,8 +58,6 @@ class FileOut : public AudioOut {
     if (sound_ != nullptr) {
       sf_close(sound_);
     }
-    std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
   }
 
   Status Write(std::span<const float> stereo) override {
@@ -68,22 +68,19 @@ class FileOut : public AudioOut {
   Status Finish() override {
     const int error = sf_close(sound_);
     sound_ = nullptr;
-    std::error_code renamed;
-    std::filesystem::rename(temporary_, file_, renamed);
-    return error != 0 || renamed ? Problem() : Status();
+    return error != 0 ? Problem() : replacement_.Commit();
   }
   std::string name() const override { return file_.string(); }
 
  private:
-  explicit FileOut(std::filesystem::path file) : file_(std::move(file)), temporary_(file_) {
-    temporary_ += ".part";
-  }
+  FileOut(std::filesystem::path file, FileReplacement replacement)
+      : file_(std::move(file)), replacement_(std::move(replacement)) {}
   Status Problem() const {
     return Status::Error(file_.string(), "cannot be written", "check the free space");
   }
 
   std::filesystem::path file_;
-  std::filesystem::path temporary_;
+  FileReplacement replacement_;
   SNDFILE* sound_ = nullptr;
 };
 

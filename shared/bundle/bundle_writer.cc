@@ -1,12 +1,9 @@
 #include "shared/bundle/bundle_writer.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <zip.h>
 
-#include <cerrno>
-#include <cstring>
 #include <memory>
+#include <utility>
 
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/member_name.h"
@@ -88,30 +85,6 @@ Status WriteArchive(const std::filesystem::path& path, const std::vector<Source>
   return Status();
 }
 
-// The file that is written first. libzip appends seven bytes more to it while it writes, and names
-// have at most 255 bytes.
-std::filesystem::path UnfinishedFile(const std::filesystem::path& path) {
-  constexpr size_t kLongest = 200;
-  return path.parent_path() / (path.filename().string().substr(0, kLongest) + ".part");
-}
-
-// Flushes the file `from` to disk and renames it to `to`.
-Status Publish(const std::filesystem::path& from, const std::filesystem::path& to) {
-  const auto sync = [](const std::filesystem::path& path) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-    if (descriptor >= 0) {
-      ::close(descriptor);
-    }
-    return synced;
-  };
-  if (!sync(from) || ::rename(from.c_str(), to.c_str()) != 0) {
-    return Status::Error(to.string(), std::string("cannot replace: ") + std::strerror(errno));
-  }
-  sync(to.has_parent_path() ? to.parent_path() : std::filesystem::path("."));
-  return Status();
-}
-
 }  // namespace
 
 Status WriteBundle(const std::filesystem::path& path,
@@ -146,15 +119,9 @@ Status WriteBundle(const std::filesystem::path& path,
                    {std::string(kSignatureName), std::as_bytes(std::span(signature))});
   }
 
-  const std::filesystem::path unfinished = UnfinishedFile(path);
-  Status status = WriteArchive(unfinished, sources);
-  if (status.ok()) {
-    status = Publish(unfinished, path);
-  }
-  if (!status.ok()) {
-    ::unlink(unfinished.c_str());
-  }
-  return status;
+  LARARIUM_ASSIGN_OR_RETURN(FileReplacement replacement, FileReplacement::Begin(path));
+  LARARIUM_RETURN_IF_ERROR(WriteArchive(replacement.unfinished(), sources));
+  return replacement.Commit();
 }
 
 }  // namespace lararium::bundle

@@ -251,7 +251,7 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
 
 std::string FormatShowManifest(const ShowManifest& manifest) {
   const Json json = FormatFields(manifest, DescribeManifest);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return DumpJson(json, 1) + "\n";
 }
 
 }  // namespace lararium::bundle

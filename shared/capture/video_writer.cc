@@ -1,8 +1,9 @@
 #include "shared/capture/video_writer.h"
 
+#include <optional>
 #include <string>
-#include <system_error>
 
+#include "shared/core/file.h"
 #include "shared/image/libav.h"
 
 namespace lararium::capture {
@@ -28,7 +29,7 @@ struct MuxerDeleter {
 
 struct VideoWriter::Encoder {
   std::filesystem::path file;
-  std::filesystem::path temporary;
+  std::optional<FileReplacement> replacement;  // Set by VideoWriter::Create.
   std::unique_ptr<AVFormatContext, MuxerDeleter> muxer;
   LibavPtr<AVCodecContext> codec;
   LibavPtr<AVFrame> picture;
@@ -42,12 +43,6 @@ struct VideoWriter::Encoder {
   AVStream* sound_stream = nullptr;
   int sound_filled = 0;  // Number of samples in sound_frame.
   int64_t sound_written = 0;
-
-  ~Encoder() {
-    muxer.reset();
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-  }
 
   Status Problem(std::string_view problem, int error) const {
     return Status::Error(file.string(), std::string(problem) + " (" + LibavMessage(error) + ")",
@@ -119,7 +114,7 @@ struct VideoWriter::Encoder {
   }
 
   Status OpenMuxer() {
-    const std::string url = "file:" + temporary.string();
+    const std::string url = "file:" + replacement->unfinished().string();
     AVFormatContext* context = nullptr;
     if (const int error = avformat_alloc_output_context2(&context, nullptr, "mp4", url.c_str());
         error < 0) {
@@ -243,8 +238,7 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::
   av_log_set_level(AV_LOG_FATAL);  // Errors are reported as Status.
   auto encoder = std::make_unique<Encoder>();
   encoder->file = file;
-  encoder->temporary = file;
-  encoder->temporary += ".part";
+  LARARIUM_ASSIGN_OR_RETURN(encoder->replacement, FileReplacement::Begin(file));
   LARARIUM_RETURN_IF_ERROR(encoder->OpenCodec(width, height, frames_per_second));
   if (with_sound) {
     LARARIUM_RETURN_IF_ERROR(encoder->OpenSoundCodec());
@@ -294,10 +288,7 @@ Status VideoWriter::Finish() {
   if (const int error = avio_closep(&e->muxer->pb); error < 0) {
     return e->Problem("cannot be completed", error);
   }
-  std::error_code error;
-  std::filesystem::rename(e->temporary, e->file, error);
-  return error ? Status::Error(e->file.string(), "cannot be moved to its path: " + error.message())
-               : Status();
+  return e->replacement->Commit();
 }
 
 }  // namespace lararium::capture

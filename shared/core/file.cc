@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 namespace lararium {
@@ -97,6 +99,25 @@ Status WriteAll(const std::filesystem::path& path,
   return Status();
 }
 
+// Follows symbolic links to the file that they finally name, which need not exist. The result has a
+// folder.
+Result<std::filesystem::path> WithoutLinks(const std::filesystem::path& file) {
+  constexpr int kMostLinks = 40;  // The kernel follows as many.
+  std::filesystem::path path = file;
+  std::error_code error;
+  for (int i = 0; std::filesystem::is_symlink(path, error); ++i) {
+    if (i == kMostLinks) {
+      return Status::Error(file.string(), "the symbolic links lead in a circle", "remove them");
+    }
+    const std::filesystem::path named = std::filesystem::read_symlink(path, error);
+    if (error) {
+      return Status::Error(file.string(), "the symbolic link cannot be read: " + error.message());
+    }
+    path = path.parent_path() / named;  // Keeps an absolute path as it is.
+  }
+  return path.has_parent_path() ? path : "." / path;
+}
+
 }  // namespace
 
 bool FileExists(const std::filesystem::path& path) {
@@ -132,29 +153,116 @@ Result<std::string> ReadText(const std::filesystem::path& path, uint64_t max_byt
   return content;
 }
 
-Status WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> content) {
-  std::string temporary = path.string() + ".XXXXXX";
-  const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (file.get() < 0) {
-    return SystemError(path, "cannot create a file beside it");
+Result<FileReplacement> FileReplacement::Begin(const std::filesystem::path& file) {
+  FileReplacement replacement;
+  replacement.named_ = file;
+  LARARIUM_ASSIGN_OR_RETURN(replacement.file_, WithoutLinks(file));
+  const std::filesystem::path& path = replacement.file_;
+  struct stat info {};
+  replacement.replaces_ = ::stat(path.c_str(), &info) == 0;
+  if (replacement.replaces_ && !S_ISREG(info.st_mode)) {
+    return Status::Error(file.string(), "not a regular file", "name a file");
   }
-  Status status = WriteAll(path, file.get(), content);
-  if (status.ok() && (::fchmod(file.get(), 0644) != 0 || ::fsync(file.get()) != 0)) {
-    status = SystemError(path, "cannot write to disk");
+  if (replacement.replaces_ && ::access(path.c_str(), W_OK) != 0) {
+    return SystemError(file, "cannot be changed");
   }
-  if (status.ok() && ::rename(temporary.c_str(), path.c_str()) != 0) {
-    status = SystemError(path, "cannot replace");
-  }
-  if (!status.ok()) {
-    ::unlink(temporary.c_str());
+  // A short part of the name, because the whole may leave no room for a suffix.
+  constexpr size_t kNameBytes = 200;
+  static std::atomic<unsigned> count = 0;
+  const std::string base =
+      path.filename().string().substr(0, kNameBytes) + "." + std::to_string(::getpid()) + "-";
+  int descriptor = -1;
+  do {
+    replacement.unfinished_ = path.parent_path() / (base + std::to_string(count++) + ".part");
+    descriptor =
+        ::open(replacement.unfinished_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EEXIST);
+  const Descriptor created(descriptor);
+  if (created.get() < 0) {
+    const Status status = SystemError(file, "cannot be written");
+    replacement.unfinished_.clear();
     return status;
   }
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!replacement.replaces_ && ::fstat(created.get(), &info) != 0) {
+    return SystemError(file, "cannot be written");
+  }
+  replacement.mode_ = static_cast<uint32_t>(info.st_mode) & 0777;
+  replacement.owner_ = info.st_uid;
+  replacement.group_ = info.st_gid;
+  return replacement;
+}
+
+FileReplacement::FileReplacement(FileReplacement&& other) noexcept { *this = std::move(other); }
+
+FileReplacement& FileReplacement::operator=(FileReplacement&& other) noexcept {
+  std::swap(named_, other.named_);
+  std::swap(file_, other.file_);
+  std::swap(unfinished_, other.unfinished_);
+  std::swap(mode_, other.mode_);
+  std::swap(replaces_, other.replaces_);
+  std::swap(owner_, other.owner_);
+  std::swap(group_, other.group_);
+  return *this;
+}
+
+FileReplacement::~FileReplacement() {
+  if (!unfinished_.empty()) {
+    ::unlink(unfinished_.c_str());
+  }
+}
+
+Status FileReplacement::Commit() {
+  const Descriptor file(::open(unfinished_.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) {
+    return SystemError(named_, "cannot write to disk");
+  }
+  // Who may not give the file away keeps at least its group, and otherwise owns it.
+  if (replaces_ && ::fchown(file.get(), owner_, group_) != 0 &&
+      ::fchown(file.get(), static_cast<uid_t>(-1), group_) != 0) {
+    mode_ &= static_cast<uint32_t>(~0070) | (mode_ & 0007) << 3;  // Another group gains no rights.
+  }
+  if (::fchmod(file.get(), mode_) != 0 || ::fsync(file.get()) != 0) {
+    return SystemError(named_, "cannot write to disk");
+  }
+  if (::rename(unfinished_.c_str(), file_.c_str()) != 0) {
+    return SystemError(named_, "cannot replace");
+  }
+  unfinished_.clear();
+  const Descriptor directory(
+      ::open(file_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.get() >= 0) {
     ::fsync(directory.get());
   }
   return Status();
+}
+
+Status RequireSpace(const std::filesystem::path& folder, uint64_t bytes) {
+  std::error_code error;
+  std::filesystem::path existing = std::filesystem::absolute(folder, error);
+  while (existing.has_relative_path() && !std::filesystem::exists(existing, error)) {
+    existing = existing.parent_path();
+  }
+  const std::filesystem::space_info space = std::filesystem::space(existing, error);
+  if (error || space.available >= bytes) {
+    return Status();  // A file system that does not tell is tried.
+  }
+  char room[64];
+  std::snprintf(room, sizeof room, "%.0f MB are free and %.0f MB are needed",
+                static_cast<double>(space.available) * 1e-6, static_cast<double>(bytes) * 1e-6);
+  return Status::Error(folder.string(), std::string("the disk is full: ") + room,
+                       "make room, or choose a folder on another disk");
+}
+
+Status WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> content) {
+  LARARIUM_ASSIGN_OR_RETURN(FileReplacement replacement, FileReplacement::Begin(path));
+  {
+    const Descriptor file(::open(replacement.unfinished().c_str(), O_WRONLY | O_CLOEXEC));
+    if (file.get() < 0) {
+      return SystemError(path, "cannot write");
+    }
+    LARARIUM_RETURN_IF_ERROR(WriteAll(path, file.get(), content));
+  }
+  return replacement.Commit();
 }
 
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view content) {

@@ -17,6 +17,11 @@ namespace lararium {
 // Whether there is a file or a folder. One that cannot be looked at counts as missing.
 bool FileExists(const std::filesystem::path& path);
 
+// Returns an error if a file system has less room than `bytes` for files in a folder, which need
+// not exist yet. Call it before long work, whose result would be lost. The default is enough for
+// what one job writes.
+Status RequireSpace(const std::filesystem::path& folder, uint64_t bytes = 64'000'000);
+
 // Default size limit of ReadBytes and ReadText.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 30;
 
@@ -28,8 +33,39 @@ Result<std::vector<std::byte>> ReadBytesAt(const std::filesystem::path& path,
                                            size_t size);
 Result<std::string> ReadText(const std::filesystem::path& path, uint64_t max_bytes = kMaxFileBytes);
 
-// Replaces the file completely or leaves it unchanged, even if the system crashes: writes a
-// temporary file beside it, calls fsync, renames it and calls fsync on the folder.
+// A file that is written beside the one that it replaces, which stays as it is until the new one is
+// complete, even if the system crashes. If the path is a symbolic link, the file that it names is
+// replaced and the link stays. The new file gets the mode of the old one and, as far as the system
+// permits it, its owner and group; where there was no file, the umask decides. Move-only; the
+// destructor removes a file that was not committed.
+class FileReplacement {
+ public:
+  // Creates the unfinished file, empty.
+  static Result<FileReplacement> Begin(const std::filesystem::path& file);
+
+  FileReplacement(FileReplacement&& other) noexcept;
+  FileReplacement& operator=(FileReplacement&& other) noexcept;
+  ~FileReplacement();
+
+  // The path to write to, by any means; it may be replaced.
+  const std::filesystem::path& unfinished() const { return unfinished_; }
+
+  // Flushes the unfinished file to disk and lets it take the place of the old one.
+  Status Commit();
+
+ private:
+  FileReplacement() = default;
+
+  std::filesystem::path named_;       // The path that the caller gave, for error messages.
+  std::filesystem::path file_;        // The path without symbolic links.
+  std::filesystem::path unfinished_;  // Empty after Commit().
+  uint32_t mode_ = 0;
+  bool replaces_ = false;  // True where the path named a file, whose owner and group follow.
+  uint32_t owner_ = 0;
+  uint32_t group_ = 0;
+};
+
+// Replaces the file completely or leaves it unchanged, see FileReplacement.
 Status WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> content);
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
 

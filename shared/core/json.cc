@@ -5,12 +5,95 @@
 
 #include "shared/core/file.h"
 #include "shared/core/plain_text.h"
+#include "shared/core/utf8.h"
 
 namespace lararium {
+namespace {
+
+// The bytes 0x80 to 0xff of a string stand as U+EF80 to U+EFFF: EE BE 80 to EE BF BF in UTF-8. A
+// string that holds such a character has its bytes replaced too, so that both ways are unique.
+constexpr std::string_view kEscapes = "\xee\xbe";
+constexpr std::string_view kMoreEscapes = "\xee\xbf";
+
+bool MayHoldEscapes(std::string_view text) {
+  return text.find(kEscapes) != std::string_view::npos ||
+         text.find(kMoreEscapes) != std::string_view::npos ||
+         text.find("\\uef") != std::string_view::npos ||  // Some programs write ASCII only.
+         text.find("\\uEF") != std::string_view::npos;
+}
+
+std::string Escaped(std::string_view text) {
+  std::string escaped;
+  for (size_t at = 0; at < text.size();) {
+    size_t next = at;
+    NextCharacter(text, next);
+    const std::string_view character = text.substr(at, next - at);
+    if (IsUtf8(character) && !MayHoldEscapes(character)) {
+      escaped += character;
+    } else {
+      for (const char byte : character) {
+        const auto value = static_cast<unsigned char>(byte);
+        escaped += {'\xee', static_cast<char>(0xbc + (value >> 6)),
+                    static_cast<char>(0x80 + (value & 0x3f))};
+      }
+    }
+    at = next;
+  }
+  return escaped;
+}
+
+std::string Unescaped(std::string_view text) {
+  std::string bytes;
+  for (size_t at = 0; at < text.size(); ++at) {
+    const std::string_view next = text.substr(at, 2);
+    if ((next == kEscapes || next == kMoreEscapes) && at + 2 < text.size()) {
+      const auto high = static_cast<unsigned char>(text[at + 1]);
+      const auto low = static_cast<unsigned char>(text[at + 2]);
+      bytes += static_cast<char>((high - 0xbc) << 6 | (low & 0x3f));
+      at += 2;
+    } else {
+      bytes += text[at];
+    }
+  }
+  return bytes;
+}
+
+// Changes all strings, the names of fields included. Foreign JSON may be nested deeper than the
+// stack is.
+void ChangeStrings(Json& json, std::string (*change)(std::string_view)) {
+  std::vector<Json*> left = {&json};
+  while (!left.empty()) {
+    Json& value = *left.back();
+    left.pop_back();
+    if (value.is_string()) {
+      value = change(value.get_ref<const std::string&>());
+    } else if (value.is_array()) {
+      for (Json& item : value) {
+        left.push_back(&item);
+      }
+    } else if (value.is_object()) {
+      Json::object_t changed;
+      for (auto& [key, field] : value.get_ref<Json::object_t&>()) {
+        changed[change(key)] = std::move(field);
+      }
+      value.get_ref<Json::object_t&>() = std::move(changed);
+      for (Json& field : value) {
+        left.push_back(&field);
+      }
+    }
+  }
+}
+
+}  // namespace
 
 Result<Json> ParseJson(std::string_view text, std::string_view where) {
   try {
-    return LooksLikeUtf16(text) ? Json::parse(PlainText(std::string(text))) : Json::parse(text);
+    Json json =
+        LooksLikeUtf16(text) ? Json::parse(PlainText(std::string(text))) : Json::parse(text);
+    if (MayHoldEscapes(text)) {
+      ChangeStrings(json, Unescaped);
+    }
+    return json;
   } catch (const Json::exception& error) {
     // The library's text starts with an identifier in brackets, which is removed.
     std::string_view what = error.what();
@@ -26,8 +109,22 @@ Result<Json> LoadJson(const std::filesystem::path& path) {
   return ParseJson(text, path.string());
 }
 
+std::string DumpJson(const Json& json, int indent) {
+  try {
+    std::string text = json.dump(indent);
+    if (!MayHoldEscapes(text)) {
+      return text;
+    }
+  } catch (const Json::exception&) {
+    // A string is no UTF-8.
+  }
+  Json escaped = json;
+  ChangeStrings(escaped, Escaped);
+  return escaped.dump(indent);
+}
+
 Status SaveJson(const std::filesystem::path& path, const Json& json) {
-  return WriteFileAtomically(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return WriteFileAtomically(path, DumpJson(json, 1) + "\n");
 }
 
 Status JsonView::CheckFields(std::span<const std::string_view> known) const {

@@ -20,6 +20,10 @@ namespace lararium {
 // where: the name of the text in error messages, normally its file.
 Result<Json> ParseJson(std::string_view text, std::string_view where);
 Result<Json> LoadJson(const std::filesystem::path& path);
+// A name of a file may hold bytes that are no UTF-8, which JSON texts cannot hold. DumpJson()
+// writes such a byte as one of the private characters U+EF80 to U+EFFF, and ParseJson() makes it a
+// byte again, so that every string comes back as it was.
+std::string DumpJson(const Json& json, int indent = -1);
 Status SaveJson(const std::filesystem::path& path, const Json& json);
 
 // A view of one JSON value that knows its path within the file. An error reads, for example,

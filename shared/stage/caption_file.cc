@@ -88,7 +88,7 @@ Result<CaptionBook> ParseCaptions(std::string_view text, const std::string& wher
 
 std::string FormatCaptions(const CaptionBook& book) {
   const Json json = FormatFields(book, DescribeBook);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return DumpJson(json, 1) + "\n";
 }
 
 }  // namespace lararium::stage

@@ -29,6 +29,63 @@ TEST(File, AFailedWriteLeavesTheOldFileAndNoOther) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
+mode_t ModeOf(const std::filesystem::path& file) {
+  struct stat info {};
+  return ::stat(file.c_str(), &info) == 0 ? info.st_mode & 07777 : 0;
+}
+
+TEST(File, SavingWritesWhatASymbolicLinkNames) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "shared");
+  ASSERT_TRUE(WriteFileAtomically(folder / "shared/lines", "old").ok());
+  std::filesystem::create_symlink("shared/lines", folder / "relative");
+  std::filesystem::create_symlink(folder / "relative", folder / "link");
+  ASSERT_TRUE(WriteFileAtomically(folder / "link", "new").ok());
+  EXPECT_EQ(ReadText(folder / "shared/lines").value(), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "relative"));
+  // A link may name a file that is yet to be written.
+  std::filesystem::create_symlink("shared/none", folder / "dangling");
+  ASSERT_TRUE(WriteFileAtomically(folder / "dangling", "first").ok());
+  EXPECT_EQ(ReadText(folder / "shared/none").value(), "first");
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_NE(WriteFileAtomically(folder / "circle", "x").message().find("circle"),
+            std::string::npos);
+}
+
+TEST(File, SavingKeepsTheModeAndNewFilesFollowTheUmask) {
+  const test::TemporaryFolder folder;
+  const mode_t before = ::umask(0027);
+  ASSERT_TRUE(WriteFileAtomically(folder / "new", "x").ok());
+  EXPECT_EQ(ModeOf(folder / "new"), 0640u);
+  ASSERT_EQ(::chmod((folder / "new").c_str(), 0604), 0);
+  ASSERT_TRUE(WriteFileAtomically(folder / "new", "y").ok());
+  EXPECT_EQ(ModeOf(folder / "new"), 0604u);
+  ::umask(before);
+}
+
+TEST(File, WritesNamesThatLeaveNoRoomForASuffix) {
+  const test::TemporaryFolder folder;
+  const std::string name(255, 'n');
+  ASSERT_TRUE(WriteFileAtomically(folder / name, "x").ok());
+  EXPECT_EQ(ReadText(folder / name).value(), "x");
+}
+
+TEST(File, AnUnfinishedReplacementLeavesNothing) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(WriteFileAtomically(folder / "a", "old").ok());
+  { ASSERT_TRUE(FileReplacement::Begin(folder / "a").ok()); }
+  EXPECT_EQ(ReadText(folder / "a").value(), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(File, SaysBeforehandThatADiskIsTooSmall) {
+  const test::TemporaryFolder folder;
+  EXPECT_TRUE(RequireSpace(folder / "not/yet/there", 1).ok());
+  const Status full = RequireSpace(folder / "not/yet/there", uint64_t{1} << 60);
+  EXPECT_NE(full.message().find("the disk is full"), std::string::npos) << full.message();
+}
+
 TEST(File, ErrorsNameTheFile) {
   const test::TemporaryFolder folder;
   EXPECT_NE(ReadText(folder / "none").message().find("none"), std::string::npos);

@@ -25,6 +25,20 @@ TEST(Json, SavesWithSortedKeys) {
   EXPECT_EQ(LoadJson(folder / "a.json").value().dump(), "{\"a\":2,\"b\":1}");
 }
 
+TEST(Json, KeepsStringsThatAreNoUtf8) {
+  const test::TemporaryFolder folder;
+  for (const std::string name : {"caf\xe9.mp4", "\xff\xfe", "caf\xc3\xa9", "\xee\xbe\x80 private",
+                                 "cut \xe2\x82", "plain"}) {
+    ASSERT_TRUE(SaveJson(folder / "a.json", {{"file", name}, {name, {name, 1}}}).ok());
+    const Json read = LoadJson(folder / "a.json").value();
+    EXPECT_EQ(read.at("file"), name);
+    EXPECT_EQ(read.at(name).at(0), name);
+    // Programs that write ASCII only keep the name as well.
+    const std::string ascii = Json::parse(DumpJson(read)).dump(-1, ' ', true);
+    EXPECT_EQ(ParseJson(ascii, "ascii").value(), read);
+  }
+}
+
 TEST(JsonView, ErrorsNameTheField) {
   const Json json = {{"stage", {{"scale", "big"}, {"axes", {1, 2}}}}};
   const JsonView view(json, "p.json");

@@ -48,7 +48,7 @@ Result<std::vector<std::byte>> PackModel(const BuiltModel& model) {
   for (const TextureUse& use : model.uses) {
     head["uses"].push_back({use.colour, use.normal});
   }
-  const std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = DumpJson(head);
   std::vector<std::byte> bytes;
   AppendBlock(bytes, std::as_bytes(std::span(text)));
   AppendBlock(bytes, human::SerializeHuman(model.human));
