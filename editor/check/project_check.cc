@@ -10,6 +10,7 @@
 #include "editor/check/stage_report.h"
 #include "editor/document/check_sentences.h"
 #include "editor/document/project.h"
+#include "editor/jobs/baking.h"
 #include "editor/jobs/lines.h"
 #include "editor/jobs/paradata.h"
 #include "editor/jobs/sounds.h"
@@ -147,6 +148,9 @@ Result<CheckedProject> CheckProject(const CheckOptions& options, Progress& progr
   const ParadataReport paradata = CheckParadata(paths, document);
   Append(paradata.problems, problems);
   Append(paradata.warnings, places.warnings);
+  for (const std::string& warning : WarningsOfProducts(paths, document)) {
+    places.warnings.emplace_back(warning);
+  }
   const ProjectLines lines = CheckLines(paths, document, problems, places.warnings);
   const DryRunReport run = DryRunAll(paths, document, lines, options, progress);
   Append(run.problems, problems);

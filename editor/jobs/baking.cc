@@ -59,8 +59,8 @@ std::filesystem::path MeshFile(const ProjectPaths& paths,
   return paths.Place(place.name) / "baked" / (occluder.name + ".larmesh");
 }
 
-// The file beside a product that stores the hash of its inputs in its first line, and the warnings
-// of making it in the others.
+// The file beside a product that stores the hash of its inputs in its first line, and in further
+// lines the warnings with which it was made.
 std::filesystem::path HashFile(std::filesystem::path product) { return product += ".from"; }
 
 Result<std::string> HashOf(std::string_view settings,
@@ -73,21 +73,20 @@ Result<std::string> HashOf(std::string_view settings,
   return bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(all))));
 }
 
-// The warnings of a product that exists and was made with these inputs; otherwise nullopt.
-std::optional<std::vector<std::string>> WarningsIfUpToDate(const std::filesystem::path& product,
-                                                           const std::string& hash) {
-  const Result<std::string> known = ReadText(HashFile(product), kMaxHashFileBytes);
-  if (!FileExists(product) || !known.ok() || (*known + "\n").rfind(hash + "\n", 0) != 0) {
-    return std::nullopt;
+// The lines of the hash file; empty if there is none.
+std::vector<std::string> LinesBeside(const std::filesystem::path& product) {
+  std::vector<std::string> lines;
+  const Result<std::string> content = ReadText(HashFile(product), kMaxHashFileBytes);
+  std::istringstream text(content.ok() ? *content : "");
+  for (std::string line; std::getline(text, line);) {
+    lines.push_back(line);
   }
-  std::istringstream lines(known->substr(hash.size()));
-  std::vector<std::string> warnings;
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.empty()) {
-      warnings.push_back(line);
-    }
-  }
-  return warnings;
+  return lines;
+}
+
+bool UpToDate(const std::filesystem::path& product, const std::string& hash) {
+  const std::vector<std::string> lines = LinesBeside(product);
+  return FileExists(product) && !lines.empty() && lines.front() == hash;
 }
 
 // Writes the product before its hash: after a crash in between it is only baked again.
@@ -104,7 +103,7 @@ Status WriteProduct(const std::filesystem::path& product,
   LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(product, bytes));
   std::string text = hash;
   for (std::string line : warnings) {
-    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::ranges::replace(line, '\n', ' ');
     if (text.size() + line.size() < kMaxHashFileBytes) {
       text += "\n" + line;
     }
@@ -134,7 +133,7 @@ struct BakeStep {
 // Whether the product exists and matches its present inputs.
 bool IsMade(const BakeStep& step) {
   const Result<std::string> hash = HashOf(step.settings, step.sources);
-  return hash.ok() && WarningsIfUpToDate(step.product, *hash);
+  return hash.ok() && UpToDate(step.product, *hash);
 }
 
 std::vector<std::byte> BytesOf(std::string_view text) {
@@ -560,22 +559,25 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
 // Returns true where the product had to be made. Adds the warnings of making it, now or before.
 Result<bool> RunStep(const BakeStep& step, std::vector<std::string>& warnings) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string hash, HashOf(step.settings, step.sources));
-  if (const auto known = WarningsIfUpToDate(step.product, hash)) {
-    warnings.insert(warnings.end(), known->begin(), known->end());
+  if (UpToDate(step.product, hash)) {
+    std::ranges::copy(ProductWarnings(step.product), std::back_inserter(warnings));
     return false;
   }
-  std::vector<std::string> added;
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, step.make(added));
-  LARARIUM_RETURN_IF_ERROR(WriteProduct(step.product, bytes, hash, added));
-  warnings.insert(warnings.end(), added.begin(), added.end());
+  LARARIUM_RETURN_IF_ERROR(RequireSpace(step.product.parent_path()));
+  std::vector<std::string> own;
+  const Result<std::vector<std::byte>> bytes = step.make(own);
+  std::ranges::copy(own, std::back_inserter(warnings));
+  LARARIUM_RETURN_IF_ERROR(bytes.status());
+  LARARIUM_RETURN_IF_ERROR(WriteProduct(step.product, *bytes, hash, own));
   return true;
 }
 
 // Like RunStep(), but a product with a replacement that cannot be made is a warning, and an old one
-// is deleted.
+// is deleted, unless the disk is full.
 Result<bool> RunOrReplace(const BakeStep& step, std::vector<std::string>& warnings) {
   Result<bool> made = RunStep(step, warnings);
-  if (made.ok() || step.stand_in.empty()) {
+  const bool full = !RequireSpace(step.product.parent_path()).ok();
+  if (made.ok() || step.stand_in.empty() || full) {
     return made;
   }
   // Several products of the same bad file give only one warning.
@@ -642,6 +644,29 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
   }
   progress.Report("baking", 1.0);
   return report;
+}
+
+std::vector<std::string> ProductWarnings(const std::filesystem::path& product) {
+  std::vector<std::string> lines = LinesBeside(product);
+  if (!lines.empty()) {
+    lines.erase(lines.begin());
+  }
+  return lines;
+}
+
+std::vector<std::string> WarningsOfProducts(const ProjectPaths& paths,
+                                            const ProjectDocument& document) {
+  std::vector<std::string> warnings;
+  std::vector<std::string> of_inputs;  // A check finds these by itself.
+  const NoProgress silent;
+  const Result<std::vector<BakeStep>> steps =
+      Steps(paths, document, silent, BakeWhat::kAll, of_inputs);
+  if (steps.ok()) {
+    for (const BakeStep& step : *steps) {
+      std::ranges::copy(ProductWarnings(step.product), std::back_inserter(warnings));
+    }
+  }
+  return warnings;
 }
 
 std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document) {
@@ -718,7 +743,7 @@ std::filesystem::path BakedHumanFile(const ProjectPaths& paths, const CastDocume
   const std::filesystem::path plain = paths.Human(member.name);
   const std::filesystem::path lit = paths.LitHuman(member.name);
   const Result<std::string> hash = HashOf(TransferSettings(), {HashFile(plain)});
-  return hash.ok() && WarningsIfUpToDate(lit, *hash) ? lit : plain;
+  return hash.ok() && UpToDate(lit, *hash) ? lit : plain;
 }
 
 Result<human::Human> LoadBakedHuman(const ProjectPaths& paths, const CastDocument& member) {

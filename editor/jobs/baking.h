@@ -25,7 +25,7 @@ namespace lararium::editor {
 struct BakeReport {
   std::vector<std::string> baked;      // Names of the products that were generated.
   std::vector<std::string> unchanged;  // Names of the products that were up to date.
-  std::vector<std::string> warnings;   // Warnings of all products, generated now or before.
+  std::vector<std::string> warnings;   // Warnings of all products, made now or before.
 };
 
 enum class BakeWhat { kAll, kAllButPeople, kPeople };
@@ -36,6 +36,13 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
                         const ProjectDocument& document,
                         Progress& progress,
                         BakeWhat what = BakeWhat::kAll);
+
+// The warnings with which a product was made, such as a texture that its model names and that
+// cannot be read. Empty if it was not made.
+std::vector<std::string> ProductWarnings(const std::filesystem::path& product);
+// The same for all products of a project, none of which is made.
+std::vector<std::string> WarningsOfProducts(const ProjectPaths& paths,
+                                            const ProjectDocument& document);
 
 // The names of the cast members whose product is missing or stale.
 std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document);

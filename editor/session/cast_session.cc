@@ -99,7 +99,7 @@ void CastSession::SaveBones(const CastDocument& member) {
 
 void CastSession::Update() {
   for (const std::string& warning : pictures_.TakeWarnings()) {
-    messages_.Tell(Message::Level::kWarning, warning);
+    messages_.Warn(warning);
   }
   for (const Status& problem : pictures_.TakeProblems()) {
     messages_.TellFailure(problem);

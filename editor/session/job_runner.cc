@@ -32,7 +32,7 @@ void JobRunner::Bake() {
       },
       [this, report](const Status& status, bool cancelled) {
         for (const std::string& warning : report->warnings) {
-          messages_.Tell(Message::Level::kWarning, warning);
+          messages_.Warn(warning);
         }
         messages_.Report(
             status, cancelled,

@@ -1,5 +1,6 @@
 #include "editor/session/message_log.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "editor/text/text.h"
@@ -15,6 +16,12 @@ void MessageLog::Tell(Message::Level level, std::string text) {
   ++told_;
   if (entries_.size() > kMaxEntries) {
     entries_.pop_front();
+  }
+}
+
+void MessageLog::Warn(const std::string& text) {
+  if (std::ranges::none_of(entries_, [&](const Message& m) { return m.text == text; })) {
+    Tell(Message::Level::kWarning, text);
   }
 }
 

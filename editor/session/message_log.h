@@ -25,6 +25,8 @@ class MessageLog {
 
   // Adds a message, unless it repeats the newest one.
   void Tell(Message::Level level, std::string text);
+  // Adds a warning, unless one of entries() says it already.
+  void Warn(const std::string& text);
   // Adds an error message where the status is a failure. Returns whether it is.
   bool TellFailure(const Status& status);
   // Adds the result of a task: success is the text where the task was neither cancelled nor failed.

@@ -154,7 +154,7 @@ void PreviewSession::Open() {
       return;
     }
     for (const std::string& warning : report->warnings) {
-      messages_.Tell(Message::Level::kWarning, warning);
+      messages_.Warn(warning);
     }
     if (name != project_.place_name() || project_.place() == nullptr) {
       stale_ = true;

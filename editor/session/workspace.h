@@ -16,6 +16,7 @@
 #include "editor/session/playback.h"
 #include "editor/session/preview_session.h"
 #include "editor/session/probe_pictures.h"
+#include "editor/session/product_notes.h"
 #include "editor/session/project_session.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -42,6 +43,7 @@ class Workspace {
   CastSession& cast() { return cast_; }
   const CastSession& cast() const { return cast_; }
   ProbePictures& probe_pictures() { return probe_pictures_; }
+  ProductNotes& product_notes() { return product_notes_; }
   const DryRunSession& dry_run() const { return dry_run_; }
   Playback& playback() { return playback_; }
   const Playback& playback() const { return playback_; }
@@ -76,6 +78,7 @@ class Workspace {
   MapTraining training_;
   CastSession cast_;
   ProbePictures probe_pictures_;
+  ProductNotes product_notes_;
   DryRunSession dry_run_;
   Playback playback_;
   PreviewSession preview_;

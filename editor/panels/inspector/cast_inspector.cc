@@ -108,6 +108,7 @@ void DrawActor(editor::Workspace& workspace,
                const editor::CastDocument& member) {
   Heading(member.label().c_str());
   Hint(KindOf(member));
+  DrawWarnings(workspace, workspace.project().paths().Human(member.name));
   DrawPortrait(workspace, cast_view, pictures, input, member, !member.model.empty());
   // The rest scrolls below the portrait, so that changes are always visible.
   constexpr float kLeast = 220.0f;  // logical pixels

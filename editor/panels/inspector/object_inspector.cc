@@ -16,6 +16,7 @@ void DrawObject(editor::Workspace& workspace,
                 const editor::ObjectDocument& object) {
   Heading(object.name.c_str());
   Hint(Tr("Where it is at the beginning. What people do with it is written in the drama."));
+  DrawWarnings(workspace, workspace.project().paths().Prop(object.name));
   editor::ObjectDocument edited = object;
   bool changed = false;
   if (BeginProperties("object")) {

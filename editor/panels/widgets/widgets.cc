@@ -49,6 +49,14 @@ void Hint(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void DrawWarnings(editor::Workspace& workspace, const std::filesystem::path& product) {
+  ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
+  for (const std::string& warning : workspace.product_notes().Of(product)) {
+    ImGui::TextWrapped("%s", warning.c_str());
+  }
+  ImGui::PopStyleColor();
+}
+
 void DrawModal(const char* title,
                float width,
                bool& open,

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
@@ -23,6 +24,8 @@ void Heading(const char* text);
 void DimText(const std::string& text);
 // Dim text with line breaks.
 void Hint(const std::string& text);
+// The warnings with which the product of a thing was baked, in the colour of warnings.
+void DrawWarnings(editor::Workspace& workspace, const std::filesystem::path& product);
 // The purpose of the last item, shown under the pointer, also while the item is disabled.
 void Tooltip(const std::string& text);
 
