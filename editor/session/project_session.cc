@@ -12,6 +12,7 @@ namespace lararium::editor {
 
 Result<std::unique_ptr<ProjectSession>> ProjectSession::Open(ProjectPaths paths,
                                                              MessageLog& messages) {
+  LARARIUM_ASSIGN_OR_RETURN(ProjectLock lock, ProjectLock::Take(paths));
   LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
   // A project without its drama can be opened: a message reports the missing file, and saving makes
   // it.
@@ -23,8 +24,13 @@ Result<std::unique_ptr<ProjectSession>> ProjectSession::Open(ProjectPaths paths,
   if (!messages.TellFailure(lines.status())) {
     document.lines = std::make_shared<const bake::LineTable>(*std::move(lines));
   }
-  std::unique_ptr<ProjectSession> project(
-      new ProjectSession(std::move(paths), std::move(document), std::move(script), messages));
+  std::unique_ptr<ProjectSession> project(new ProjectSession(
+      std::move(lock), std::move(paths), std::move(document), std::move(script), messages));
+  if (project->lock_.read_only()) {
+    messages.Tell(Message::Level::kWarning,
+                  Tr("The folder of the project cannot be written: no edit can be saved. Copy the "
+                     "project to a folder of your own to edit it."));
+  }
   project->Recover();
   for (const Status& missing : FindMissingFiles(project->paths_, project->document())) {
     messages.Tell(Message::Level::kWarning, missing.message());
@@ -35,11 +41,13 @@ Result<std::unique_ptr<ProjectSession>> ProjectSession::Open(ProjectPaths paths,
   return project;
 }
 
-ProjectSession::ProjectSession(ProjectPaths paths,
+ProjectSession::ProjectSession(ProjectLock lock,
+                               ProjectPaths paths,
                                ProjectDocument document,
                                std::string script,
                                MessageLog& messages)
-    : paths_(std::move(paths)),
+    : lock_(std::move(lock)),
+      paths_(std::move(paths)),
       messages_(messages),
       commands_(std::move(document)),
       script_(std::move(script), paths_.Drama().filename().string()),

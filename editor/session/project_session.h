@@ -14,6 +14,7 @@
 #include "editor/document/command_stack.h"
 #include "editor/document/journal.h"
 #include "editor/document/project.h"
+#include "editor/document/project_lock.h"
 #include "editor/document/script_document.h"
 #include "editor/session/message_log.h"
 #include "editor/session/project_files.h"
@@ -103,7 +104,8 @@ class ProjectSession {
   void Update(double seconds);
 
  private:
-  ProjectSession(ProjectPaths paths,
+  ProjectSession(ProjectLock lock,
+                 ProjectPaths paths,
                  ProjectDocument document,
                  std::string script,
                  MessageLog& messages);
@@ -123,6 +125,7 @@ class ProjectSession {
   void OnDocumentChanged();
   void Notify(Event event) const;
 
+  ProjectLock lock_;  // Released last.
   ProjectPaths paths_;
   MessageLog& messages_;
   Commands commands_;
