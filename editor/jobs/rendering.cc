@@ -7,15 +7,18 @@
 #include "editor/jobs/training.h"
 #include "shared/capture/frame_source.h"
 #include "shared/capture/video_writer.h"
+#include "shared/core/file.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/show_renderer.h"
 #include "shared/show/sound_recording.h"
+#include "shared/vision/foreground/foreground_mask.h"
 #include "shared/vision/tracker.h"
 
 namespace lararium::editor {
 
 Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
+  LARARIUM_RETURN_IF_ERROR(RequireSpace(job.out.parent_path()));
   LARARIUM_ASSIGN_OR_RETURN(const auto source, capture::OpenVideo(job.video));
   for (const std::string& note : source->Notes()) {
     log.warn("{}", note);
@@ -25,8 +28,9 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
       job.intrinsics.empty()
           ? job.content.places.front().map->camera.ForImages(source->width(), source->height())
           : geometry::CameraModel::FromNumbers(job.intrinsics, source->width(), source->height()));
-  LARARIUM_ASSIGN_OR_RETURN(const auto poses,
+  LARARIUM_ASSIGN_OR_RETURN(auto tracker,
                             vision::CreateTracker(show::Maps(job.content.places), camera, {}));
+  const auto poses = vision::WithForeground(std::move(tracker), show::Maps(job.content.places));
   show::SetOccluders(job.content.places, *poses);
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(std::move(job.content), {}, log));
 

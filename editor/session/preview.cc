@@ -16,6 +16,7 @@
 #include "shared/show/lod_streamer.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
+#include "shared/vision/foreground/foreground_mask.h"
 #include "shared/vision/photometry.h"
 #include "shared/vision/tracker.h"
 
@@ -107,8 +108,9 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const Opener& o
   LARARIUM_ASSIGN_OR_RETURN(const geometry::CameraModel camera,
                             content.places.front().map->camera.ForImages(
                                 worker->source_->width(), worker->source_->height()));
-  LARARIUM_ASSIGN_OR_RETURN(worker->poses_,
+  LARARIUM_ASSIGN_OR_RETURN(auto tracker,
                             vision::CreateTracker(show::Maps(content.places), camera, {}));
+  worker->poses_ = vision::WithForeground(std::move(tracker), show::Maps(content.places));
   show::SetOccluders(content.places, *worker->poses_);
   drama::DramaOptions drama;
   drama.past = drama::Past::kRepeated;  // Seeking to and fro must give the same state.

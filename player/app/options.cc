@@ -197,6 +197,12 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                  "as well, which lags a little")
       ->transform(CLI::Transformer(SmoothingNames()));
 
+  app.add_option_function<std::string>(
+         "--foreground",
+         [&play](const std::string& foreground) { play.foreground = foreground == "on"; },
+         "on: visitors and things in front of the place hide the people who are drawn; off")
+      ->check(CLI::IsMember({"on", "off"}));
+
   app.add_option("--audio", play.listening,
                  "headphones: mixed for two ears; speakers; none. What is recorded is mixed "
                  "likewise")
@@ -222,6 +228,10 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
       ->excludes(visitor);
 
   app.add_option("--poses-out", play.output.poses, "Write the poses here (poses.json)");
+  app.add_option("--foreground-out", play.output.foreground,
+                 "Write into this folder what was found in front of the place: a grey PNG for each "
+                 "frame, white in front")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--stats-out", play.output.stats, "Write times and counts here (stats.json)");
   app.add_option("--record", play.output.record, "Write the composite here, with its sound (.mp4)");
   app.add_option("--sound", play.output.sound, "Write the sound here (.wav)");

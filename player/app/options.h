@@ -93,6 +93,7 @@ struct SequenceOptions {
 struct OutputOptions {
   std::filesystem::path visitor_log;  // The visitor's actions are written to it.
   std::filesystem::path poses;
+  std::filesystem::path foreground;  // Folder of images, one for each frame.
   std::filesystem::path stats;
   std::filesystem::path record;  // .mp4
   std::filesystem::path sound;   // .wav
@@ -123,6 +124,7 @@ struct PlayOptions {
   int threads = 0;     // 0: one for each core
   uint64_t seed = 1;
   vision::Smoothing smoothing = vision::Smoothing::kSoft;
+  bool foreground = true;         // Real people and things in front of the place hide drawn ones.
   std::filesystem::path visitor;  // Recorded actions that are replayed.
 };
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/image/encode.h"
+#include "shared/vision/foreground/foreground_mask.h"
+
 namespace lararium::player {
 
 Result<Recorder> Recorder::Create(const OutputOptions& options,
@@ -27,6 +30,15 @@ Status Recorder::Add(const show::StagedFrame& staged, const render::RenderTarget
   const vision::TrackedFrame& tracked = staged.tracked;
   if (!options_->poses.empty()) {
     poses_.push_back(vision::MakePoseRecord(source_->FrameName(tracked.frame.index), tracked));
+  }
+  if (!options_->foreground.empty()) {
+    cv::Mat opacity = vision::ForegroundOpacity(tracked);
+    if (opacity.empty()) {
+      opacity = cv::Mat::zeros(tracked.frame.bgr.size(), CV_8UC1);
+    }
+    const std::filesystem::path name = source_->FrameName(tracked.frame.index);
+    LARARIUM_RETURN_IF_ERROR(image::WriteImage(
+        options_->foreground / name.filename().replace_extension(".png"), opacity));
   }
   LARARIUM_RETURN_IF_ERROR(sound_->Add(staged.sound));
   if (video_ != nullptr) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Records a run: the composite as a video with sound, and the poses.
+// Records a run: the composite as a video with sound, the poses and the foreground.
 
 #include <memory>
 #include <opencv2/core/mat.hpp>

@@ -14,6 +14,7 @@
 #include "shared/capture/steady_camera.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/vision/foreground/foreground_mask.h"
 #include "shared/vision/pose_smoother.h"
 #include "shared/vision/tracker.h"
 
@@ -195,6 +196,9 @@ Status ShowSession::CreateTracker(const show::ShowContent& content, const Camera
   LARARIUM_ASSIGN_OR_RETURN(
       poses_, vision::CreateTracker(show::Maps(content.places), camera.camera, tracking));
   show::SetOccluders(content.places, *poses_);
+  if (options_.foreground) {
+    poses_ = vision::WithForeground(std::move(poses_), show::Maps(content.places));
+  }
   poses_ = vision::Smooth(std::move(poses_), show::Maps(content.places), options_.smoothing);
   return Status();
 }

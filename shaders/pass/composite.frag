@@ -23,6 +23,11 @@ uniform mat3 layer_from_pixel;
 uniform vec3 exposure_time;
 uniform mat3 frame_ago;
 uniform float people_opacity;  // opacity of people and of their shadows and light
+#ifndef SEE_THROUGH
+uniform int foreground_is_on;
+uniform sampler2D foreground;  // RenderScene::foreground with the rays of the picture: r, g, b, offset
+uniform vec2 picture_size;     // pixels
+#endif
 
 layout(location = 0) out vec4 colour;
 
@@ -51,15 +56,22 @@ void main() {
              ceil(catcher_bounds.zw / caught_step) - 0.5);
   vec3 kept = textureLod(caught, at / vec2(textureSize(caught, 0)), 0.0).rgb;
   kept = Within(cell, catcher_bounds) ? kept : vec3(1.0);
-  person *= people_opacity;
-  kept = mix(vec3(1.0), kept, people_opacity);
+  float opacity = people_opacity;
+#ifndef SEE_THROUGH
+  vec2 raw = RawPixel();
+  vec3 encoded = Background(raw);
+  for (int i = 0; i < foreground_is_on; ++i) {
+    vec4 guide = textureLod(foreground, gl_FragCoord.xy / picture_size, 0.0);
+    opacity *= 1.0 - clamp(dot(guide, vec4(encoded, 1.0)), 0.0, 1.0);
+  }
+#endif
+  person *= opacity;
+  kept = mix(vec3(1.0), kept, opacity);
 #ifdef SEE_THROUGH
   // Alpha is one number for all colours, and it cannot brighten the real world.
   float left = min(dot(kept, vec3(0.2126, 0.7152, 0.0722)), 1.0) * (1.0 - person.a);
   colour = vec4(SrgbFromLinear(clamp(person.rgb, 0.0, 1.0)), 1.0 - left);
 #else
-  vec2 raw = RawPixel();
-  vec3 encoded = Background(raw);
   vec3 light = LinearFromSrgb(encoded) * kept * (1.0 - person.a) + person.rgb;
   bool changes = person.a > 0.0 || any(notEqual(kept, vec3(1.0)));
   encoded = changes ? SrgbFromLinear(clamp(light, 0.0, 1.0)) : encoded;

@@ -8,7 +8,7 @@
 #include "shared/capture/buffer_queue.h"
 #include "shared/capture/camera_setup.h"
 #include "shared/capture/frame_converter.h"
-#include "shared/capture/frame_pool.h"
+#include "shared/geometry/frame_pool.h"
 
 namespace lararium::capture {
 namespace {
@@ -81,7 +81,7 @@ class CameraSource final : public FrameSource {
   FrameConverter converter_;
   CameraMode mode_;
   std::unique_ptr<BufferQueue> queue_;
-  FramePool pool_;
+  geometry::FramePool pool_;
   double start_ = Now();
   double last_time_ = -kLeastStep;
   int64_t next_index_ = 0;

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "shared/capture/frame_pool.h"
 #include "shared/capture/sdr_table.h"
 #include "shared/core/status.h"
 #include "shared/geometry/frame.h"
+#include "shared/geometry/frame_pool.h"
 #include "shared/image/libav.h"
 #include "shared/image/pixel_orientation.h"
 
@@ -66,7 +66,7 @@ class FilmConverter {
   double highlights_ = 0.0;
   std::optional<SdrTable> table_;
   image::LibavPtr<SwsContext> scaler_;
-  FramePool pool_;
+  geometry::FramePool pool_;
   std::vector<std::string> notes_;
 };
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "shared/capture/frame_pool.h"
+#include "shared/geometry/frame_pool.h"
 
 namespace lararium::capture {
 namespace {
@@ -128,7 +128,7 @@ class SteadyCamera final : public FrameSource {
   std::unique_ptr<FrameSource> camera_;  // nullptr while disconnected
   SteadyCameraWorld world_;
   SteadyCameraOptions options_;
-  FramePool pool_;
+  geometry::FramePool pool_;
   int width_ = 0;
   int height_ = 0;
   double frames_per_second_ = 30.0;

@@ -112,6 +112,10 @@ struct RenderScene {
   cv::Mat background = {};
   geometry::CameraModel camera = {};  // camera of background, with distortion
 
+  // What stands before the real surfaces in the background and hides people:
+  // vision::TrackedFrame::foreground. Empty: nothing.
+  cv::Mat foreground = {};
+
   // Pinhole camera of the picture; it is scaled to the target's size.
   geometry::CameraModel display = {};
   // Pinhole camera for the background alone, for an eye that is not at the camera's position;

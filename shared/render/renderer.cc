@@ -20,6 +20,7 @@
 namespace lararium::render {
 namespace {
 
+constexpr GLuint kForegroundUnit = LookPass::kUnit + 1;
 // If the camera's resolution divided by the target's is above this, the picture is composed at the
 // size of the target, because a smaller one would hardly save time.
 constexpr double kLeastEnlarged = 0.9;
@@ -136,7 +137,7 @@ void ResetState() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
-  for (GLuint unit = 0; unit <= LookPass::kUnit; ++unit) {
+  for (GLuint unit = 0; unit <= kForegroundUnit; ++unit) {
     glBindSampler(unit, 0);
   }
 }
@@ -188,6 +189,9 @@ Status Renderer::State::Validate(const RenderScene& scene) const {
   }
   if (scene.see_through && !scene.background.empty()) {
     return Status::Error(kPlace, "a see-through picture must not have a background");
+  }
+  if (!scene.foreground.empty() && scene.foreground.type() != CV_32FC4) {
+    return Status::Error(kPlace, "the foreground must have four channels of floats");
   }
   if (!scene.background.empty() && scene.background.type() != CV_8UC3) {
     return Status::Error(kPlace, "the background must be 8-bit BGR");
@@ -436,6 +440,22 @@ void Renderer::State::UploadBackground(const RenderScene& scene,
   }
 }
 
+void Renderer::State::SetForeground(const ShaderProgram& composite,
+                                    const RenderScene& scene,
+                                    const geometry::CameraModel& display) {
+  composite.Set("foreground_is_on", scene.foreground.empty() ? 0 : 1);
+  composite.Set("picture_size", glm::vec2(display.width, display.height));
+  composite.Set("foreground", static_cast<int>(kForegroundUnit));
+  glActiveTexture(GL_TEXTURE0 + kForegroundUnit);
+  if (!scene.foreground.empty()) {
+    const int width = scene.foreground.cols;
+    const int height = scene.foreground.rows;
+    foreground_image.Upload(foreground_rectifier.Rectify(
+        scene.foreground, scene.camera.Resized(width, height), display.Resized(width, height)));
+  }
+  glBindTexture(GL_TEXTURE_2D, foreground_image.id());
+}
+
 Result<const RenderTarget*> Renderer::State::ChoosePicture(const RenderScene& scene,
                                                            const RenderTarget& target) {
   if (quality.full_size || scene.background.empty()) {
@@ -508,6 +528,7 @@ Status Renderer::State::Composite(const RenderScene& scene, const RenderTarget& 
     LARARIUM_ASSIGN_OR_RETURN(const ShaderProgram* composite, CompositePass(scene).Get());
     composite->Use();
     if (!scene.see_through) {
+      SetForeground(*composite, scene, display);
       SetBackground(*composite, scene, display);
     }
     SetLayer(*composite, scene, target);

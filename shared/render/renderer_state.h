@@ -62,6 +62,8 @@ struct Renderer::State {
   GlVertexArray no_vertices;  // bound in full-screen passes
   Texture background_image;
   Rectifier rectifier;
+  Texture foreground_image;
+  Rectifier foreground_rectifier;
   std::optional<RenderTarget> small_picture;  // the composed picture before upscaling
   LinearTarget people;
   CompositeLayer layer;    // the layer that was drawn last
@@ -104,6 +106,10 @@ struct Renderer::State {
   // Uploads the camera's image, rectified first if Rectifies(scene).
   void UploadBackground(const RenderScene& scene, const geometry::CameraModel& display);
   bool Rectifies(const RenderScene& scene) const;
+  // Uploads RenderScene::foreground with the rays of a picture, and sets it in the program in use.
+  void SetForeground(const ShaderProgram& composite,
+                     const RenderScene& scene,
+                     const geometry::CameraModel& display);
   // Returns where the picture is composed: the target, or a smaller one (Quality::full_size).
   Result<const RenderTarget*> ChoosePicture(const RenderScene& scene, const RenderTarget& target);
   // Composes the layer into picture, and upscales it if the target is larger.

@@ -215,6 +215,7 @@ void ShowRenderer::SetCamera(const StagedFrame& staged,
   const PlaceScene& place = places_[staged.camera.place];
   scene.background = tracked.frame.bgr;
   scene.camera = tracked.camera;
+  scene.foreground = tracked.foreground;
   scene.background_display = PictureOf(tracked.camera, target.width(), target.height());
   scene.display = ForEye(*scene.background_display, eye);
   const geometry::Rigid3 eye_from_camera{.translation = -eye.in_camera};

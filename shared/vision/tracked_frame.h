@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -60,6 +61,11 @@ struct TrackedFrame {
   // Share of the frame time for which the shutter is open, estimated from the blur of fast motion;
   // none until enough fast motion was observed.
   std::optional<float> shutter = std::nullopt;
+  // What stands before the surfaces of the map (foreground/foreground_mask.h), as a small CV_32FC4
+  // image that covers the frame. Its value (b, g, r, offset), interpolated at a pixel of the frame
+  // with the encoded colour (B, G, R), 0 to 1, gives the opacity of the foreground there:
+  // b B + g G + r R + offset, clamped to 0..1. Empty if there is no foreground, or none is known.
+  cv::Mat foreground = {};
 };
 
 // A map point that was found in the image at the position that the pose predicts.

@@ -11,20 +11,24 @@ namespace lararium::render {
 void Texture::Upload(const cv::Mat& bgr) {
   static std::atomic<uint32_t> uploads = 0;
   version_ = ++uploads;
-  CHECK(bgr.type() == CV_8UC3 && !bgr.empty() && bgr.step % 3 == 0);
+  const bool bytes = bgr.type() == CV_8UC3;
+  CHECK((bytes || bgr.type() == CV_32FC4) && !bgr.empty() && bgr.step % bgr.elemSize() == 0);
+  const GLenum format = bytes ? GL_RGB : GL_RGBA;
+  const GLenum type = bytes ? GL_UNSIGNED_BYTE : GL_FLOAT;
   const bool fresh = texture_.id() == 0;
   if (fresh) {
     texture_ = GlTexture::Generate();
   }
   glBindTexture(GL_TEXTURE_2D, texture_.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(bgr.step / 3));
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(bgr.step / bgr.elemSize()));
   if (bgr.cols != width_ || bgr.rows != height_) {
     width_ = bgr.cols;
     height_ = bgr.rows;
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE, bgr.data);
+    glTexImage2D(GL_TEXTURE_2D, 0, bytes ? GL_RGB8 : GL_RGBA16F, width_, height_, 0, format, type,
+                 bgr.data);
   } else {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, bgr.data);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, format, type, bgr.data);
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);

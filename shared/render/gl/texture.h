@@ -10,7 +10,8 @@ namespace lararium::render {
 // An image on the GPU.
 class Texture {
  public:
-  // bgr: CV_8UC3, not empty. Storage is reused while the size stays the same. Shaders read the
+  // bgr: CV_8UC3, or CV_32FC4 with a fourth channel, which is stored as half floats; not empty, and
+  // of one type in all uploads. Storage is reused while the size stays the same. Shaders read the
   // values without conversion from sRGB.
   void Upload(const cv::Mat& bgr);
 

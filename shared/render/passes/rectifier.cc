@@ -10,7 +10,7 @@ namespace lararium::render {
 const cv::Mat& Rectifier::Rectify(const cv::Mat& image,
                                   const geometry::CameraModel& camera,
                                   const geometry::CameraModel& display) {
-  CHECK(image.type() == CV_8UC3 && image.cols == camera.width && image.rows == camera.height);
+  CHECK(image.cols == camera.width && image.rows == camera.height);
   if (whole_.empty() || camera != camera_ || display != display_) {
     camera_ = camera;
     display_ = display;

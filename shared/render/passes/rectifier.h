@@ -11,7 +11,7 @@ namespace lararium::render {
 class Rectifier {
  public:
   // Returns an image of the display's size, black outside the camera's field of view; it is valid
-  // until the next call. image: CV_8UC3, not empty, of the camera's size. The map of pixels is
+  // until the next call. image: not empty, of the camera's size. The map of pixels is
   // computed again only if camera or display changes.
   const cv::Mat& Rectify(const cv::Mat& image,
                          const geometry::CameraModel& camera,

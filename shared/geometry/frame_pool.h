@@ -1,12 +1,12 @@
 #pragma once
 
-// Recycles the images of frames that are no longer in use, so that a running source does not
-// allocate. Private to capture.
+// Recycles images that are no longer in use, so that a part that publishes one for each
+// frame does not allocate.
 
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace lararium::capture {
+namespace lararium::geometry {
 
 class FramePool {
  public:
@@ -34,4 +34,4 @@ class FramePool {
   std::vector<cv::Mat> images_;
 };
 
-}  // namespace lararium::capture
+}  // namespace lararium::geometry
