@@ -27,7 +27,7 @@ constexpr double kTurn = 1.0;    // Seconds that a person may wait for an object
 constexpr float kCell = 0.5f;    // metres
 constexpr float kLeap = 0.3f;    // Metres in a tick that no one can walk.
 constexpr float kLow = 0.3f;     // Lower occluders are stepped over.
-// Occluders that are farther from the origin, larger or smaller hide nobody, metres.
+// Occluders that are farther from the origin, larger or smaller hide no person, metres.
 constexpr double kFarOff = 100.0, kLargest = 10'000.0, kSmallest = 0.01;
 constexpr float kHigh = 1.5f;                     // Higher occluders are passed under.
 constexpr float kHeights[] = {0.4f, 0.9f, 1.3f};  // Heights at which paths are tested.
@@ -493,16 +493,19 @@ std::vector<Sentence> CheckOccluders(std::span<const stage::Place> places) {
       }
       const double away = box.exteriorDistance(Eigen::Vector3d::Zero().eval());
       const double size = box.diagonal().norm();
-      if (away > kFarOff) {
-        problems.push_back(AtPlace(
-            place.name,
-            Sentence("occluder '%s' lies %s m from the stage; place it with model points or --at",
-                     {occluder.name, std::to_string(std::lround(away))})));
-      } else if (size > kLargest || size < kSmallest) {
+      if (box.isEmpty()) {
+        continue;
+      }
+      if (size > kLargest || size < kSmallest) {
         problems.push_back(
             AtPlace(place.name,
                     Sentence("occluder '%s' is %s m long; if its unit is not the metre, scale it",
                              {occluder.name, Text("%.3g", size)})));
+      } else if (away > kFarOff) {
+        problems.push_back(AtPlace(
+            place.name,
+            Sentence("occluder '%s' lies %s m from the stage; place it with model points or --at",
+                     {occluder.name, std::to_string(std::lround(away))})));
       }
     }
   }
