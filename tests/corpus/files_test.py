@@ -55,7 +55,7 @@ class Names(Case):
         self.editor("new", name)
         said = json.loads(self.editor("--json", "project", name))
         self.assertIn("b\uefe0r", json.dumps(said, ensure_ascii=False))
-        missing = self.editor("--json", "train", name, "--place", "here", "--video", b"n\xe9ant.mp4", code=106)
+        missing = self.editor("--json", "train", name, "--place", "here", "--video", b"n\xe9ant.mp4", code=2)
         self.assertIn(b"n\xe9ant.mp4", missing.encode("utf-8", "surrogateescape"))
 
     def test_a_recording_keeps_its_name(self):
@@ -65,7 +65,7 @@ class Names(Case):
             copy.write((MAQUETTE / "places/maquette/training.mp4").read_bytes())
         project = self.new_project()
         self.editor("place", project, "--add", "here", "--video", name)
-        self.assertNotIn("is missing", self.editor("locate", project))
+        self.assertIn("no file is missing", self.editor("locate", project))
 
 
 class Memory(Case):
