@@ -41,6 +41,9 @@ void MapTraining::Start(std::function<Result<train::TrainReport>(Progress&)> wor
                          Text(Tr("%s: %d of %d images located, %d points."), name.c_str(),
                               static_cast<int>(report->located.size()), report->frames,
                               static_cast<int>(report->points)));
+        for (const std::string& note : report->notes) {
+          messages_.Warn(note);
+        }
         if (status.ok()) {
           trained_place_ = name;
           loads_before_ = map_.loads();
