@@ -47,7 +47,7 @@ class LineFolder {
   std::vector<const File*> Find(const std::string& stem, Extensions extensions) const;
   Result<std::filesystem::path> OnlyOne(const std::string& stem, Extensions extensions) const;
 
-  // By the key of the stem: names with the same key mean the same line.
+  // The key of a stem gives the file; names with equal keys mean one line.
   std::multimap<std::string, File> files_;
   std::set<std::string> ids_;  // The ids of all lines.
 };

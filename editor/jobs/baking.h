@@ -40,7 +40,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
 // The warnings with which a product was made, such as a texture that its model names and that
 // cannot be read. Empty if it was not made.
 std::vector<std::string> ProductWarnings(const std::filesystem::path& product);
-// The same for all products of a project, none of which is made.
+// The warnings of all products of a project as they are on disk; no product is made.
 std::vector<std::string> WarningsOfProducts(const ProjectPaths& paths,
                                             const ProjectDocument& document);
 

@@ -224,7 +224,7 @@ Status FilmConverter::Convert(const AVFrame& picture, geometry::Frame& frame) {
   return Status();
 }
 
-// Of an interlaced picture only the upper field is converted, into the even rows.
+// Converts a picture. An interlaced one gives only its upper field, in the even rows.
 Result<cv::Mat> FilmConverter::ToBgr(const AVFrame& picture, int type) {
   const int step = image::IsInterlaced(picture) ? 2 : 1;
   const int rows = (stored_.height + step - 1) / step;

@@ -59,7 +59,7 @@ class FilmConverter {
 
   std::filesystem::path file_;
   cv::Size stored_;  // The size of the decoded pictures.
-  cv::Size square_;  // The same pictures with square pixels.
+  cv::Size square_;  // The size of the pictures with square pixels.
   cv::Size size_;
   image::PixelOrientation orientation_;  // This holds for pictures that do not state their own.
   FilmColours colours_;

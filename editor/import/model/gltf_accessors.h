@@ -23,7 +23,8 @@ class GltfAccessors {
   // Number of components of an element: 1 for SCALAR, 16 for MAT4.
   size_t Components(size_t accessor) const;
 
-  // All elements one after the other. Normalised integers become numbers in [-1, 1].
+  // Returns the components of all elements, element by element. Normalised integers become numbers
+  // in [-1, 1].
   Result<std::vector<float>> Floats(size_t accessor, size_t components) const;
   Result<std::vector<uint32_t>> Indices(size_t accessor) const;
   // The bytes of a buffer view; decompresses EXT_meshopt_compression.

@@ -67,7 +67,7 @@ std::vector<uint32_t> Corners(size_t mode, const std::vector<uint32_t>& indices)
   return corners;
 }
 
-// The elements that `order` names, one after the other.
+// Returns the elements that `order` names, in this order.
 std::vector<float> Ordered(const std::vector<float>& values,
                            size_t components,
                            const std::vector<uint32_t>& order) {

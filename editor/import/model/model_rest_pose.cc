@@ -12,7 +12,7 @@ namespace lararium::import {
 namespace {
 
 constexpr float kUpright = 0.85f;      // Share of the length of legs and trunk that is height.
-constexpr float kStretched = 0.6f;     // The same for a pose whose direction can be trusted.
+constexpr float kStretched = 0.6f;     // Least such share at which the direction of a pose counts.
 constexpr float kSameWay = 0.5f;       // Cosine between two directions that count as one.
 constexpr size_t kMostPoses = 600;     // Poses that are looked at.
 constexpr float kFeetTogether = 0.3f;  // Weight of the distance between the ankles.
@@ -28,7 +28,7 @@ class StanceFinder {
     return static_cast<size_t>(rig_.node_of_bone[rig_.map.Find(joint)->bone]);
   }
 
-  // From the ankles to the head, in lengths of trunk and leg.
+  // Returns the vector from the ankles to the head, in lengths of trunk and leg.
   glm::vec3 Rise(const std::vector<glm::mat4>& pose) const {
     return (At(pose, "skullbase") - 0.5f * (At(pose, "r_ankle") + At(pose, "l_ankle"))) /
            (Length("skullbase", "humanoid_root") + Length("r_ankle", "r_hip"));

@@ -67,7 +67,7 @@ class ForegroundMask {
   ForegroundLabels labels_;
   geometry::FramePool results_;
 
-  // Of the present image.
+  // These members belong to the present image.
   geometry::CameraModel camera_;
   std::vector<Eigen::Vector2f> rays_;  // [small pixel]: Point on the plane z = 1.
   cv::Mat bgr_, grey_, mean_grey_;     // The small image: CV_8UC3, CV_32FC1, and 3 x 3 means of it.
