@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "shared/vision/wrapped_poses.h"
+
 namespace lararium::vision {
 namespace {
 
@@ -26,29 +28,16 @@ double Gain(double cutoff_hz, double interval) {
   return 1.0 - std::exp(-2.0 * M_PI * cutoff_hz * interval);
 }
 
-class SmoothedPoses final : public PoseSource {
+class SmoothedPoses final : public WrappedPoses {
  public:
   SmoothedPoses(std::unique_ptr<PoseSource> poses,
                 const PoseSmootherOptions& options,
                 std::vector<std::vector<Eigen::Vector3d>> landmarks)
-      : poses_(std::move(poses)), smoother_(options, std::move(landmarks)) {}
-
-  TrackedFrame Track(const geometry::Frame& frame) override {
-    TrackedFrame tracked = poses_->Track(frame);
-    smoother_.Apply(tracked);
-    return tracked;
-  }
-
-  void Relocalize() override { poses_->Relocalize(); }
-
-  void Seen(std::vector<SeenPoint>& seen) const override { poses_->Seen(seen); }
-
-  void SetOccluders(uint32_t map, std::span<const OccluderMesh> meshes) override {
-    poses_->SetOccluders(map, meshes);
-  }
+      : WrappedPoses(std::move(poses)), smoother_(options, std::move(landmarks)) {}
 
  private:
-  std::unique_ptr<PoseSource> poses_;
+  void Apply(TrackedFrame& tracked) override { smoother_.Apply(tracked); }
+
   PoseSmoother smoother_;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shared/vision/rolling_shutter.h"
+#include "shared/vision/wrapped_poses.h"
 
 namespace lararium::vision {
 namespace {
@@ -394,30 +395,22 @@ cv::Mat ForegroundOpacity(const TrackedFrame& tracked) {
 
 namespace {
 
-class ForegroundPoses final : public PoseSource {
+class ForegroundPoses final : public WrappedPoses {
  public:
   ForegroundPoses(std::unique_ptr<PoseSource> poses,
                   std::span<const std::shared_ptr<const SceneDatabase>> maps)
-      : poses_(std::move(poses)) {
+      : WrappedPoses(std::move(poses)) {
     for (const auto& map : maps) {
       masks_.emplace_back(map);
     }
   }
 
-  TrackedFrame Track(const geometry::Frame& frame) override {
-    TrackedFrame tracked = poses_->Track(frame);
-    poses_->Seen(seen_);
+ private:
+  void Apply(TrackedFrame& tracked) override {
+    Seen(seen_);
     tracked.foreground = masks_[tracked.map].Estimate(tracked, seen_);
-    return tracked;
-  }
-  void Relocalize() override { poses_->Relocalize(); }
-  void Seen(std::vector<SeenPoint>& seen) const override { poses_->Seen(seen); }
-  void SetOccluders(uint32_t map, std::span<const OccluderMesh> meshes) override {
-    poses_->SetOccluders(map, meshes);
   }
 
- private:
-  std::unique_ptr<PoseSource> poses_;
   std::vector<ForegroundMask> masks_;  // [map]
   std::vector<SeenPoint> seen_;
 };
