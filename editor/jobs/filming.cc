@@ -109,16 +109,6 @@ class Recorder {
   int64_t index_ = -1;
 };
 
-// Fails where the disk is so full that the recording must be completed now.
-Status CheckSpace(const std::filesystem::path& folder, const FreeSpace& free_space) {
-  // Bytes for the index and for frames that are not written yet.
-  constexpr uint64_t kLeast = 64'000'000;
-  const std::optional<uint64_t> left = free_space(folder);
-  return left && *left < kLeast ? Status::Error(folder.string(), "the disk is nearly full",
-                                                "make room, then film again")
-                                : Status();
-}
-
 }  // namespace
 
 std::unique_ptr<capture::FrameSource> AtItsOwnPace(
@@ -141,23 +131,19 @@ Result<std::unique_ptr<capture::FrameSource>> OpenFilmCamera(const std::string& 
   return AtItsOwnPace(std::move(recording));
 }
 
-std::optional<uint64_t> FreeSpaceOf(const std::filesystem::path& folder) {
-  std::error_code error;
-  const std::filesystem::space_info space = std::filesystem::space(folder, error);
-  return error ? std::nullopt : std::optional<uint64_t>(space.available);
-}
-
 Result<Filmed> Film(capture::FrameSource& camera,
                     const std::filesystem::path& file,
                     const std::function<FilmStep(const FilmMoment&)>& next,
                     const FreeSpace& free_space) {
+  constexpr uint64_t kLeast = 64'000'000;  // Bytes for the index and frames still to be written.
   LARARIUM_RETURN_IF_ERROR(MakeFolderOf(file));
   LARARIUM_ASSIGN_OR_RETURN(const auto recorder, Recorder::Create(camera, file));
   Filmed filmed;
   FilmStep step = FilmStep::kGoOn;
   while (step == FilmStep::kGoOn) {
     const auto frame = camera.Next();
-    filmed.stopped = frame.ok() ? CheckSpace(file.parent_path(), free_space) : frame.status();
+    filmed.stopped =
+        frame.ok() ? RequireSpace(file.parent_path(), kLeast, free_space) : frame.status();
     if (!filmed.stopped.ok() || !*frame) {
       break;
     }

@@ -16,6 +16,7 @@
 
 #include "editor/train/coverage_guide.h"
 #include "shared/capture/frame_source.h"
+#include "shared/core/free_space.h"
 #include "shared/core/status.h"
 
 namespace lararium::editor {
@@ -47,10 +48,6 @@ struct Filmed {
   // ended it.
   Status stopped;
 };
-
-// The free bytes on the disk of a folder; nullopt where that is not known.
-using FreeSpace = std::function<std::optional<uint64_t>(const std::filesystem::path& folder)>;
-std::optional<uint64_t> FreeSpaceOf(const std::filesystem::path& folder);
 
 // Records until the camera ends or next() says so, which is called after each frame. Training reads
 // frames more than once and so needs a file. A camera that fails or a disk that is nearly full also

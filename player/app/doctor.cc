@@ -19,6 +19,7 @@
 #include "shared/audio/audio_out.h"
 #include "shared/bundle/bundle.h"
 #include "shared/capture/frame_source.h"
+#include "shared/core/free_space.h"
 #include "shared/core/json.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/window.h"
@@ -218,10 +219,10 @@ Finding LookAtDisk(std::filesystem::path folder) {
     folder = DefaultStateFolder();
   }
   const Status written = SaveKioskState(folder / "doctor", {});
+  const std::optional<uint64_t> space = FreeSpaceOf(folder);
   std::error_code ignored;
-  const auto space = std::filesystem::space(folder, ignored);
   std::filesystem::remove_all(folder / "doctor", ignored);
-  return JudgeDisk(written, ignored ? 0 : space.available, folder.string());
+  return JudgeDisk(written, space.value_or(0), folder.string());
 }
 
 Finding LookAtStaffPage(const DoctorOptions& options) {

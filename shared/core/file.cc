@@ -7,8 +7,9 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
+
+#include "shared/core/free_space.h"
 
 namespace lararium {
 namespace {
@@ -237,20 +238,7 @@ Status FileReplacement::Commit() {
 }
 
 Status RequireSpace(const std::filesystem::path& folder, uint64_t bytes) {
-  std::error_code error;
-  std::filesystem::path existing = std::filesystem::absolute(folder, error);
-  while (existing.has_relative_path() && !std::filesystem::exists(existing, error)) {
-    existing = existing.parent_path();
-  }
-  const std::filesystem::space_info space = std::filesystem::space(existing, error);
-  if (error || space.available >= bytes) {
-    return Status();  // A file system that does not tell is tried.
-  }
-  char room[64];
-  std::snprintf(room, sizeof room, "%.0f MB are free and %.0f MB are needed",
-                static_cast<double>(space.available) * 1e-6, static_cast<double>(bytes) * 1e-6);
-  return Status::Error(folder.string(), std::string("the disk is full: ") + room,
-                       "make room, or choose a folder on another disk");
+  return RequireSpace(folder, bytes, FreeSpaceOf);
 }
 
 Status WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> content) {

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "shared/core/free_space.h"
 #include "tests/support/test_files.h"
 
 namespace lararium {
@@ -82,8 +83,14 @@ TEST(File, AnUnfinishedReplacementLeavesNothing) {
 TEST(File, SaysBeforehandThatADiskIsTooSmall) {
   const test::TemporaryFolder folder;
   EXPECT_TRUE(RequireSpace(folder / "not/yet/there", 1).ok());
-  const Status full = RequireSpace(folder / "not/yet/there", uint64_t{1} << 60);
-  EXPECT_NE(full.message().find("the disk is full"), std::string::npos) << full.message();
+  EXPECT_FALSE(RequireSpace(folder / "not/yet/there", uint64_t{1} << 60).ok());
+  const auto free = [&folder](std::optional<uint64_t> bytes) {
+    return RequireSpace(folder.path(), 64'000'000, [=](const auto&) { return bytes; });
+  };
+  EXPECT_TRUE(free(64'000'000).ok());
+  EXPECT_TRUE(free(std::nullopt).ok());
+  EXPECT_NE(free(63'000'000).message().find("the disk is full: 63 MB are free and 64 MB are"),
+            std::string::npos);
 }
 
 TEST(File, ErrorsNameTheFile) {

@@ -92,7 +92,7 @@ TEST(Film, ADiskThatFillsUpEndsTheFilmWhileItCanStillBeCompleted) {
         return std::optional<uint64_t>(++asked <= 7 ? 1'000'000'000 : 1'000'000);
       });
   ASSERT_TRUE(filmed.ok()) << filmed.message();
-  EXPECT_THAT(filmed->stopped.message(), HasSubstr("the disk is nearly full"));
+  EXPECT_THAT(filmed->stopped.message(), HasSubstr("the disk is full: 1 MB are free and 64 MB"));
   EXPECT_EQ(FramesOf(folder / "film.mp4"), 7);
 }
 
