@@ -68,7 +68,7 @@ std::optional<Sentence> ProblemOf(const ProjectDocument& document,
 }
 
 // The longest duration of a line in the spoken languages.
-std::optional<double> SecondsOf(const std::vector<SpokenLine>& spoken, std::string_view id) {
+std::optional<double> SecondsOf(std::span<const SpokenLine> spoken, std::string_view id) {
   std::optional<double> longest;
   for (const SpokenLine& line : spoken) {
     if (line.line->id != id) {
@@ -246,6 +246,7 @@ std::map<std::string, double> LongestDescriptions(const ProjectPaths& paths,
 std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
                                        const ProjectDocument& document,
                                        const ProjectLines& lines,
+                                       std::span<const SpokenLine> spoken,
                                        const std::string& script) {
   std::vector<Sentence> problems;
   const std::string file = paths.Drama().filename().string();
@@ -256,9 +257,8 @@ std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
     }
   }
   const auto timeline = drama::TimelineText::Read(script, file);
-  const auto spoken = SpokenLines(paths, document, lines);
-  if (!timeline.ok() || !spoken.ok()) {
-    return problems;  // Running the script, or baking, reports the error.
+  if (!timeline.ok()) {
+    return problems;  // Running the script reports the error.
   }
   for (size_t l = 0; l < timeline->lanes().size(); ++l) {
     const drama::TimelineLane& lane = timeline->lanes()[l];
@@ -273,7 +273,7 @@ std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
       if (auto problem = ProblemOf(document, lines, id->get<std::string>(), described)) {
         problems.push_back(AtPlace(where, *std::move(problem)));
       }
-      const std::optional<double> seconds = SecondsOf(*spoken, id->get<std::string>());
+      const std::optional<double> seconds = SecondsOf(spoken, id->get<std::string>());
       if (seconds && lane.length[i] > 0.0 && *seconds > lane.length[i] + 0.01) {
         problems.push_back(AtPlace(where, Sentence("the line '%s' lasts %s, its item %s",
                                                    {id->get<std::string>(), SecondsText(*seconds),
@@ -286,11 +286,12 @@ std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
 
 std::vector<Sentence> CheckTable(const ProjectPaths& paths,
                                  const ProjectDocument& document,
-                                 const ProjectLines& lines) {
+                                 const ProjectLines& lines,
+                                 std::span<const SpokenLine> spoken) {
   std::vector<Sentence> problems;
   CheckTexts(LinePlaces(paths.folder), document, lines, problems);
   for (const std::string& language : lines.spoken) {
-    const Result<stage::CaptionBook> book = MakeCaptions(paths, document, lines, language);
+    const Result<stage::CaptionBook> book = MakeCaptions(document, lines, spoken, language);
     if (!book.ok()) {
       problems.push_back(book.message());
       continue;
@@ -309,7 +310,7 @@ std::vector<Sentence> CheckTable(const ProjectPaths& paths,
     }
   }
   for (const std::string& language : lines.captions) {
-    if (const auto book = MakeDescriptions(paths, document, lines, language); !book.ok()) {
+    if (const auto book = MakeDescriptions(spoken, language); !book.ok()) {
       problems.push_back(book.message());
     }
   }

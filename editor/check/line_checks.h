@@ -87,17 +87,19 @@ std::map<std::string, double> LongestDescriptions(const ProjectPaths& paths,
 
 // Checks lines that the script names, in `a:say("line")`, in `describe("line")` and in the
 // lanes for them: ids that the table lacks, ids in describe() that are not descriptions, and
-// items shorter than their line.
+// items shorter than their line. `spoken` are all lines (SpokenLines()).
 std::vector<Sentence> CheckScriptLines(const ProjectPaths& paths,
                                        const ProjectDocument& document,
                                        const ProjectLines& lines,
+                                       std::span<const SpokenLine> spoken,
                                        const std::string& script);
 
 // Finds texts that lack a language, unknown speakers, captions with too little time to read,
 // and characters that the font lacks. The times require baked lines.
 std::vector<Sentence> CheckTable(const ProjectPaths& paths,
                                  const ProjectDocument& document,
-                                 const ProjectLines& lines);
+                                 const ProjectLines& lines,
+                                 std::span<const SpokenLine> spoken);
 
 // Finds lines that another person than their speaker says, or that the next line interrupts.
 // `tasks` belong to the same run and give the locations in the script.

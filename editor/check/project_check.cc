@@ -20,24 +20,35 @@
 namespace lararium::editor {
 namespace {
 
-// Unreadable lines are reported as a problem, and the result is empty.
+// Also adds the warnings with which the project's products were made. Unreadable lines are reported
+// as a problem, and the result is empty.
 ProjectLines CheckLines(const ProjectPaths& paths,
                         const ProjectDocument& document,
                         std::vector<Sentence>& problems,
                         std::vector<Sentence>& warnings) {
   Result<ProjectLines> lines = LoadProjectLines(paths, document);
-  if (!lines.ok()) {
+  std::vector<SpokenLine> spoken;
+  if (lines.ok()) {
+    Result<std::vector<SpokenLine>> found = SpokenLines(paths, document, *lines);
+    if (found.ok()) {
+      spoken = *std::move(found);
+    } else {
+      problems.push_back(found.message());
+    }
+    Append(CheckTable(paths, document, *lines, spoken), problems);
+    LineNotes notes = CheckLineFiles(paths, *lines, spoken);
+    Append(std::move(notes.problems), problems);
+    Append(std::move(notes.warnings), warnings);
+    if (const Result<std::string> script = ReadText(paths.Drama()); script.ok()) {
+      Append(CheckScriptLines(paths, document, *lines, spoken, *script), problems);
+    }
+  } else {
     problems.push_back(lines.message());
-    return {};
   }
-  Append(CheckTable(paths, document, *lines), problems);
-  LineNotes notes = CheckLineFiles(paths, document, *lines);
-  Append(std::move(notes.problems), problems);
-  Append(std::move(notes.warnings), warnings);
-  if (const Result<std::string> script = ReadText(paths.Drama()); script.ok()) {
-    Append(CheckScriptLines(paths, document, *lines, *script), problems);
+  for (const std::string& warning : WarningsOfProducts(paths, document, spoken)) {
+    warnings.emplace_back(warning);
   }
-  return *std::move(lines);
+  return lines.ok() ? *std::move(lines) : ProjectLines();
 }
 
 // Checks the probes of a place and names their files; adds repairs to `warnings`.
@@ -148,9 +159,6 @@ Result<CheckedProject> CheckProject(const CheckOptions& options, Progress& progr
   const ParadataReport paradata = CheckParadata(paths, document);
   Append(paradata.problems, problems);
   Append(paradata.warnings, places.warnings);
-  for (const std::string& warning : WarningsOfProducts(paths, document)) {
-    places.warnings.emplace_back(warning);
-  }
   const ProjectLines lines = CheckLines(paths, document, problems, places.warnings);
   const DryRunReport run = DryRunAll(paths, document, lines, options, progress);
   Append(run.problems, problems);

@@ -235,8 +235,9 @@ Result<CommandResult> RunCaptions(const CaptionsOptions& options, Progress& prog
   LARARIUM_ASSIGN_OR_RETURN(
       const std::string language,
       show::ChooseLanguage(lines.captions, options.language, "captions", place));
+  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
   LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
-                            MakeCaptions(paths, document, lines, spoken));
+                            MakeCaptions(document, lines, spoken_lines, spoken));
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<SaidLine> said,
                             RunForLines(paths, document, spoken, options.seconds, progress));
   if (!options.import.empty()) {

@@ -22,7 +22,6 @@
 #include "editor/import/objects/object_import.h"
 #include "editor/import/objects/object_models.h"
 #include "editor/jobs/cast_library_fetch.h"
-#include "editor/jobs/lines.h"
 #include "editor/jobs/sounds.h"
 #include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
@@ -514,7 +513,7 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
                                     const ProjectDocument& document,
                                     const Progress& progress,
                                     BakeWhat what,
-                                    std::vector<std::string>& warnings) {
+                                    std::span<const SpokenLine> spoken) {
   std::vector<BakeStep> steps;
   if (what == BakeWhat::kPeople) {
     LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, steps));
@@ -537,16 +536,8 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
   for (const ObjectDocument& object : document.objects) {
     steps.push_back(ObjectStep(paths, object));
   }
-  LARARIUM_ASSIGN_OR_RETURN(const ProjectLines lines, LoadProjectLines(paths, document));
-  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
-  for (const SpokenLine& spoken : spoken_lines) {
-    AddSpeechSteps(spoken, steps);
-  }
-  const LineNotes notes = CheckLineFiles(paths, document, lines);
-  for (const auto* sentences : {&notes.problems, &notes.warnings}) {
-    for (std::string& note : EnglishOf(*sentences)) {
-      warnings.push_back(std::move(note));
-    }
+  for (const SpokenLine& line : spoken) {
+    AddSpeechSteps(line, steps);
   }
   for (const SoundFile& sound : FindSounds(paths)) {
     if (sound.built_in) {
@@ -626,8 +617,18 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
                         Progress& progress,
                         BakeWhat what) {
   BakeReport report;
+  ProjectLines lines;
+  std::vector<SpokenLine> spoken;
+  if (what != BakeWhat::kPeople) {
+    LARARIUM_ASSIGN_OR_RETURN(lines, LoadProjectLines(paths, document));
+    LARARIUM_ASSIGN_OR_RETURN(spoken, SpokenLines(paths, document, lines));
+    const LineNotes notes = CheckLineFiles(paths, lines, spoken);
+    for (const auto* sentences : {&notes.problems, &notes.warnings}) {
+      std::ranges::move(EnglishOf(*sentences), std::back_inserter(report.warnings));
+    }
+  }
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<BakeStep> steps,
-                            Steps(paths, document, progress, what, report.warnings));
+                            Steps(paths, document, progress, what, spoken));
   double whole = 0.0;
   for (const BakeStep& step : steps) {
     whole += step.cost;
@@ -655,12 +656,12 @@ std::vector<std::string> ProductWarnings(const std::filesystem::path& product) {
 }
 
 std::vector<std::string> WarningsOfProducts(const ProjectPaths& paths,
-                                            const ProjectDocument& document) {
+                                            const ProjectDocument& document,
+                                            std::span<const SpokenLine> spoken) {
   std::vector<std::string> warnings;
-  std::vector<std::string> of_inputs;  // A check finds these by itself.
   const NoProgress silent;
   const Result<std::vector<BakeStep>> steps =
-      Steps(paths, document, silent, BakeWhat::kAll, of_inputs);
+      Steps(paths, document, silent, BakeWhat::kAll, spoken);
   if (steps.ok()) {
     for (const BakeStep& step : *steps) {
       std::ranges::copy(ProductWarnings(step.product), std::back_inserter(warnings));

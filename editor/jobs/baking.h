@@ -6,10 +6,12 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "editor/document/project.h"
+#include "editor/jobs/lines.h"
 #include "editor/jobs/shared_people.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
@@ -40,9 +42,11 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
 // The warnings with which a product was made, such as a texture that its model names and that
 // cannot be read. Empty if it was not made.
 std::vector<std::string> ProductWarnings(const std::filesystem::path& product);
-// The warnings of all products of a project as they are on disk; no product is made.
+// The warnings of all products of a project as they are on disk; no product is made. `spoken` are
+// all lines (SpokenLines()).
 std::vector<std::string> WarningsOfProducts(const ProjectPaths& paths,
-                                            const ProjectDocument& document);
+                                            const ProjectDocument& document,
+                                            std::span<const SpokenLine> spoken);
 
 // The names of the cast members whose product is missing or stale.
 std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document);

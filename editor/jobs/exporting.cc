@@ -55,12 +55,12 @@ Status PackTexts(const ProjectPaths& paths,
   }
   for (const std::string& language : lines.spoken) {
     LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
-                              MakeCaptions(paths, document, lines, language));
+                              MakeCaptions(document, lines, spoken_lines, language));
     content.spoken.push_back({language, stage::FormatCaptions(book)});
   }
   for (const std::string& language : lines.captions) {
     LARARIUM_ASSIGN_OR_RETURN(const stage::CaptionBook book,
-                              MakeDescriptions(paths, document, lines, language));
+                              MakeDescriptions(spoken_lines, language));
     if (!book.lines.empty()) {
       content.descriptions.push_back({language, stage::FormatCaptions(book)});
     }

@@ -155,8 +155,8 @@ Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
 }
 
 LineNotes CheckLineFiles(const ProjectPaths& paths,
-                         const ProjectDocument& document,
-                         const ProjectLines& lines) {
+                         const ProjectLines& lines,
+                         std::span<const SpokenLine> spoken) {
   LineNotes notes;
   if (!lines.note.empty()) {
     notes.warnings.push_back(lines.note);
@@ -190,9 +190,8 @@ LineNotes CheckLineFiles(const ProjectPaths& paths,
           Sentence("holds recordings or captions, but '%s' is no language of the lines", {name})));
     }
   }
-  const auto spoken = SpokenLines(paths, document, lines);
-  for (size_t i = 0; spoken.ok() && i < spoken->size(); ++i) {
-    for (const auto& [captions, file] : (*spoken)[i].placed) {
+  for (const SpokenLine& line : spoken) {
+    for (const auto& [captions, file] : line.placed) {
       const Result<bake::CaptionFile> read = LoadPlacedCaptions(file);
       for (size_t k = 0; read.ok() && k < read->notes.size(); ++k) {
         notes.problems.push_back(AtPlace(file.string(), read->notes[k]));
@@ -207,9 +206,9 @@ Result<bake::CaptionFile> LoadPlacedCaptions(const std::filesystem::path& file) 
   return bake::ParseCaptionFile(text, file.string());
 }
 
-Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
-                                        const ProjectDocument& document,
+Result<stage::CaptionBook> MakeCaptions(const ProjectDocument& document,
                                         const ProjectLines& lines,
+                                        std::span<const SpokenLine> spoken,
                                         const std::string& language) {
   stage::CaptionBook book;
   for (const bake::Line& line : lines.table.lines) {
@@ -217,34 +216,30 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
       book.names[line.id] = {line.text.begin(), line.text.end()};
     }
   }
-  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
-  for (const SpokenLine& spoken : spoken_lines) {
-    if (spoken.language != language || spoken.describes) {
+  for (const SpokenLine& line : spoken) {
+    if (line.language != language || line.describes) {
       continue;
     }
-    LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
+    LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(line));
     for (const std::string& captions : lines.captions) {
       LARARIUM_ASSIGN_OR_RETURN(std::vector<stage::CaptionCue> cues,
-                                CuesOf(spoken, visemes, captions));
+                                CuesOf(line, visemes, captions));
       if (!cues.empty()) {
-        book.lines[spoken.line->id][captions] = std::move(cues);
+        book.lines[line.line->id][captions] = std::move(cues);
       }
     }
   }
   return book;
 }
 
-Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
-                                            const ProjectDocument& document,
-                                            const ProjectLines& lines,
+Result<stage::CaptionBook> MakeDescriptions(std::span<const SpokenLine> spoken,
                                             const std::string& language) {
   stage::CaptionBook book;
-  LARARIUM_ASSIGN_OR_RETURN(const auto spoken_lines, SpokenLines(paths, document, lines));
-  for (const SpokenLine& spoken : spoken_lines) {
-    if (spoken.language == language && spoken.describes) {
-      LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(spoken));
-      LARARIUM_ASSIGN_OR_RETURN(book.lines[spoken.line->id][language],
-                                CuesOf(spoken, visemes, language));
+  for (const SpokenLine& line : spoken) {
+    if (line.language == language && line.describes) {
+      LARARIUM_ASSIGN_OR_RETURN(const human::VisemeTrack visemes, LoadVisemes(line));
+      LARARIUM_ASSIGN_OR_RETURN(book.lines[line.line->id][language],
+                                CuesOf(line, visemes, language));
     }
   }
   return book;
@@ -298,16 +293,15 @@ Status AddLines(const ProjectPaths& paths,
     LARARIUM_ASSIGN_OR_RETURN(
         captions, show::ChooseLanguage(lines.captions, languages.captions, "captions", place));
   }
+  LARARIUM_ASSIGN_OR_RETURN(auto spoken, SpokenLines(paths, document, lines));
   LARARIUM_ASSIGN_OR_RETURN(stage::CaptionBook book,
-                            MakeCaptions(paths, document, lines, language));
+                            MakeCaptions(document, lines, spoken, language));
   const std::string described = !captions.empty()        ? captions
                                 : lines.captions.empty() ? language
                                                          : lines.captions.front();
-  LARARIUM_ASSIGN_OR_RETURN(stage::CaptionBook descriptions,
-                            MakeDescriptions(paths, document, lines, described));
+  LARARIUM_ASSIGN_OR_RETURN(stage::CaptionBook descriptions, MakeDescriptions(spoken, described));
   book.lines.merge(descriptions.lines);
   // Each line in the wanted language, otherwise in the first language that it has.
-  LARARIUM_ASSIGN_OR_RETURN(auto spoken, SpokenLines(paths, document, lines));
   std::stable_partition(spoken.begin(), spoken.end(), [&](const SpokenLine& line) {
     return line.language == (line.describes ? described : language);
   });

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,31 +55,30 @@ Result<std::vector<SpokenLine>> SpokenLines(const ProjectPaths& paths,
                                             const ProjectDocument& document,
                                             const ProjectLines& lines);
 
-// What is wrong with the files of the lines: rows and captions that were left out, recordings whose
-// name only nearly fits a line (problems); encodings that were guessed and files that belong to no
-// line (warnings).
+// What is wrong with the files of the lines, of which `spoken` are all: rows and captions that were
+// left out, recordings whose name only nearly fits a line (problems); encodings that were guessed
+// and files that belong to no line (warnings).
 struct LineNotes {
   std::vector<Sentence> problems;
   std::vector<Sentence> warnings;
 };
 LineNotes CheckLineFiles(const ProjectPaths& paths,
-                         const ProjectDocument& document,
-                         const ProjectLines& lines);
+                         const ProjectLines& lines,
+                         std::span<const SpokenLine> spoken);
 
 // Reads a file of SpokenLine::placed.
 Result<bake::CaptionFile> LoadPlacedCaptions(const std::filesystem::path& file);
 
-// The captions while the lines are spoken in a language. Fails where a line was not baked.
-Result<stage::CaptionBook> MakeCaptions(const ProjectPaths& paths,
-                                        const ProjectDocument& document,
+// The captions while the lines are spoken in a language. `spoken` are all lines (SpokenLines()).
+// Fails where a line was not baked.
+Result<stage::CaptionBook> MakeCaptions(const ProjectDocument& document,
                                         const ProjectLines& lines,
+                                        std::span<const SpokenLine> spoken,
                                         const std::string& language);
 
 // The captions while descriptions are heard in a language, in the same language. Fails where one
 // was not baked.
-Result<stage::CaptionBook> MakeDescriptions(const ProjectPaths& paths,
-                                            const ProjectDocument& document,
-                                            const ProjectLines& lines,
+Result<stage::CaptionBook> MakeDescriptions(std::span<const SpokenLine> spoken,
                                             const std::string& language);
 
 // The glyphs of all captions and names. Adds a warning for characters that the font lacks.

@@ -36,9 +36,10 @@ class LineChecksTest : public ::testing::Test {
     auto lines = LoadProjectLines(paths_, document_);
     ASSERT_TRUE(lines.ok()) << lines.message();
     lines_ = *std::move(lines);
-    const auto spoken = SpokenLines(paths_, document_, lines_);
+    auto spoken = SpokenLines(paths_, document_, lines_);
     ASSERT_TRUE(spoken.ok()) << spoken.message();
-    for (const SpokenLine& line : *spoken) {  // Baked lines of one second each.
+    spoken_ = *std::move(spoken);
+    for (const SpokenLine& line : spoken_) {  // Baked lines of one second each.
       std::filesystem::create_directories(line.visemes.parent_path());
       human::VisemeTrack track;
       track.duration = 1.0f;
@@ -50,11 +51,12 @@ class LineChecksTest : public ::testing::Test {
   ProjectPaths paths_{folder_.path()};
   ProjectDocument document_;
   ProjectLines lines_;
+  std::vector<SpokenLine> spoken_;
 };
 
 TEST_F(LineChecksTest, AWholeTableHasNoProblems) {
-  EXPECT_THAT(CheckTable(paths_, document_, lines_), IsEmpty());
-  EXPECT_THAT(CheckScriptLines(paths_, document_, lines_,
+  EXPECT_THAT(CheckTable(paths_, document_, lines_, spoken_), IsEmpty());
+  EXPECT_THAT(CheckScriptLines(paths_, document_, lines_, spoken_,
                                "-- keeper:say('nothing')\nkeeper:say('salvete')\nx:say\"vale\""),
               IsEmpty());
 }
@@ -67,7 +69,7 @@ TEST_F(LineChecksTest, MissingTextsSpeakersAndTimeToReadAreTold) {
       "It takes far longer to read all of these words than it took to say that one word aloud "
       "just now in the bar of Placidus and then there are even more of them for the visitor\n"
       "vale,,Valē!,\n");
-  const auto problems = EnglishOf(CheckTable(paths_, document_, lines_));
+  const auto problems = EnglishOf(CheckTable(paths_, document_, lines_, spoken_));
   EXPECT_THAT(problems, Contains(HasSubstr("line 'salvete': it has no text in 'la', which is")));
   EXPECT_THAT(problems, Contains(HasSubstr("no person of the cast is called 'nobody'")));
   EXPECT_THAT(problems, Contains(HasSubstr("line 'vale': it has no text in 'en'")));
@@ -76,7 +78,7 @@ TEST_F(LineChecksTest, MissingTextsSpeakersAndTimeToReadAreTold) {
 }
 
 TEST_F(LineChecksTest, UnknownLinesOfTheScriptAreToldWithTheirPlace) {
-  const auto problems = EnglishOf(CheckScriptLines(paths_, document_, lines_,
+  const auto problems = EnglishOf(CheckScriptLines(paths_, document_, lines_, spoken_,
                                                    "function main()\n"
                                                    "  keeper:say(\"salve\")\n"
                                                    "end\n"
@@ -96,10 +98,10 @@ TEST_F(LineChecksTest, ProblemsAreSaidInTheLanguageOfTheInterfaceAndAsBeforeInEn
       "salvete,nobody,,Greetings!\n");
   LoadTexts(LARARIUM_LOCALE_DIR, "it");
   std::vector<std::string> italian;
-  for (const Sentence& problem : CheckTable(paths_, document_, lines_)) {
+  for (const Sentence& problem : CheckTable(paths_, document_, lines_, spoken_)) {
     italian.push_back(problem.Translated(Tr));
   }
-  const auto english = EnglishOf(CheckTable(paths_, document_, lines_));
+  const auto english = EnglishOf(CheckTable(paths_, document_, lines_, spoken_));
   LoadTexts(LARARIUM_LOCALE_DIR, "en");
   EXPECT_THAT(
       italian,
@@ -158,19 +160,17 @@ TEST_F(LineChecksTest, DescriptionsAreHeardInTheLanguagesOfCaptions) {
       "salvete,keeper,Salvēte!,Greetings!\n"
       "d_bar,description,Taberna.,A bar.\n"
       "d_cup,description,Pōculum.,\n");
-  const auto spoken = SpokenLines(paths_, document_, lines_);
-  ASSERT_TRUE(spoken.ok()) << spoken.message();
   std::vector<std::string> said;
-  for (const SpokenLine& line : *spoken) {
+  for (const SpokenLine& line : spoken_) {
     said.push_back(line.line->id + " " + line.language + (line.describes ? " described" : ""));
     EXPECT_EQ(line.source.voice.rate, line.describes ? 170 : 150);
   }
   EXPECT_THAT(said, ::testing::ElementsAre("salvete la", "d_bar en described", "d_bar la described",
                                            "d_cup la described"));
-  EXPECT_THAT(EnglishOf(CheckTable(paths_, document_, lines_)),
+  EXPECT_THAT(EnglishOf(CheckTable(paths_, document_, lines_, spoken_)),
               ::testing::ElementsAre(HasSubstr("line 'd_cup': it has no text in 'en'")));
-  EXPECT_FALSE(MakeCaptions(paths_, document_, lines_, "la")->lines.contains("d_bar"));
-  const auto book = MakeDescriptions(paths_, document_, lines_, "en");
+  EXPECT_FALSE(MakeCaptions(document_, lines_, spoken_, "la")->lines.contains("d_bar"));
+  const auto book = MakeDescriptions(spoken_, "en");
   ASSERT_TRUE(book.ok()) << book.message();
   EXPECT_EQ(book->lines.at("d_bar").at("en")[0].text, "A bar.");
   EXPECT_FALSE(book->lines.contains("salvete"));
@@ -181,7 +181,7 @@ TEST_F(LineChecksTest, WhatIsDescribedMustBeADescription) {
       "id,speaker,la,en\n"
       "salvete,keeper,Salvēte!,Greetings!\n"
       "d_bar,description,Taberna.,A bar.\n");
-  const auto problems = EnglishOf(CheckScriptLines(paths_, document_, lines_,
+  const auto problems = EnglishOf(CheckScriptLines(paths_, document_, lines_, spoken_,
                                                    "track{descriptions = {\n"
                                                    "  {at = 1, line = \"d_bar\"},\n"
                                                    "  {at = 3, line = \"salvete\"},\n"
@@ -230,7 +230,8 @@ TEST_F(LineChecksTest, CaptionsPlacedByHandCountMore) {
   ASSERT_TRUE(WriteFileAtomically(paths_.Recordings("la") / "salvete.en.srt",
                                   std::string_view("1\n00:00:00,250 --> 00:00:01,500\nHail!\n"))
                   .ok());
-  const auto book = MakeCaptions(paths_, document_, lines_, "la");
+  spoken_ = SpokenLines(paths_, document_, lines_).value();
+  const auto book = MakeCaptions(document_, lines_, spoken_, "la");
   ASSERT_TRUE(book.ok()) << book.message();
   const auto& cues = book->lines.at("salvete").at("en");
   ASSERT_EQ(cues.size(), 1u);
