@@ -16,12 +16,9 @@ namespace fs = std::filesystem;
 
 fs::path FetchedLibrary() { return DataFolder() / "cast-library"; }
 
-// Installed beside the programs, or in the checkout that has the build tree.
 fs::path Script() {
   const fs::path script = fs::path("scripts") / "fetch_cast_library.sh";
-  const fs::path installed = ProgramFolder().parent_path() / "share" / "lararium" / script;
-  return FileExists(installed) ? installed
-                               : ProgramFolder().parent_path().parent_path().parent_path() / script;
+  return ShippedData("lararium" / script, script);
 }
 
 }  // namespace

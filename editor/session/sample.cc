@@ -1,6 +1,5 @@
 #include "editor/session/sample.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -9,6 +8,7 @@
 #include "editor/document/project.h"
 #include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
+#include "shared/core/program.h"
 
 namespace lararium::editor {
 
@@ -114,16 +114,10 @@ bool IsTrained(const fs::path& sample) {
 }
 
 fs::path ShippedSample(const fs::path& program) {
-  const fs::path installed = program / "../share/lararium/sample";
-  const fs::path prepared = program / "../../demo";  // The program is in build/PRESET/bin.
-  const fs::path bare = program / "../../../scenes";
-  for (const fs::path& sample : std::array{installed, prepared, bare}) {
-    if (FileExists(ProjectPaths{SampleProject(sample)}.Project()) &&
-        (IsTrained(sample) || sample == bare)) {
-      return sample.lexically_normal();
-    }
-  }
-  return {};
+  const fs::path trained = ShippedData("lararium/sample", "build/demo", program);
+  const fs::path bare = ShippedData("lararium/scenes", "scenes", program);
+  const fs::path& sample = IsTrained(trained) ? trained : bare;
+  return FileExists(ProjectPaths{SampleProject(sample)}.Project()) ? sample : fs::path();
 }
 
 Result<fs::path> OwnSample(const fs::path& shipped, const fs::path& folder, Progress& progress) {

@@ -50,7 +50,7 @@ void SetLanguages(const std::string& languages) {
 
 }  // namespace
 
-std::filesystem::path TextFolder() { return ProgramFolder().parent_path() / "share" / "locale"; }
+std::filesystem::path TextFolder() { return ShippedData("locale", "po"); }
 
 void LoadTexts(const std::filesystem::path& folder, const std::string& language) {
   static const std::string of_environment = LanguagesOfEnvironment();

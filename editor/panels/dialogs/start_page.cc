@@ -232,7 +232,7 @@ void StartPage::DrawActions(const editor::RecentProjects& recent,
 const std::shared_ptr<const cv::Mat>& StartPage::OwnPicture(const std::string& name) {
   const auto [entry, added] = own_pictures_.try_emplace(name);
   if (added) {
-    const fs::path folder = ProgramFolder().parent_path() / "share/lararium/start";
+    const fs::path folder = ShippedData("lararium/start", "editor/panels/dialogs/start");
     auto picture = image::ReadImage(folder / (name + ".jpg"), image::Channels::kBgr);
     if (picture.ok()) {
       entry->second = std::make_shared<const cv::Mat>(*std::move(picture));
