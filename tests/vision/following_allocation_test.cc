@@ -8,8 +8,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <new>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "shared/vision/foreground/foreground_mask.h"
 #include "shared/vision/tracker.h"
 #include "tests/vision/poster.h"
 
@@ -85,6 +87,8 @@ int posix_memalign(void** memory, size_t alignment, size_t size) {
 namespace lararium::vision {
 namespace {
 
+constexpr int kSettledMasks = 3;  // Number of frames until a mask's images have their sizes.
+
 struct Allocations {
   int by_new = 0;
   int by_malloc = 0;
@@ -157,6 +161,41 @@ TEST_F(Following, AllocatesLittleWhereItDoesTheBackgroundsWork) {
   }
   EXPECT_LE(all[kJoined[1]].by_new, 60);  // measured: 29
   EXPECT_EQ(all[kJoined[1]].by_malloc, 0);
+}
+
+// OpenCV allocates tables in cv::resize() and cv::remap(), and images in cv::distanceTransform()
+// and cv::connectedComponentsWithStats().
+TEST(Foreground, AllocatesLittle) {
+  const cv::Mat poster = test::MakePoster();
+  const auto map = test::MapOfPoster(poster);
+  ForegroundMask mask(map);
+  TrackedFrame tracked;
+  tracked.camera = test::kPosterCamera;
+  tracked.camera_from_map = test::PosterPose(0.05, 0.02, 1.3);
+  tracked.frame = test::PhotographPoster(poster, *tracked.camera_from_map, 0);
+  const cv::Rect person(200, 60, 100, 240);
+  tracked.frame.bgr(person).setTo(cv::Scalar(40, 60, 190));
+  cv::cvtColor(tracked.frame.bgr, tracked.frame.grey, cv::COLOR_BGR2GRAY);
+  std::vector<SeenPoint> seen;
+  for (uint32_t i = 0; i < map->points.size(); ++i) {
+    const auto pixel =
+        test::kPosterCamera.Project(*tracked.camera_from_map * map->points[i].cast<double>());
+    if (pixel && test::kPosterCamera.Contains(*pixel) &&
+        !person.contains({static_cast<int>(pixel->x()), static_cast<int>(pixel->y())})) {
+      seen.push_back({i, pixel->cast<float>()});
+    }
+  }
+  Allocations frame;
+  for (int i = 0; i < kSettledMasks; ++i) {
+    allocations = by_malloc = 0;
+    counting = true;
+    const cv::Mat guide = mask.Estimate(tracked, seen);
+    counting = false;
+    ASSERT_FALSE(guide.empty());
+    frame = {allocations, by_malloc};
+  }
+  EXPECT_LE(frame.by_new, 90);     // measured: 57
+  EXPECT_LE(frame.by_malloc, 40);  // measured: 21
 }
 
 }  // namespace

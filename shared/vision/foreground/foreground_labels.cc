@@ -28,10 +28,6 @@ constexpr float kGuideNoise =
     10.0f;  // Variance of a colour that is no edge, squares of 8-bit values.
 constexpr float kOpacityPerOdds = 0.5f;
 
-void Average(const cv::Mat& from, int window, cv::Mat& to) {
-  cv::boxFilter(from, to, CV_32F, {window, window}, {-1, -1}, true, cv::BORDER_REPLICATE);
-}
-
 }  // namespace
 
 void ForegroundLabels::Label(const cv::Mat& bgr,
@@ -47,16 +43,17 @@ void ForegroundLabels::Label(const cv::Mat& bgr,
     bins_[i] =
         (colour[i][0] / kShare * kBins + colour[i][1] / kShare) * kBins + colour[i][2] / kShare;
   }
-  Average(log_odds, kEvidenceWindow, joined_);
+  mean_.Apply(log_odds, kEvidenceWindow, joined_);
   for (int i = 0; i < kColourIterations; ++i) {
     AddColourEvidence(log_odds, seen);
-    Average(odds_, kEvidenceWindow, joined_);
+    mean_.Apply(odds_, kEvidenceWindow, joined_);
   }
-  Average(grey, kDetailWindow, product_);
+  mean_.Apply(grey, kDetailWindow, product_);
   cv::subtract(grey, product_, detail_);
-  Average(expected, kDetailWindow, product_);
+  mean_.Apply(expected, kDetailWindow, product_);
   cv::subtract(expected, product_, expected_detail_);
-  expected_detail_.setTo(kUnknownDetail, expected < 0.0f);
+  cv::compare(expected, 0.0, bytes_, cv::CMP_LT);
+  expected_detail_.setTo(kUnknownDetail, bytes_);
   Clean(log_odds, seen);
   Guide(bgr, guide);
 }
@@ -194,16 +191,16 @@ void ForegroundLabels::Clean(const cv::Mat& log_odds, std::span<const int> seen)
 void ForegroundLabels::Guide(const cv::Mat& bgr, cv::Mat& guide) {
   const auto average_product = [this](const cv::Mat& a, const cv::Mat& b, cv::Mat& mean) {
     cv::multiply(a, b, product_);
-    Average(product_, kGuideWindow, mean);
+    mean_.Apply(product_, kGuideWindow, mean);
   };
-  Average(joined_, kGuideWindow, mean_odds_);
+  mean_.Apply(joined_, kGuideWindow, mean_odds_);
   size_t pair = 0;
   for (size_t c = 0; c < 3; ++c) {
-    cv::extractChannel(bgr, product_, static_cast<int>(c));
-    product_.convertTo(channels_[c], CV_32F);
+    cv::extractChannel(bgr, bytes_, static_cast<int>(c));
+    bytes_.convertTo(channels_[c], CV_32F);
   }
   for (size_t c = 0; c < 3; ++c) {
-    Average(channels_[c], kGuideWindow, means_[c]);
+    mean_.Apply(channels_[c], kGuideWindow, means_[c]);
     average_product(channels_[c], joined_, joint_means_[c]);
     for (size_t d = c; d < 3; ++d) {
       average_product(channels_[c], channels_[d], products_[pair++]);
@@ -228,7 +225,7 @@ void ForegroundLabels::Guide(const cv::Mat& bgr, cv::Mat& guide) {
     out[i] = {255.0f * kOpacityPerOdds * slope.x(), 255.0f * kOpacityPerOdds * slope.y(),
               255.0f * kOpacityPerOdds * slope.z(), 0.5f + kOpacityPerOdds * offset};
   }
-  Average(coefficients_, kGuideWindow, guide);
+  mean_.Apply(coefficients_, kGuideWindow, guide);
 }
 
 }  // namespace lararium::vision

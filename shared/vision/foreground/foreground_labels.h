@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "shared/vision/foreground/small_filters.h"
+
 namespace lararium::vision {
 
 class ForegroundLabels {
@@ -69,6 +71,8 @@ class ForegroundLabels {
   std::array<cv::Mat, 3> joint_means_;  // Means of each channel times the log odds.
   std::array<cv::Mat, 6> products_;     // Means of BB, BG, BR, GG, GR, RR.
   cv::Mat product_, mean_odds_, coefficients_;
+  cv::Mat bytes_;  // CV_8UC1 of the small image's size, for any use.
+  WindowMean mean_;
   double share_ = 0.0;
 };
 

@@ -98,10 +98,9 @@ cv::Mat ForegroundMask::Estimate(const TrackedFrame& tracked, std::span<const Se
   SetCamera(tracked.camera);
   const cv::Size size(camera_.width, camera_.height);
   cv::resize(tracked.frame.bgr, bgr_, size, 0.0, 0.0, cv::INTER_AREA);
-  cv::Mat small;
-  cv::resize(tracked.frame.grey, small, size, 0.0, 0.0, cv::INTER_AREA);
-  small.convertTo(grey_, CV_32F);
-  cv::boxFilter(grey_, mean_grey_, CV_32F, {3, 3}, {-1, -1}, true, cv::BORDER_REPLICATE);
+  cv::resize(tracked.frame.grey, bytes_, size, 0.0, 0.0, cv::INTER_AREA);
+  bytes_.convertTo(grey_, CV_32F);
+  mean_.Apply(grey_, 3, mean_grey_);
   seen_.clear();
   const float scale_x = static_cast<float>(size.width) / static_cast<float>(tracked.camera.width);
   const float scale_y = static_cast<float>(size.height) / static_cast<float>(tracked.camera.height);
@@ -113,7 +112,7 @@ cv::Mat ForegroundMask::Estimate(const TrackedFrame& tracked, std::span<const Se
     seen_.push_back(y * size.width + x);
   }
   std::ranges::sort(seen_);
-  seen_.erase(std::ranges::unique(seen_).begin(), seen_.end());
+  seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
 
   ChooseViews(*tracked.camera_from_map);
   EstimateDepths(tracked);
@@ -201,7 +200,8 @@ void ForegroundMask::EstimateDepths(const TrackedFrame& tracked) {
     is_point_.setTo(0);
     distance_.setTo(1.0f);
   }
-  cv::divide(mean, cv::max(distance_, 1.0f), mean);
+  cv::max(distance_, 1.0f, filtered_);
+  cv::divide(mean, filtered_, mean);
   // Cells without points take the depths of the nearest cell with points.
   cv::distanceTransform(is_point_, distance_, cells_of_, cv::DIST_L2, 3, cv::DIST_LABEL_PIXEL);
   sample_.assign(static_cast<size_t>(size.area()) + 1, 0.0f);
@@ -217,9 +217,12 @@ void ForegroundMask::EstimateDepths(const TrackedFrame& tracked) {
       depth[i] = sample_[static_cast<size_t>(label[i])];
     }
   }
-  cv::boxFilter(mean, mean, CV_32F, {3, 3}, {-1, -1}, true, cv::BORDER_REPLICATE);
-  cv::erode(farthest, farthest, {}, {-1, -1}, 1, cv::BORDER_REPLICATE);
-  cv::dilate(nearest, nearest, {}, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  mean_.Apply(mean, 3, filtered_);
+  std::swap(mean, filtered_);
+  LeastAround(farthest, filtered_);
+  std::swap(farthest, filtered_);
+  GreatestAround(nearest, filtered_);
+  std::swap(nearest, filtered_);
 }
 
 void ForegroundMask::PlaceSurfaces(const TrackedFrame& tracked) {
@@ -294,7 +297,8 @@ void ForegroundMask::Compare(const View& view, bool nearest) {
     }
     if (d == 0 && nearest) {
       cv::extractChannel(warped_, expected_, 0);
-      expected_.setTo(-1.0f, column_ < -1.0f);
+      cv::compare(column_, -1.0, bytes_, cv::CMP_LT);
+      expected_.setTo(-1.0f, bytes_);
     }
     const auto* grey = grey_.ptr<float>();
     const auto* warped = warped_.ptr<cv::Vec2f>();

@@ -17,6 +17,7 @@
 #include "shared/geometry/frame_pool.h"
 #include "shared/geometry/transform.h"
 #include "shared/vision/foreground/foreground_labels.h"
+#include "shared/vision/foreground/small_filters.h"
 #include "shared/vision/scene_database.h"
 #include "shared/vision/tracked_frame.h"
 
@@ -71,8 +72,11 @@ class ForegroundMask {
   geometry::CameraModel camera_;
   std::vector<Eigen::Vector2f> rays_;  // [small pixel]: Point on the plane z = 1.
   cv::Mat bgr_, grey_, mean_grey_;     // The small image: CV_8UC3, CV_32FC1, and 3 x 3 means of it.
+  cv::Mat bytes_;                      // CV_8UC1 of the small image's size, for any use.
   std::vector<int> seen_;              // Small pixels that show seen points.
   cv::Mat is_point_, cells_of_, distance_;
+  cv::Mat filtered_;  // CV_32FC1 of the cells' size, for any use.
+  WindowMean mean_;
   std::array<cv::Mat, kDepths> cell_depths_;  // Inverse, in cells of 2 x 2 small pixels.
   std::array<cv::Mat, kDepths> depths_;       // Inverse, [small pixel].
   std::array<std::array<cv::Mat, 3>, kDepths> surfaces_;  // Point in the map: x, y, z.
