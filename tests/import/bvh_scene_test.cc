@@ -55,6 +55,12 @@ TEST_F(ReadBvh, GivesANodeForEachJointAndAKeyForEachFrame) {
   EXPECT_NEAR(turned.x, 1.0f, 1e-6f) << turned.y << " " << turned.z;
 }
 
+TEST_F(ReadBvh, RefusesMotionOfJointsWithoutChannels) {
+  const std::string none = Replaced(kHierarchy, "CHANNELS", "CHANNEL5");
+  EXPECT_THAT(Read(none + "MOTION\nFrames: 1\nFrame Time: 0.5\nx 1 2\n").message(),
+              HasSubstr("no joint has a channel"));
+}
+
 TEST_F(ReadBvh, ReadsWhatOtherProgramsWrite) {
   const std::string plain =
       std::string(kHierarchy) +

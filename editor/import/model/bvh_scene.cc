@@ -227,6 +227,9 @@ class BvhReader {
 
   // The rest of the text: "Frames: 60", "Frame Time: 0.033" and the values.
   Status ReadMotion() {
+    if (values_per_frame_ == 0) {
+      return Problem(number_, "no joint has a channel");
+    }
     std::optional<double> frames;
     size_t bad = 0, first_bad = 0;
     for (; at_ < text_.size(); ++number_) {
@@ -269,9 +272,6 @@ class BvhReader {
   }
 
   Status CheckFrames(const std::optional<double>& stated) {
-    if (values_per_frame_ == 0) {
-      return Problem(number_, "no joint has a channel");
-    }
     frames_ = values_.size() / values_per_frame_;
     const size_t rest = values_.size() % values_per_frame_;
     if (frames_ == 0) {
