@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace lararium::capture {
 namespace {
@@ -123,7 +124,8 @@ Result<FilmConverter> FilmConverter::Create(const std::filesystem::path& file,
           "nearest multiple is used");
     }
   }
-  converter.size_ = converter.OrientationOf(first).SizeOf(converter.square_);
+  converter.first_orientation_ = converter.OrientationOf(first);
+  converter.size_ = converter.first_orientation_.SizeOf(converter.square_);
   const auto [smallest, largest] = std::minmax(converter.size_.width, converter.size_.height);
   if (smallest < 16 || largest > 16384) {
     return converter.Problem("has an image size outside 16 to 16384 pixels",
@@ -209,10 +211,14 @@ Status FilmConverter::Convert(const AVFrame& picture, geometry::Frame& frame) {
                square_.width < stored_.width ? cv::INTER_AREA : cv::INTER_CUBIC);
     frame.bgr = square;
   }
-  const PixelOrientation orientation = OrientationOf(picture);
+  PixelOrientation orientation = OrientationOf(picture);
   if (orientation.SizeOf(square_) != size_) {
-    return Problem("is turned between upright and lying at frame " + std::to_string(frame.index),
-                   "cut it in two there");
+    // All images have one size and the same lens, so these remain as the first one lies.
+    orientation = first_orientation_;
+    if (!std::exchange(turns_, true)) {
+      Note("is turned between upright and lying at frame " + std::to_string(frame.index) +
+           "; images that are turned otherwise than its first lie on their side");
+    }
   }
   if (!orientation.upright()) {
     cv::Mat upright = pool_.Take(size_.height, size_.width, CV_8UC3);

@@ -62,6 +62,9 @@ class FilmConverter {
   cv::Size square_;  // The size of the pictures with square pixels.
   cv::Size size_;
   image::PixelOrientation orientation_;  // This holds for pictures that do not state their own.
+  // The orientation of the first picture.
+  image::PixelOrientation first_orientation_;
+  bool turns_ = false;  // True if it was told that orientations differ.
   FilmColours colours_;
   double highlights_ = 0.0;
   std::optional<SdrTable> table_;

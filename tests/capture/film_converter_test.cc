@@ -210,7 +210,7 @@ TEST(FilmConverter, TellsOfColoursThatItDoesNotConvert) {
   EXPECT_THAT(film.Notes(), ElementsAre(HasSubstr("log"), HasSubstr("ictcp")));
 }
 
-TEST(FilmConverter, RefusesAPictureThatTurnsOrGrows) {
+TEST(FilmConverter, RefusesAPictureThatGrows) {
   Film film({64, 48});
   Result<FilmConverter> converter = film.Open();
   ASSERT_TRUE(converter.ok()) << converter.message();
@@ -219,9 +219,24 @@ TEST(FilmConverter, RefusesAPictureThatTurnsOrGrows) {
   Film larger({80, 48});
   EXPECT_THAT(converter->Convert(larger.picture(), frame).message(),
               HasSubstr("changes its image size at frame 7"));
+}
+
+TEST(FilmConverter, KeepsTheWayThatAFilmLiesWhereItTurnsInItsMiddle) {
+  Film film({64, 48});
+  PaintCorner(film);
+  Result<FilmConverter> converter = film.Open();
+  ASSERT_TRUE(converter.ok()) << converter.message();
   constexpr int32_t kOne = 1 << 16;
   film.SetMatrix({0, kOne, 0, -kOne, 0, 0, 0, 0, 1 << 30});
-  EXPECT_THAT(converter->Convert(film.picture(), frame).message(), HasSubstr("frame 7"));
+  for (const int64_t index : {7, 8}) {
+    geometry::Frame frame;
+    frame.index = index;
+    ASSERT_TRUE(converter->Convert(film.picture(), frame).ok());
+    EXPECT_EQ(frame.bgr.size(), cv::Size(64, 48));
+    EXPECT_GT(Mean(frame.grey, 0.25, 0.25), 250.0);
+    EXPECT_LT(Mean(frame.grey, 0.75, 0.25), 5.0);
+  }
+  EXPECT_THAT(converter->notes(), ElementsAre(HasSubstr("upright and lying at frame 7")));
 }
 
 }  // namespace
