@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
+#include <utility>
 
 #include "shared/core/check.h"
 #include "shared/vision/rolling_shutter.h"
@@ -74,6 +76,50 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7, 3> {
   Eigen::Vector2d pixel_;
 };
 
+// Like ReprojectionCost, for an image that the camera of the intrinsics took in another way: pixel
+// and pose are turned to how that camera sees.
+class TurnedReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7, 3> {
+ public:
+  // pixel: of an image of the camera `turned`, which has the lens of `camera`.
+  TurnedReprojectionCost(const TrainingCamera& camera,
+                         const TrainingCamera& turned,
+                         const Eigen::Vector2d& pixel)
+      : fixed_(camera.model), pixel_(TurnedPixel(turned, camera, pixel)) {
+    const double angle = 0.5 * std::numbers::pi * QuarterTurns(turned, camera);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    for (int i = 0; i < 4; ++i) {  // The product with a quaternion is linear in it.
+      Eigen::Quaterniond unit(Eigen::Vector4d(Eigen::Vector4d::Unit(i)));
+      turn_.block<4, 1>(0, i) = (turn * unit).coeffs();
+    }
+    turn_.bottomRightCorner<3, 3>() = turn.toRotationMatrix();
+  }
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    const Vector7 pose = turn_ * Eigen::Map<const Vector7>(parameters[1]);
+    Matrix2x7 by_pose;
+    double* const wanted = jacobians != nullptr ? jacobians[1] : nullptr;
+    const bool possible = ReprojectionResidual(
+        fixed_, ImageMotion::Zero(), pixel_, parameters[0], pose.data(), parameters[2], residuals,
+        jacobians != nullptr ? jacobians[0] : nullptr, wanted != nullptr ? by_pose.data() : nullptr,
+        jacobians != nullptr ? jacobians[2] : nullptr);
+    if (possible && wanted != nullptr) {
+      Eigen::Map<Matrix2x7> jacobian(wanted);
+      jacobian = by_pose * turn_;
+    }
+    return possible;
+  }
+
+ private:
+  using Vector7 = Eigen::Matrix<double, 7, 1>;
+
+  const CameraModel& fixed_;
+  Eigen::Vector2d pixel_;
+  // Turns a PoseBlock.
+  Eigen::Matrix<double, 7, 7> turn_ = Eigen::Matrix<double, 7, 7>::Zero();
+};
+
 // What is known of a camera without looking at the images: its focal length to a share, and that
 // lenses distort little. Keeps the intrinsics of a camera plausible that took only few images.
 class PriorCost : public ceres::SizedCostFunction<3, kIntrinsics> {
@@ -127,7 +173,7 @@ class Bundle {
       double* block = intrinsics_[i].data();
       problem_.AddParameterBlock(block, kIntrinsics);
       const std::vector<int> constant = ConstantIntrinsics(cameras_[i], options);
-      if (constant.size() == kIntrinsics) {
+      if (cameras_[i].lens_of || constant.size() == kIntrinsics) {
         problem_.SetParameterBlockConstant(block);
       } else if (!constant.empty()) {
         manifolds_[i].emplace(kIntrinsics, constant);
@@ -170,8 +216,14 @@ class Bundle {
                       const Eigen::Vector2d& pixel,
                       double* pose,
                       double* point) {
-    problem_.AddResidualBlock(new ReprojectionCost(cameras_[camera].model, motion, pixel), &loss_,
-                              intrinsics_[camera].data(), pose, point);
+    const uint32_t lens = LensOf(cameras_, camera);
+    ceres::CostFunction* cost = nullptr;
+    if (lens == camera) {
+      cost = new ReprojectionCost(cameras_[camera].model, motion, pixel);
+    } else {
+      cost = new TurnedReprojectionCost(cameras_[lens], cameras_[camera], pixel);
+    }
+    problem_.AddResidualBlock(cost, &loss_, intrinsics_[lens].data(), pose, point);
   }
 
   // Adds what is known of the cameras whose intrinsics are adjusted.
@@ -201,7 +253,8 @@ class Bundle {
     return summary.IsSolutionUsable();
   }
 
-  size_t camera_count() const { return cameras_.size(); }
+  std::span<const TrainingCamera> cameras() const { return cameras_; }
+  // The intrinsics of a camera with a lens of its own.
   double* intrinsics(size_t camera) { return intrinsics_[camera].data(); }
   CameraModel camera(size_t i) const { return WithIntrinsics(cameras_[i].model, intrinsics_[i]); }
   // Whether the intrinsics are those of a camera, where it has images.
@@ -322,7 +375,7 @@ struct ReconstructionBundle {
       }
     }
     // One camera that took all images needs no help.
-    if (bundle.camera_count() > 1) {
+    if (LensCount(bundle.cameras()) > 1) {
       bundle.AddPriors();
     }
   }
@@ -578,13 +631,19 @@ bool AdjustAll(Reconstruction& reconstruction,
     return false;
   }
   if (options.refine_intrinsics) {
-    for (size_t i = 0; i < adjusted.bundle.camera_count(); ++i) {
-      if (!adjusted.bundle.Possible(i)) {
+    std::vector<uint32_t> lenses;
+    for (uint32_t i = 0; i < adjusted.bundle.cameras().size(); ++i) {
+      if (LensOf(adjusted.bundle.cameras(), i) == i) {
+        lenses.push_back(i);
+      }
+    }
+    for (const uint32_t lens : lenses) {
+      if (!adjusted.bundle.Possible(lens)) {
         return false;
       }
     }
-    for (uint32_t i = 0; i < adjusted.bundle.camera_count(); ++i) {
-      reconstruction.SetCamera(i, adjusted.bundle.camera(i));
+    for (const uint32_t lens : lenses) {
+      reconstruction.SetCamera(lens, adjusted.bundle.camera(lens));
     }
   }
   if (options.refine_readout) {
@@ -636,7 +695,9 @@ std::optional<PosedView> AdjustView(const TrainingCamera& camera,
                                     const Rigid3& start,
                                     const BundleOptions& options) {
   CHECK(pixels.size() == points.size());
-  Bundle bundle(std::span(&camera, 1), Eigen::Vector2d::Zero(), options);
+  TrainingCamera alone = camera;
+  alone.lens_of.reset();
+  Bundle bundle(std::span(&alone, 1), Eigen::Vector2d::Zero(), options);
   bundle.Reserve(1, points.size());
   double* pose = bundle.AddPose(start, true);
   for (size_t i = 0; i < pixels.size(); ++i) {
@@ -693,6 +754,15 @@ std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& recons
         }
       }
       deviations[camera] = {found[0], found[1], found[2], found[3], found[4], found[5], found[6]};
+    }
+  }
+  for (uint32_t camera = 0; camera < deviations.size(); ++camera) {
+    const uint32_t lens = LensOf(reconstruction.cameras(), camera);
+    if (lens != camera) {
+      IntrinsicsDeviation& turned = deviations[camera] = deviations[lens];
+      if (QuarterTurns(reconstruction.cameras()[lens], reconstruction.cameras()[camera]) % 2 == 1) {
+        std::swap(turned.cx_px, turned.cy_px);
+      }
     }
   }
   return deviations;

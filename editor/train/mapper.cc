@@ -289,9 +289,8 @@ class Mapper {
     AdjustAll(reconstruction_, anchors_, bundle);
     FilterAll(limits);
     DropMoving();
-    // Photographs by several cameras hardly determine the principal point of each.
-    if (bundle.refine_intrinsics && reconstruction_.cameras().size() == 1 &&
-        !progress_.Cancelled()) {
+    // Photographs by several lenses hardly determine the principal point of each.
+    if (bundle.refine_intrinsics && reconstruction_.LensCount() == 1 && !progress_.Cancelled()) {
       FreeCentre(bundle, limits);
     }
   }
@@ -333,17 +332,17 @@ class Mapper {
   // Finds out by which cameras the images were taken of which it is only assumed: estimates the
   // intrinsics of each image by themselves, then joins those whose focal lengths agree.
   void TellCamerasApart() {
-    std::map<uint32_t, std::vector<uint32_t>> groups;  // Key: the camera that was assumed.
+    std::map<uint32_t, std::vector<uint32_t>> groups;  // Key: the lens that was assumed.
     for (const uint32_t image : reconstruction_.LocatedImages()) {
       if (Assumed(image)) {
-        groups[first_camera_of_image_[image]].push_back(image);
+        groups[LensOf(first_cameras_, first_camera_of_image_[image])].push_back(image);
       }
     }
     std::erase_if(groups, [](const auto& group) { return group.second.size() < 2; });
     if (groups.empty()) {
       return;
     }
-    for (const auto& [camera, images] : groups) {
+    for (const auto& [lens, images] : groups) {
       for (const uint32_t image : images) {
         reconstruction_.GiveOwnCamera(image, reconstruction_.camera(image));
       }
@@ -366,7 +365,7 @@ class Mapper {
     for (uint32_t i = 0; i < cameras.size(); ++i) {
       cameras[i].model = reconstruction_.cameras()[i].model;
     }
-    for (const auto& [camera, images] : groups) {
+    for (const auto& [lens, images] : groups) {
       std::vector<KnownFocal> focals;
       for (const uint32_t image : images) {
         const double focal = reconstruction_.camera(image).fx;
@@ -375,18 +374,33 @@ class Mapper {
       }
       const std::vector<std::vector<uint32_t>> sets = AgreeingFocals(focals);
       for (size_t set = 0; set < sets.size(); ++set) {
-        // The largest set keeps the camera that was assumed.
-        const auto index = set == 0 ? camera : static_cast<uint32_t>(cameras.size());
-        if (set > 0) {
-          cameras.push_back(first_cameras_[camera]);
-        }
         // Begins with the intrinsics that are known best.
         const uint32_t best = *std::min_element(
             sets[set].begin(), sets[set].end(),
             [&](uint32_t a, uint32_t b) { return focals[a].deviation < focals[b].deviation; });
-        cameras[index].model = reconstruction_.camera(images[best]);
+        TrainingCamera known = first_cameras_[first_camera_of_image_[images[best]]];
+        known.model = reconstruction_.camera(images[best]);
+        // Key: an assumed camera. Value: the camera that took its images of this set. The largest
+        // set keeps the cameras that were assumed.
+        std::map<uint32_t, uint32_t> of_set;
+        std::optional<uint32_t> own_lens;
+        for (uint32_t i = 0; set == 0 && i < first_cameras_.size(); ++i) {
+          if (LensOf(first_cameras_, i) == lens) {
+            of_set[i] = i;
+          }
+        }
         for (const uint32_t member : sets[set]) {
-          camera_of_image[images[member]] = index;
+          const uint32_t assumed = first_camera_of_image_[images[member]];
+          const auto next = static_cast<uint32_t>(cameras.size());
+          if (of_set.emplace(assumed, next).second) {
+            cameras.push_back(first_cameras_[assumed]);
+            cameras.back().lens_of = own_lens;
+            own_lens = own_lens.value_or(next);
+          }
+          camera_of_image[images[member]] = of_set[assumed];
+        }
+        for (const auto& [assumed, index] : of_set) {
+          cameras[index].model = TurnedModel(known, cameras[index]);
         }
       }
       log_.info("{} images of one size were taken by {} cameras", images.size(), sets.size());
@@ -405,7 +419,7 @@ class Mapper {
     bundle.refine_intrinsics = options_.refine_intrinsics &&
                                reconstruction_.LocatedImages().size() >= kImagesForIntrinsics;
     // A few images hardly determine the distortion of many cameras.
-    bundle.refine_radial = reconstruction_.cameras().size() == 1 || finishing_;
+    bundle.refine_radial = reconstruction_.LensCount() == 1 || finishing_;
     return bundle;
   }
 
@@ -494,8 +508,9 @@ class Mapper {
     constexpr double kOtherFocal = 0.03;
     const uint32_t camera = reconstruction_.CameraOf(image);
     const std::vector<uint32_t> located = reconstruction_.LocatedImages();
+    const uint32_t lens = LensOf(reconstruction_.cameras(), camera);
     const bool seen = std::any_of(located.begin(), located.end(), [&](uint32_t i) {
-      return reconstruction_.CameraOf(i) == camera;
+      return LensOf(reconstruction_.cameras(), reconstruction_.CameraOf(i)) == lens;
     });
     const double inliers = resection ? static_cast<double>(resection->inliers.size()) : 0.0;
     if (seen && inliers > kExplained * static_cast<double>(pixels.size())) {

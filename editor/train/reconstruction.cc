@@ -48,9 +48,15 @@ void Reconstruction::SetCameras(std::vector<TrainingCamera> cameras,
 }
 
 void Reconstruction::SetCamera(uint32_t index, const geometry::CameraModel& camera) {
+  const uint32_t lens = LensOf(cameras_, index);
   cameras_[index].model = camera;
+  for (uint32_t i = 0; i < cameras_.size(); ++i) {
+    if (i != index && LensOf(cameras_, i) == lens) {
+      cameras_[i].model = TurnedModel(cameras_[index], cameras_[i]);
+    }
+  }
   for (uint32_t image = 0; image < image_count(); ++image) {
-    if (CameraOf(image) == index) {
+    if (LensOf(cameras_, CameraOf(image)) == lens) {
       FillPlanePoints(image);
     }
   }
@@ -59,6 +65,7 @@ void Reconstruction::SetCamera(uint32_t index, const geometry::CameraModel& came
 void Reconstruction::GiveOwnCamera(uint32_t image, const geometry::CameraModel& camera) {
   TrainingCamera own = cameras_[CameraOf(image)];
   own.model = camera;
+  own.lens_of.reset();
   camera_of_image_[image] = static_cast<uint32_t>(cameras_.size());
   cameras_.push_back(own);
   FillPlanePoints(image);

@@ -39,6 +39,7 @@ class Reconstruction {
       : Reconstruction({{camera}}, {}, std::move(pixels), std::move(tracks)) {}
 
   std::span<const TrainingCamera> cameras() const { return cameras_; }
+  size_t LensCount() const { return train::LensCount(cameras_); }
   uint32_t CameraOf(uint32_t image) const { return camera_of_image_[image]; }
   // The camera that took an image.
   const geometry::CameraModel& camera(uint32_t image) const {
@@ -48,6 +49,7 @@ class Reconstruction {
   uint32_t MainCamera() const;
   // The camera that took most of the located images.
   const geometry::CameraModel& camera() const { return cameras_[MainCamera()].model; }
+  // Also sets the other cameras with the same lens.
   void SetCamera(uint32_t index, const geometry::CameraModel& camera);
   // Adds a camera of its own for an image that turned out not to be taken by its camera.
   void GiveOwnCamera(uint32_t image, const geometry::CameraModel& camera);

@@ -106,8 +106,8 @@ class Trainer {
     refined.refine_intrinsics = !options_.intrinsics;
     refined.refine_centre =
         refined.refine_intrinsics &&
-        map_.reconstruction->camera().cx != verified_.cameras.front().model.cx &&
-        map_.reconstruction->cameras().size() == 1;
+        map_.reconstruction->cameras().front().model.cx != verified_.cameras.front().model.cx &&
+        map_.reconstruction->LensCount() == 1;
     refined.refine_readout = report_.shutter.has_value();
     return refined;
   }
@@ -264,10 +264,14 @@ class Trainer {
     report_.camera = database.camera;
     report_.cameras.resize(map_.reconstruction->cameras().size());
     for (const uint32_t image : map_.reconstruction->LocatedImages()) {
+      const std::span<const TrainingCamera> cameras = map_.reconstruction->cameras();
       const uint32_t index = map_.reconstruction->CameraOf(image);
-      CameraReport& camera = report_.cameras[index];
-      camera.camera =
-          OfUprightImages(index, source_.Cameras()[survey_.keyframes[image].camera].size);
+      const uint32_t lens = LensOf(cameras, index);
+      CameraReport& camera = report_.cameras[lens];
+      if (lens == index || camera.keyframes == 0) {
+        camera.camera =
+            OfUprightImages(index, source_.Cameras()[survey_.keyframes[image].camera].size);
+      }
       camera.given = map_.reconstruction->cameras()[index].given;
       ++camera.keyframes;
     }

@@ -24,6 +24,11 @@ struct SourceCamera {
   std::optional<double> focal_px = std::nullopt;
   // The images count as of one camera for their size only; no EXIF data name it.
   bool assumed = false;
+  // The index of the camera whose lens took these images too, held in another way; not set: it is
+  // the first with its lens.
+  std::optional<size_t> lens_of = std::nullopt;
+  // By how many right angles, clockwise, the images are turned from how the sensor sees.
+  int quarter_turns = 0;
 };
 
 class FrameSource {
@@ -80,7 +85,8 @@ std::span<const char* const> ImageExtensions();
 // to it. Hidden files are no images. Images that cannot be read are left out: Next() goes on with
 // the image after them, and Notes() names them. EXIF orientation is honoured. 30 frames per second.
 // Images of one size, and of one camera and focal length if EXIF data tell these, count as of one
-// camera. If there are several sizes, each image lies in the middle of a frame that has room for
+// camera; those that it took upright, lying or upside down, as of one lens (SourceCamera::lens_of).
+// If there are several sizes, each image lies in the middle of a frame that has room for
 // all of them; images with more pixels than those of the most frequent size are reduced first.
 Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path& folder);
 

@@ -80,7 +80,17 @@ struct ImageTraits {
   std::optional<uint32_t> focal_in_35mm_film;
 
   friend bool SameCamera(const ImageTraits& a, const ImageTraits& b) {
-    return a.size == b.size && a.camera == b.camera;
+    return a.size == b.size && a.camera == b.camera && a.QuarterTurns() == b.QuarterTurns();
+  }
+  friend bool SameLens(const ImageTraits& a, const ImageTraits& b) {
+    return a.camera == b.camera &&
+           (a.size == b.size || a.size == cv::Size(b.size.height, b.size.width));
+  }
+  // See SourceCamera. Sensors are wider than high: where the file does not tell how an image was
+  // turned, one that is higher than wide was turned clockwise, as phones are held.
+  int QuarterTurns() const {
+    const cv::Size stored = orientation.SizeOf(size);
+    return (orientation.quarter_turns() + (stored.height > stored.width ? 1 : 0)) % 4;
   }
 };
 
@@ -164,6 +174,13 @@ std::optional<FolderLayout> LayOut(std::span<const ImageTraits> images) {
     if (cameras[i].focal_in_35mm_film) {
       camera.focal_px =
           FocalPixels(*cameras[i].focal_in_35mm_film, sizes[i].width, sizes[i].height);
+    }
+    camera.quarter_turns = cameras[i].QuarterTurns();
+    const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const ImageTraits& other) {
+      return SameLens(other, cameras[i]);
+    });
+    if (const auto lens = static_cast<size_t>(first - cameras.begin()); lens < i) {
+      camera.lens_of = lens;
     }
   }
   return layout;

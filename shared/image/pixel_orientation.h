@@ -25,6 +25,11 @@ struct PixelOrientation {
   static PixelOrientation FromDisplayMatrix(std::span<const int32_t, 9> matrix);
 
   bool upright() const { return *this == PixelOrientation(); }
+  // By how many right angles, clockwise, the stored picture is turned. A mirrored one counts as the
+  // picture before it was mirrored left to right.
+  int quarter_turns() const {
+    return transposed ? (columns_reversed ? 1 : 3) : (rows_reversed ? 2 : 0);
+  }
   cv::Size SizeOf(cv::Size stored) const {
     return transposed ? cv::Size(stored.height, stored.width) : stored;
   }

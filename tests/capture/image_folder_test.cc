@@ -57,6 +57,10 @@ TEST(ImageFolder, LaysImagesOfAllSizesIntoTheMiddleOfOneFrame) {
   const std::vector<SourceCamera> cameras = (*source)->Cameras();
   ASSERT_EQ(cameras.size(), 4u);
   EXPECT_EQ((*source)->CameraOf(0), (*source)->CameraOf(3));
+  EXPECT_EQ(cameras[1].lens_of, 0u) << "a phone that was held upright";
+  EXPECT_EQ(cameras[1].quarter_turns, 1);
+  EXPECT_FALSE(cameras[2].lens_of.has_value());
+  EXPECT_FALSE(cameras[3].lens_of.has_value());
   const std::vector<cv::Rect> areas = {
       {0, 4, 32, 24}, {4, 0, 24, 32}, {0, 4, 32, 24}, {0, 4, 32, 24}, {8, 10, 16, 12}};
   const std::vector<cv::Size> sizes = {{32, 24}, {24, 32}, {320, 240}, {32, 24}, {16, 12}};
@@ -165,8 +169,13 @@ TEST(ImageFolder, TurnsPhotographsAsTheirExifDataSay) {
   WriteTurned(folder / "2.jpg", 8);
   const auto source = OpenImageFolder(folder.path());
   ASSERT_TRUE(source.ok()) << source.message();
-  EXPECT_EQ((*source)->Cameras().size(), 1u);
-  EXPECT_EQ((*source)->Cameras()[0].size, cv::Size(24, 32));
+  const std::vector<SourceCamera> cameras = (*source)->Cameras();
+  ASSERT_EQ(cameras.size(), 2u);
+  EXPECT_EQ(cameras[0].size, cv::Size(24, 32));
+  EXPECT_EQ(cameras[1].size, cv::Size(24, 32));
+  EXPECT_EQ(cameras[1].lens_of, 0u);
+  EXPECT_EQ(cameras[0].quarter_turns, 1);
+  EXPECT_EQ(cameras[1].quarter_turns, 3);
   const geometry::Frame clockwise = (*source)->Next()->value();
   ASSERT_EQ(clockwise.grey.size(), cv::Size(24, 32));
   EXPECT_GT(clockwise.grey.at<uint8_t>(4, 20), 240) << "the upper right quarter is white";

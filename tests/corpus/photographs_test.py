@@ -92,6 +92,15 @@ class Folders(Photographs):
         self.assertEqual(report["frames"], PHOTOGRAPHS)
         self.assertEqual(report["warnings"], [])
 
+    def test_upright_and_lying_photographs_are_of_one_camera(self):
+        images = self.photographs()
+        for image in images[::2]:  # Every second one was held upright.
+            image.write_bytes(turned(image.read_bytes(), 6))
+        self.convert(images[1], "-rotate", "90", images[1])  # Turned by a program that says nothing.
+        report = self.train()
+        self.assertGreaterEqual(report["located"], PHOTOGRAPHS - 2)
+        self.assertEqual(len(report["cameras"]), 1, report["cameras"])
+
     def test_folder_of_raw_files_says_so(self):
         raw = self.folder / "raw"
         raw.mkdir()

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -183,6 +185,70 @@ TEST(Mapper, FreesAPrincipalPointThatTheImagesDetermine) {
   EXPECT_GT(deviation.cx_px, 0.0);
   EXPECT_NEAR(reconstruction.camera().cx, world.camera.cx, 4.0 * deviation.cx_px);
   EXPECT_NEAR(reconstruction.camera().cy, world.camera.cy, 4.0 * deviation.cy_px);
+}
+
+TEST(Mapper, SharesTheLensOfImagesThatWereTakenUprightAndLying) {
+  const World world = MakeWorld({.images = 24, .points = 800, .arc = 1.6, .seed = 6});
+  geometry::CameraModel assumed = world.camera;
+  assumed.fx = assumed.fy = 1.06 * world.camera.fx;
+  assumed.cx += 9.0;
+  assumed.cy -= 6.0;
+  std::vector<TrainingCamera> cameras(3);
+  for (int turns = 0; turns < 3; ++turns) {
+    cameras[turns].model = turns == 0 ? assumed : Turned(cameras[turns - 1].model);
+    cameras[turns].quarter_turns = turns;
+    // Frames have room for images of both shapes.
+    const int width = cameras[turns].model.width;
+    const int height = cameras[turns].model.height;
+    const int side = std::max(width, height);
+    cameras[turns].area = {(side - width) / 2, (side - height) / 2, width, height};
+    if (turns > 0) {
+      cameras[turns].lens_of = 0;
+    }
+  }
+  for (TrainingCamera& camera : cameras) {
+    camera.model.width = camera.model.height = std::max(camera.area.width, camera.area.height);
+    camera.model.cx += camera.area.x;
+    camera.model.cy += camera.area.y;
+  }
+  TrainingCamera stored;
+  stored.model = world.camera;
+  std::vector<uint32_t> camera_of_image;
+  std::vector<std::vector<Eigen::Vector2d>> pixels = world.pixels;
+  const auto turn_of = [](uint32_t image) {
+    return Eigen::Quaterniond(
+        Eigen::AngleAxisd(0.5 * std::numbers::pi * (image % 3), Eigen::Vector3d::UnitZ()));
+  };
+  for (uint32_t image = 0; image < pixels.size(); ++image) {
+    camera_of_image.push_back(image % 3);
+    for (Eigen::Vector2d& pixel : pixels[image]) {
+      pixel = TurnedPixel(stored, cameras[image % 3], pixel);
+    }
+  }
+  auto pairs = world.Pairs(6, assumed);
+  for (VerifiedPair& pair : pairs) {
+    pair.b_from_a = geometry::Rigid3{turn_of(pair.images.b), Eigen::Vector3d::Zero()} *
+                    pair.b_from_a *
+                    geometry::Rigid3{turn_of(pair.images.a), Eigen::Vector3d::Zero()}.Inverse();
+  }
+  Reconstruction reconstruction(cameras, camera_of_image, pixels,
+                                BuildTracks(world.FeatureCounts(), pairs));
+  MapperOptions options;
+  options.refine_intrinsics = true;
+  NoProgress progress;
+  const auto anchors = MapIncrementally(reconstruction, pairs, options, progress, *MakeSilentLog());
+  ASSERT_TRUE(anchors);
+  EXPECT_EQ(reconstruction.LocatedImages().size(), 24u);
+  EXPECT_LT(world.CenterError(reconstruction), 0.01);
+  const auto deviations = EstimateDeviations(reconstruction, (*anchors)[0], Refined(true));
+  for (uint32_t i = 0; i < 3; ++i) {
+    const geometry::CameraModel truth = TurnedModel(stored, cameras[i]);
+    const geometry::CameraModel& found = reconstruction.cameras()[i].model;
+    EXPECT_NEAR(found.fx, truth.fx, 4.0 * deviations[i].focal_px);
+    EXPECT_NEAR(found.cx, truth.cx, 4.0 * deviations[i].cx_px);
+    EXPECT_NEAR(found.cy, truth.cy, 4.0 * deviations[i].cy_px);
+    EXPECT_EQ(found, TurnedModel(reconstruction.cameras()[0], cameras[i]));
+  }
 }
 
 TEST(Mapper, KeepsTheCentreThatAFewImagesDoNotDetermine) {
