@@ -2,6 +2,7 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -15,6 +16,7 @@
 #include "shared/core/parallel.h"
 #include "shared/image/decode.h"
 #include "shared/image/image_header.h"
+#include "shared/image/picture_notes.h"
 
 namespace lararium::capture {
 namespace {
@@ -78,19 +80,20 @@ struct ImageTraits {
   image::PixelOrientation orientation;
   std::string camera;
   std::optional<uint32_t> focal_in_35mm_film;
+  std::vector<std::string> notes;  // See image::PictureNotes().
 
+  // See SourceCamera. Sensors are wider than high: where the file does not tell how an image was
+  // turned, one that is higher than wide was turned clockwise, as phones are held.
+  int QuarterTurns() const {
+    const cv::Size stored = orientation.SizeOf(size);
+    return (orientation.quarter_turns() + (stored.height > stored.width ? 1 : 0)) % 4;
+  }
   friend bool SameCamera(const ImageTraits& a, const ImageTraits& b) {
     return a.size == b.size && a.camera == b.camera && a.QuarterTurns() == b.QuarterTurns();
   }
   friend bool SameLens(const ImageTraits& a, const ImageTraits& b) {
     return a.camera == b.camera &&
            (a.size == b.size || a.size == cv::Size(b.size.height, b.size.width));
-  }
-  // See SourceCamera. Sensors are wider than high: where the file does not tell how an image was
-  // turned, one that is higher than wide was turned clockwise, as phones are held.
-  int QuarterTurns() const {
-    const cv::Size stored = orientation.SizeOf(size);
-    return (orientation.quarter_turns() + (stored.height > stored.width ? 1 : 0)) % 4;
   }
 };
 
@@ -113,6 +116,7 @@ ImageTraits TraitsOf(const std::filesystem::path& file) {
   }
   traits.orientation = FindOrientation(mapped->bytes());
   traits.size = traits.orientation.SizeOf(traits.size);
+  traits.notes = image::PictureNotes(mapped->bytes());
   traits.camera = FindCameraName(mapped->bytes());
   traits.focal_in_35mm_film = FindFocalLengthIn35mmFilm(mapped->bytes());
   return traits;
@@ -171,16 +175,16 @@ std::optional<FolderLayout> LayOut(std::span<const ImageTraits> images) {
     camera.size = cameras[i].size;
     camera.area = cv::Rect(corner, sizes[i]);
     camera.assumed = cameras[i].camera.empty();
-    if (cameras[i].focal_in_35mm_film) {
-      camera.focal_px =
-          FocalPixels(*cameras[i].focal_in_35mm_film, sizes[i].width, sizes[i].height);
-    }
     camera.quarter_turns = cameras[i].QuarterTurns();
     const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const ImageTraits& other) {
       return SameLens(other, cameras[i]);
     });
     if (const auto lens = static_cast<size_t>(first - cameras.begin()); lens < i) {
       camera.lens_of = lens;
+    }
+    if (cameras[i].focal_in_35mm_film) {
+      camera.focal_px =
+          FocalPixels(*cameras[i].focal_in_35mm_film, sizes[i].width, sizes[i].height);
     }
   }
   return layout;
@@ -397,6 +401,25 @@ Result<Listing> ListImages(const std::filesystem::path& folder) {
   return listing;
 }
 
+// One sentence for each thing that the images say of themselves and that is not honoured.
+std::vector<std::string> NotesOf(const std::filesystem::path& folder,
+                                 std::span<const std::string> names,
+                                 std::span<const ImageTraits> images) {
+  std::map<std::string, std::vector<size_t>> images_of_note;
+  for (size_t i = 0; i < images.size(); ++i) {
+    for (const std::string& note : images[i].notes) {
+      images_of_note[note].push_back(i);
+    }
+  }
+  std::vector<std::string> notes;
+  for (const auto& [note, found] : images_of_note) {
+    const std::string others =
+        found.size() > 1 ? " (and " + std::to_string(found.size() - 1) + " like it)" : "";
+    notes.push_back((folder / names[found.front()]).string() + ": " + note + others);
+  }
+  return notes;
+}
+
 }  // namespace
 
 std::span<const char* const> ImageExtensions() {
@@ -416,6 +439,7 @@ Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path
         image::ReadImage(folder / listing.names.front(), image::Channels::kBgr).status());
     return Status::Error(folder.string(), "contains no image that can be read");
   }
+  std::ranges::move(NotesOf(folder, listing.names, traits), std::back_inserter(listing.notes));
   return std::unique_ptr<FrameSource>(
       std::make_unique<ImageFolder>(folder, std::move(listing), *std::move(layout)));
 }

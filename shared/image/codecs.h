@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "shared/core/status.h"
 #include "shared/image/decode.h"
@@ -45,6 +46,15 @@ bool IsHeif(Bytes encoded);
 // Return nullopt if the header cannot be read.
 std::optional<cv::Size> ReadTiffSize(Bytes encoded);
 std::optional<cv::Size> ReadHeifSize(Bytes encoded);
+
+struct TiffTraits {
+  // The number of pages; reduced copies and masks of other pages are not counted.
+  int pages = 0;
+  std::vector<std::byte> profile;  // The colour profile of the first page; empty if it has none.
+};
+TiffTraits ReadTiffTraits(Bytes encoded);
+// Returns the colour profile of a PNG; empty if it has none or cannot be read.
+std::vector<std::byte> ReadPngProfile(Bytes encoded);
 
 bool StartsWith(Bytes bytes, size_t at, std::string_view text);
 

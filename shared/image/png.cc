@@ -51,6 +51,15 @@ class PngReader {
   uint32_t height() const { return png_get_image_height(png_, info_); }
   bool grey() const { return (png_get_color_type(png_, info_) & PNG_COLOR_MASK_COLOR) == 0; }
 
+  Bytes Profile() const {
+    char* name = nullptr;
+    int compression = 0;
+    png_bytep profile = nullptr;
+    png_uint_32 size = 0;
+    const bool found = png_get_iCCP(png_, info_, &name, &compression, &profile, &size) != 0;
+    return found ? std::as_bytes(std::span(profile, size)) : Bytes();
+  }
+
   bool Read(Channels channels, cv::Mat& image) {
     if (setjmp(png_jmpbuf(png_)) != 0) {  // NOLINT(cert-err52-cpp)
       return false;
@@ -159,6 +168,12 @@ Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& w
     return Damaged(where, reader.message());
   }
   return convert ? Converted(image, channels) : image;
+}
+
+std::vector<std::byte> ReadPngProfile(Bytes encoded) {
+  PngReader reader(encoded);
+  const Bytes profile = reader.Open() ? reader.Profile() : Bytes();
+  return {profile.begin(), profile.end()};
 }
 
 Result<std::vector<std::byte>> EncodePng(const cv::Mat& image, int compression) {

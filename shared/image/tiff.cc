@@ -102,6 +102,27 @@ std::optional<cv::Size> ReadTiffSize(Bytes encoded) {
   return SizeOf(tiff.get());
 }
 
+TiffTraits ReadTiffTraits(Bytes encoded) {
+  constexpr int kMostPages = 1000;
+  TiffTraits traits;
+  Memory memory{encoded};
+  const TiffPtr tiff = Open(memory);
+  if (tiff == nullptr) {
+    return traits;
+  }
+  uint32_t size = 0;
+  const std::byte* profile = nullptr;
+  if (TIFFGetField(tiff.get(), TIFFTAG_ICCPROFILE, &size, &profile) == 1 && profile != nullptr) {
+    traits.profile.assign(profile, profile + size);
+  }
+  do {
+    uint32_t kind = 0;
+    TIFFGetField(tiff.get(), TIFFTAG_SUBFILETYPE, &kind);
+    traits.pages += (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0 ? 1 : 0;
+  } while (traits.pages < kMostPages && TIFFReadDirectory(tiff.get()) == 1);
+  return traits;
+}
+
 Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& where) {
   Memory memory{encoded};
   const TiffPtr tiff = Open(memory);

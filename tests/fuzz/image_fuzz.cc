@@ -4,6 +4,7 @@
 
 #include "shared/core/check.h"
 #include "shared/image/decode.h"
+#include "shared/image/picture_notes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using lararium::image::Channels;
@@ -11,6 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto grey = lararium::image::DecodeImage(bytes, Channels::kGrey, "fuzz: image");
   const auto bgr = lararium::image::DecodeImage(bytes, Channels::kBgr, "fuzz: image");
   const auto small = lararium::image::DecodeImage(bytes, Channels::kBgr, "fuzz: image", 2);
+  for (const std::string& note : lararium::image::PictureNotes(bytes)) {
+    CHECK(!note.empty());
+  }
   CHECK(grey.ok() == bgr.ok() && small.ok() == bgr.ok());
   if (bgr.ok()) {
     CHECK(small->cols <= bgr->cols && small->rows <= bgr->rows && !small->empty());

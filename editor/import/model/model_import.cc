@@ -8,6 +8,7 @@
 #include "editor/import/model/model_textures.h"
 #include "editor/import/model/root_motion.h"
 #include "shared/core/memory.h"
+#include "shared/image/picture_notes.h"
 
 namespace lararium::import {
 namespace {
@@ -39,6 +40,9 @@ void AddTextures(const std::string& where, BuiltModel& model, ImportedHuman& imp
   for (size_t i = 0; i < model.images.size(); ++i) {
     auto texture = PrepareTexture(model.images[i].encoded, model.images[i].name, where);
     if (texture.ok()) {
+      for (const std::string& note : image::PictureNotes(model.images[i].encoded)) {
+        imported.notes.push_back("texture '" + model.images[i].name + "' " + note);
+      }
       texture_of[i] = static_cast<int16_t>(imported.human.textures.size());
       imported.human.textures.push_back(
           std::make_shared<const human::Texture>(*std::move(texture)));
