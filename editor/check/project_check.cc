@@ -15,6 +15,7 @@
 #include "editor/jobs/paradata.h"
 #include "editor/jobs/sounds.h"
 #include "editor/jobs/staging.h"
+#include "editor/jobs/training.h"
 #include "shared/core/file.h"
 
 namespace lararium::editor {
@@ -87,6 +88,9 @@ Status CheckPlace(const ProjectPaths& paths,
                   const PlaceDocument& place,
                   PlacesChecked& checked) {
   Append(CheckProbes(paths, place, checked.warnings), checked.problems);
+  for (const std::string& warning : MapWarnings(paths, place.name)) {
+    checked.warnings.emplace_back(warning);
+  }
   LARARIUM_ASSIGN_OR_RETURN(const StagedMap map, LoadStagedMap(paths, place));
   const StageReport stage = ReportStage(document, place, map);
   checked.text += place.name + ":\n" + stage.text;

@@ -352,7 +352,7 @@ Result<CommandResult> RunImportColmap(const ImportColmapOptions& options,
   // Training again would start from these images with the camera of the model.
   const PlaceRecordings recordings{
       {SourceDocument::Kind::kImages, paths.Shorten(folders.images)}, database.camera, {}};
-  LARARIUM_RETURN_IF_ERROR(TakeMap(paths, *place, recordings, database));
+  LARARIUM_RETURN_IF_ERROR(TakeMap(paths, *place, recordings, database, warnings));
   SetRecordings(recordings, *place);
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));
   CommandResult result;

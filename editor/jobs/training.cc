@@ -83,18 +83,19 @@ Status ReplaceMap(const ProjectPaths& paths,
   return SaveTrainingReport(CurrentMap(paths, place.name).report, report);
 }
 
-// recordings: those of the new map. Writes the map before the report, so that a report that cannot
-// be written does not lose the training.
+// recordings: those of the new map. warnings: of those that the map had already. Writes the map
+// before the report, so that a report that cannot be written does not lose the training.
 Result<train::TrainReport> Finish(const ProjectPaths& paths,
                                   const PlaceDocument& place,
                                   const PlaceRecordings& recordings,
                                   const SourceDocument& recording,
+                                  const std::vector<std::string>& warnings,
                                   train::TrainResult result,
                                   const TrainingOptions& options) {
   const std::optional<double> metres_per_unit = MetresPerUnit(place, result.database);
-  LARARIUM_RETURN_IF_ERROR(
-      ReplaceMap(paths, place, result.database,
-                 DescribeTraining(recordings, recording, result, metres_per_unit)));
+  TrainingReport report = DescribeTraining(recordings, recording, result, metres_per_unit);
+  report.warnings.insert(report.warnings.begin(), warnings.begin(), warnings.end());
+  LARARIUM_RETURN_IF_ERROR(ReplaceMap(paths, place, result.database, report));
   if (!options.report.empty()) {
     LARARIUM_RETURN_IF_ERROR(
         WriteReport(paths, place, recording, result, metres_per_unit, options.report));
@@ -150,7 +151,7 @@ Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
     result.report.observations = merged.report.observations;
     result.report.mean_reprojection_error_px = merged.report.mean_reprojection_error_px;
   }
-  return Finish(paths, place, RecordingsOf(place), place.training, std::move(result), options);
+  return Finish(paths, place, RecordingsOf(place), place.training, {}, std::move(result), options);
 }
 
 Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
@@ -165,7 +166,8 @@ Result<train::TrainReport> TrainSession(const ProjectPaths& paths,
                             MergeSession(paths, place, map, session, options, progress, log));
   PlaceRecordings recordings = RecordingsOf(place);
   recordings.added.push_back(session);
-  return Finish(paths, place, recordings, session.source, std::move(result), options);
+  return Finish(paths, place, recordings, session.source, MapWarnings(paths, place.name),
+                std::move(result), options);
 }
 
 Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
@@ -190,6 +192,10 @@ Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
   LARARIUM_RETURN_IF_ERROR(ForgetPreviousMap(paths, place.name));
   TrainingReport report;  // The map was not trained here.
   report.recordings = RecordingsOf(without);
+  report.warnings = MapWarnings(paths, place.name);
+  const std::string file = paths.Resolve(place.added[session - 1].source.path).string();
+  std::erase_if(report.warnings,
+                [&](const std::string& warning) { return warning.starts_with(file); });
   LARARIUM_RETURN_IF_ERROR(SaveTrainingReport(CurrentMap(paths, place.name).report, report));
   return removed;
 }
@@ -197,10 +203,17 @@ Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
 Status TakeMap(const ProjectPaths& paths,
                const PlaceDocument& place,
                const PlaceRecordings& recordings,
-               const SceneDatabase& database) {
+               const SceneDatabase& database,
+               const std::vector<std::string>& warnings) {
   TrainingReport report;
   report.recordings = recordings;
+  report.warnings = warnings;
   return ReplaceMap(paths, place, database, report);
+}
+
+std::vector<std::string> MapWarnings(const ProjectPaths& paths, const std::string& place) {
+  Result<TrainingReport> report = LoadTrainingReport(CurrentMap(paths, place).report);
+  return report.ok() ? std::move(report->warnings) : std::vector<std::string>();
 }
 
 Status SaveMap(const ProjectPaths& paths,

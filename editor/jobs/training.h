@@ -3,6 +3,7 @@
 // Trains a place of a project: from its recordings to places/NAME/scene.larscene.
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "editor/document/place_recordings.h"
@@ -57,11 +58,15 @@ Result<train::RemovedSession> RemoveFromMap(const ProjectPaths& paths,
                                             Progress& progress);
 
 // Writes a map that was not trained here like TrainPlace(). recordings: those of the new map; those
-// of place belong to the previous map.
+// of place belong to the previous map. warnings: see TrainingReport.
 Status TakeMap(const ProjectPaths& paths,
                const PlaceDocument& place,
                const PlaceRecordings& recordings,
-               const vision::SceneDatabase& database);
+               const vision::SceneDatabase& database,
+               const std::vector<std::string>& warnings = {});
+
+// TrainingReport::warnings of a place's map. Empty if the place is not trained or has no report.
+std::vector<std::string> MapWarnings(const ProjectPaths& paths, const std::string& place);
 
 // Writes the map of a place, atomically.
 Status SaveMap(const ProjectPaths& paths,

@@ -19,6 +19,7 @@ namespace {
 constexpr int kSchema = 2;
 constexpr int kMostCounted = 1'000'000'000;
 constexpr size_t kMostAdvice = 1000;
+constexpr size_t kMostWarnings = 10'000;
 
 // ------------------------------------------------------------ Advice
 
@@ -108,6 +109,8 @@ void DescribeLastTraining(Fields& fields, TrainingReport& report) {
 void DescribeReport(Fields& fields, TrainingReport& report) {
   fields.Schema(kSchema);
   fields.Object("recordings", report.recordings);
+  fields.List(Optional("warnings", !report.warnings.empty()), report.warnings, kMostWarnings,
+              [&](const FieldKey& key, std::string& warning) { fields.Text(key, warning); });
   fields.Object(Optional("training", !report.recording.empty()), report, DescribeLastTraining);
   fields.RefuseUnknown();
 }
@@ -121,6 +124,8 @@ TrainingReport DescribeTraining(const PlaceRecordings& recordings,
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   TrainingReport report;
   report.recordings = recordings;
+  report.warnings = result.report.notes;
+  report.warnings.resize(std::min(report.warnings.size(), kMostWarnings));
   report.recording = recording.path;
   report.frames = result.report.frames;
   report.located = static_cast<int>(result.report.located.size());

@@ -20,6 +20,9 @@ namespace lararium::editor {
 
 struct TrainingReport {
   PlaceRecordings recordings;  // The recordings that the map is made of.
+  // What people should know of these recordings (capture::FrameSource::Notes), or of the model that
+  // the map was imported from.
+  std::vector<std::string> warnings;
 
   // The recording that was trained last, as a path of the project. Empty: only the recordings are
   // known.

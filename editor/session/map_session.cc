@@ -7,6 +7,7 @@
 #include "editor/jobs/occluder_alignment.h"
 #include "editor/jobs/picked_frames.h"
 #include "editor/jobs/previous_map.h"
+#include "editor/jobs/training.h"
 #include "editor/text/text.h"
 #include "shared/core/file.h"
 
@@ -161,6 +162,7 @@ void MapSession::Read() {
   const auto work = [=, place = *project_.place(), paths = project_.paths()](Progress& progress) {
     progress.Report("reading the map", 0.0);
     loaded->report = ReadReport(CurrentMap(paths, place.name).report);
+    loaded->warnings = MapWarnings(paths, place.name);
     LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase database, vision::LoadSceneDatabase(file));
     progress.Report("looking for the floor and for tags", 0.5);
     loaded->measures = MeasureMap(place, database);

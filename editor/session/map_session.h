@@ -34,7 +34,8 @@ struct LoadedMap {
   ResolvedPicks picks;
   // The report of the training; nullptr: there is none.
   std::shared_ptr<const TrainingReport> report;
-  bool has_previous = false;  // MapTraining::RestorePreviousMap() is possible.
+  std::vector<std::string> warnings;  // See TrainingReport; there even if there is no report.
+  bool has_previous = false;          // MapTraining::RestorePreviousMap() is possible.
 };
 
 class MapSession {

@@ -15,25 +15,6 @@
 
 namespace lararium::editor {
 
-namespace {
-
-// The first image of a recording, at most 960 pixels wide.
-Result<cv::Mat> FirstImage(const ProjectPaths& paths, const SourceDocument& recording) {
-  constexpr double kWidest = 960.0;
-  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<capture::FrameSource> source,
-                            OpenSource(paths, recording));
-  LARARIUM_ASSIGN_OR_RETURN(const std::optional<geometry::Frame> frame, source->Next());
-  if (!frame) {
-    return Status::Error(recording.path, "has no images");
-  }
-  const double scale = std::min(1.0, kWidest / frame->bgr.cols);
-  cv::Mat small;
-  cv::resize(frame->bgr, small, cv::Size(), scale, scale, cv::INTER_AREA);
-  return small;
-}
-
-}  // namespace
-
 PreviewSession::PreviewSession(ProjectSession& project,
                                const MapSession& map,
                                const CastSession& cast,
@@ -205,20 +186,38 @@ SourceDocument PreviewSession::FirstRecording() const {
   return has_own_recording() ? place->preview : place->training;
 }
 
+Result<PreviewSession::FirstLook> PreviewSession::LookAt(const ProjectPaths& paths,
+                                                         const SourceDocument& recording) {
+  constexpr double kWidest = 960.0;
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<capture::FrameSource> source,
+                            OpenSource(paths, recording));
+  LARARIUM_ASSIGN_OR_RETURN(const std::optional<geometry::Frame> frame, source->Next());
+  if (!frame) {
+    return Status::Error(recording.path, "has no images");
+  }
+  const double scale = std::min(1.0, kWidest / frame->bgr.cols);
+  FirstLook look{{}, source->Notes()};
+  cv::resize(frame->bgr, look.image, cv::Size(), scale, scale, cv::INTER_AREA);
+  return look;
+}
+
 std::shared_ptr<const cv::Mat> PreviewSession::first_image() const {
-  const bool present = first_image_.Find(FirstRecording().path) != nullptr;
-  return present ? first_image_.newest() : nullptr;
+  const FirstLook* look = first_look_.Find(FirstRecording().path);
+  return look == nullptr ? nullptr
+                         : std::shared_ptr<const cv::Mat>(first_look_.newest(), &look->image);
+}
+
+std::vector<std::string> PreviewSession::recording_notes() const {
+  const FirstLook* look = first_look_.Find(FirstRecording().path);
+  return look == nullptr ? std::vector<std::string>() : look->notes;
 }
 
 void PreviewSession::ReadFirstImage() {
-  if (picture_ != nullptr) {
-    return;
-  }
   const SourceDocument recording = FirstRecording();
   if (!recording.empty()) {
-    first_image_.Refresh(
+    first_look_.Refresh(
         recording.path, TaskKind::kFirstImage, tasks_,
-        [paths = project_.paths(), recording](Progress&) { return FirstImage(paths, recording); });
+        [paths = project_.paths(), recording](Progress&) { return LookAt(paths, recording); });
   }
 }
 

@@ -59,6 +59,8 @@ class PreviewSession {
   // The first image of the place's recording, bgr and small, for as long as there is no picture:
   // while the place is not trained, and while the show is being opened. nullptr: not read yet.
   std::shared_ptr<const cv::Mat> first_image() const;
+  // What people should know of that recording (capture::FrameSource::Notes).
+  std::vector<std::string> recording_notes() const;
   // The frame in the camera view as an image for picks.
   FrameToPick frame_to_pick() const;
   // The place as staged, with occluder meshes for drawing; nullptr before the show is open.
@@ -113,9 +115,15 @@ class PreviewSession {
   void Open();
   void Close();
   Preview::Opener ViewOpener();
+  // A recording as far as its first image shows it.
+  struct FirstLook {
+    cv::Mat image;  // bgr and small
+    std::vector<std::string> notes;
+  };
+  static Result<FirstLook> LookAt(const ProjectPaths& paths, const SourceDocument& recording);
   // The recording of first_image().
   SourceDocument FirstRecording() const;
-  // Reads first_image() where there is no picture.
+  // Reads first_image() and recording_notes().
   void ReadFirstImage();
   // Whether the preview shows a stage that is about to be replaced, for example because a person
   // was added whom the drama already uses.
@@ -158,7 +166,7 @@ class PreviewSession {
   std::shared_ptr<const std::string> asked_text_;  // The script in the last request.
   bool awaiting_picture_ = false;
   std::shared_ptr<const PreviewPicture> picture_;
-  Cached<std::string, cv::Mat> first_image_;  // The key is the recording's path.
+  Cached<std::string, FirstLook> first_look_;  // The key is the recording's path.
   // Problems that were reported since there was a picture.
   std::set<std::string> told_;
 };

@@ -114,12 +114,15 @@ TEST_F(FormerMapTest, GoesWithASessionThatIsRemoved) {
   for (size_t k = 0; k < map.keyframes.size(); ++k) {
     map.keyframes[k].session = static_cast<uint32_t>(k % 2);
   }
-  ASSERT_TRUE(TakeMap(paths_, place_, Filmed("first.mp4", 1), map).ok());
+  const std::string first = paths_.Resolve("first.mp4").string() + ": is interlaced";
+  const std::string evening = paths_.Resolve("evening.mp4").string() + ": is HLG";
+  ASSERT_TRUE(TakeMap(paths_, place_, Filmed("first.mp4", 1), map, {first, evening}).ok());
   SetRecordings(Filmed("first.mp4", 1), place_);
   NoProgress progress;
   ASSERT_TRUE(RemoveFromMap(paths_, place_, 1, progress).ok());
   EXPECT_FALSE(HasPreviousMap(paths_, "site")) << "it has what was picked in that session";
   EXPECT_TRUE(LoadTrainingReport(CurrentMap(paths_, "site").report)->recordings.added.empty());
+  EXPECT_EQ(MapWarnings(paths_, "site"), std::vector{first});
 }
 
 class Cancels : public Progress {

@@ -19,6 +19,7 @@ TrainingReport Example() {
   TrainingReport report;
   report.recordings.training = {SourceDocument::Kind::kVideo, "walk.mp4"};
   report.recordings.added.push_back({{SourceDocument::Kind::kImages, "evening"}, {}});
+  report.warnings = {"walk.mp4: is interlaced", "evening: 2 camera raw files are left out"};
   report.recording = "evening";
   report.frames = 120;
   report.located = 117;
@@ -60,6 +61,7 @@ TEST(TrainingReport, IsReadBackAsItWasWritten) {
   EXPECT_EQ(TrainingJson(*read), TrainingJson(Example()));
   EXPECT_EQ(FormatFields(read->recordings), FormatFields(Example().recordings));
   EXPECT_EQ(read->recording, "evening");
+  EXPECT_EQ(read->warnings, Example().warnings);
   EXPECT_EQ(read->ended, 1'700'000'000);
   EXPECT_EQ(read->focal_deviation_px, 1.5);
   EXPECT_EQ(read->keyframes, 40);

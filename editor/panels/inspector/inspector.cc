@@ -317,6 +317,17 @@ void DrawSessions(editor::Workspace& workspace,
   }
 }
 
+// What the recordings of the map, and of the camera view, contain that is used otherwise or not.
+void DrawRecordingWarnings(const editor::Workspace& workspace) {
+  const std::vector<std::string>& of_map = workspace.map().loaded().warnings;
+  std::vector<std::string> others = workspace.preview().recording_notes();
+  std::erase_if(others, [&](const std::string& note) {
+    return std::find(of_map.begin(), of_map.end(), note) != of_map.end();
+  });
+  DrawWarnings(of_map);
+  DrawWarnings(others);
+}
+
 void DrawPlace(editor::Workspace& workspace,
                Selection& selection,
                ViewOptions& options,
@@ -334,6 +345,7 @@ void DrawPlace(editor::Workspace& workspace,
     }
     EndProperties();
   }
+  DrawRecordingWarnings(workspace);
   DrawRecordingToLookAt(workspace, options, dialogs, place);
   if (database != nullptr) {
     DrawTraining(workspace, dialogs);

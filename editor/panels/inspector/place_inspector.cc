@@ -72,6 +72,9 @@ void LookAt(editor::Workspace& workspace,
       workspace.messages().Tell(editor::Message::Level::kError, source.message());
       return;
     }
+    for (const std::string& note : (*source)->Notes()) {
+      workspace.messages().Warn(note);
+    }
   }
   const editor::SourceDocument& before = workspace.project().place()->preview;
   if (before.kind != recording.kind || before.path != recording.path) {

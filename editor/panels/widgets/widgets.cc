@@ -49,12 +49,16 @@ void Hint(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void DrawWarnings(editor::Workspace& workspace, const std::filesystem::path& product) {
+void DrawWarnings(std::span<const std::string> warnings) {
   ImGui::PushStyleColor(ImGuiCol_Text, Colours().warning);
-  for (const std::string& warning : workspace.product_notes().Of(product)) {
+  for (const std::string& warning : warnings) {
     ImGui::TextWrapped("%s", warning.c_str());
   }
   ImGui::PopStyleColor();
+}
+
+void DrawWarnings(editor::Workspace& workspace, const std::filesystem::path& product) {
+  DrawWarnings(workspace.product_notes().Of(product));
 }
 
 void DrawModal(const char* title,

@@ -24,7 +24,9 @@ void Heading(const char* text);
 void DimText(const std::string& text);
 // Dim text with line breaks.
 void Hint(const std::string& text);
-// The warnings with which the product of a thing was baked, in the colour of warnings.
+// Warnings about the thing that is inspected, in their colour.
+void DrawWarnings(std::span<const std::string> warnings);
+// The warnings with which the product of a thing was baked.
 void DrawWarnings(editor::Workspace& workspace, const std::filesystem::path& product);
 // The purpose of the last item, shown under the pointer, also while the item is disabled.
 void Tooltip(const std::string& text);
