@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -12,6 +11,7 @@
 
 #include "editor/document/place_edits.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/geometry/point_spread.h"
 
 namespace lararium::editor {
 
@@ -50,22 +50,14 @@ Vector3d DrawnFrom(const OccluderDocument& occluder, const vision::SceneDatabase
 
 Face FitFace(std::span<const Vector3d> corners, const Vector3d& drawn_from) {
   Face face;
-  face.center = Vector3d::Zero();
-  for (const Vector3d& corner : corners) {
-    face.center += corner / static_cast<double>(corners.size());
-  }
-  Eigen::MatrixX3d centred(corners.size(), 3);
-  for (size_t i = 0; i < corners.size(); ++i) {
-    centred.row(static_cast<Eigen::Index>(i)) = (corners[i] - face.center).transpose();
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(centred, Eigen::ComputeFullV);
-  const Eigen::Vector3d spread = svd.singularValues();
-  face.thin = spread[1] < kThin * spread[0];
-  face.normal = svd.matrixV().col(2);
+  const geometry::PointSpread spread = geometry::SpreadOf(corners);
+  face.center = spread.mean;
+  face.thin = spread.deviations[1] < kThin * spread.deviations[2];
+  face.normal = spread.axes.col(0);
   if (face.normal.dot(drawn_from - face.center) < 0.0) {
     face.normal = -face.normal;
   }
-  const Vector3d x = svd.matrixV().col(0);
+  const Vector3d x = spread.axes.col(2);
   const Vector3d y = face.normal.cross(x);
   for (const Vector3d& corner : corners) {
     const Vector3d from_center = corner - face.center;

@@ -14,6 +14,7 @@
 #include "editor/jobs/sounds.h"
 #include "shared/core/file.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/geometry/transform.h"
 #include "shared/stage/object_use.h"
 
 namespace lararium::editor {
@@ -128,8 +129,7 @@ Similarity3 LayOnFloor(const Similarity3& map_from_picked,
   const double height =
       floor.Height(map_from_picked * picked_from_stage.translation) / map_from_picked.scale;
   Similarity3 laid = picked_from_stage;
-  laid.rotation =
-      (Eigen::Quaterniond::FromTwoVectors(up, normal) * picked_from_stage.rotation).normalized();
+  laid.rotation = (geometry::RotationBetween(normal, up) * picked_from_stage.rotation).normalized();
   laid.translation -= height * normal;
   return laid;
 }

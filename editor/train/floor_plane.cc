@@ -1,6 +1,7 @@
 #include "editor/train/floor_plane.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +14,7 @@
 #include "shared/core/median.h"
 #include "shared/core/random.h"
 #include "shared/core/units.h"
+#include "shared/geometry/point_spread.h"
 
 namespace lararium::train {
 namespace {
@@ -120,22 +122,13 @@ std::optional<Plane> LeastSquaresPlane(std::span<const Vector3d> points, const V
   if (points.size() < 3) {
     return std::nullopt;
   }
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& point : points) {
-    mean += point;
-  }
-  mean /= static_cast<double>(points.size());
-  Matrix3d scatter = Matrix3d::Zero();
-  for (const Vector3d& point : points) {
-    scatter += (point - mean) * (point - mean).transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(scatter);
-  if (!(solver.eigenvalues()[1] > 4.0 * solver.eigenvalues()[0])) {
+  const geometry::PointSpread spread = geometry::SpreadOf(points);
+  if (!(spread.deviations[1] > 2.0 * spread.deviations[0])) {
     return std::nullopt;  // The points form a line or a cloud.
   }
-  const Vector3d normal = solver.eigenvectors().col(0);
+  const Vector3d normal = spread.axes.col(0);
   const Vector3d upwards = normal.dot(up) >= 0.0 ? normal : Vector3d(-normal);
-  return Plane{upwards, upwards.dot(mean)};
+  return Plane{upwards, upwards.dot(spread.mean)};
 }
 
 std::vector<Vector3d> PointsNear(const Plane& plane,

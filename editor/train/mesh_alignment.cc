@@ -13,6 +13,7 @@
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/geometry/point_spread.h"
 #include "shared/vision/occluders.h"
 
 namespace lararium::train {
@@ -37,16 +38,8 @@ constexpr double kUndetermined = 3e-3;
 
 // Ratio of breadth to length of a set of points.
 double Thinness(std::span<const Vector3d> points) {
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& point : points) {
-    mean += point / static_cast<double>(points.size());
-  }
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vector3d& point : points) {
-    spread += (point - mean) * (point - mean).transpose();
-  }
-  const Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-  return squares[2] > 0.0 ? std::sqrt(std::max(squares[1], 0.0) / squares[2]) : 0.0;
+  const Vector3d deviations = geometry::SpreadOf(points).deviations;
+  return deviations[2] > 0.0 ? deviations[1] / deviations[2] : 0.0;
 }
 
 std::string Metres(double length) {

@@ -9,6 +9,7 @@
 #include <opencv2/core/eigen.hpp>
 
 #include "shared/core/check.h"
+#include "shared/geometry/transform.h"
 
 namespace lararium::train {
 namespace {
@@ -173,12 +174,8 @@ Turning EstimateTurning(const PointPairs& plane_points) {
                    plane_points.a[i].homogeneous().normalized().transpose();
     all.push_back(i);
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1.0, 1.0, 1.0);
-  signs.z() = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
-  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  return {Eigen::Quaterniond(rotation), MedianAngle(plane_points, all, rotation)};
+  const Eigen::Quaterniond rotation = geometry::ClosestRotation(correlation);
+  return {rotation, MedianAngle(plane_points, all, rotation.toRotationMatrix())};
 }
 
 PlanarGeometry EstimatePlanarGeometry(const PointPairs& plane_points, double threshold) {

@@ -1,8 +1,6 @@
 #include "player/benchmark/benchmark_alignment.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,8 @@
 #include "shared/core/median.h"
 #include "shared/core/random.h"
 #include "shared/core/statistics.h"
+#include "shared/geometry/point_spread.h"
+#include "shared/geometry/transform.h"
 
 namespace lararium::player {
 namespace {
@@ -37,23 +37,9 @@ constexpr double kMostDamping = 1e6;
 // ------------------------------------------------------------ centres
 
 // Standard deviations along the two longest principal axes, longest first.
-std::array<double, 2> Spread(std::span<const Vector3d> points) {
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& p : points) {
-    mean += p / static_cast<double>(points.size());
-  }
-  Matrix3d covariance = Matrix3d::Zero();
-  for (const Vector3d& p : points) {
-    covariance += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
-  }
-  const Vector3d variances =
-      Eigen::SelfAdjointEigenSolver<Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
-  return {std::sqrt(std::max(variances[2], 0.0)), std::sqrt(std::max(variances[1], 0.0))};
-}
-
 bool Flat(std::span<const Vector3d> points, double bound) {
-  const auto [first, second] = Spread(points);
-  return !(second > bound * first);
+  const Vector3d deviations = geometry::SpreadOf(points).deviations;
+  return !(deviations[1] > bound * deviations[2]);
 }
 
 struct Centres {
@@ -118,12 +104,8 @@ Similarity3 FromOrientations(std::span<const PosePair> pairs, const Centres& cen
     mean_map += centres.map[i] / count;
     mean_world += centres.world[i] / count;
   }
-  const Eigen::JacobiSVD<Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Matrix3d product = svd.matrixU() * svd.matrixV().transpose();
-  const Vector3d sign(1.0, 1.0, product.determinant() < 0.0 ? -1.0 : 1.0);
   Similarity3 move;
-  move.rotation =
-      Eigen::Quaterniond(Matrix3d(svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose()));
+  move.rotation = geometry::ClosestRotation(sum);
   double variance = 0.0;
   double true_variance = 0.0;
   double covariance = 0.0;

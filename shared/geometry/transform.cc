@@ -56,6 +56,18 @@ Result<Similarity3> EstimateSimilarity(std::span<const Eigen::Vector3d> points_i
   return a_from_b;
 }
 
+Eigen::Quaterniond ClosestRotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const bool mirrored = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0;
+  const Eigen::Vector3d signs(1.0, 1.0, mirrored ? -1.0 : 1.0);
+  return Eigen::Quaterniond(
+      Eigen::Matrix3d(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose()));
+}
+
+Eigen::Quaterniond RotationBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return Eigen::Quaterniond::FromTwoVectors(b, a);
+}
+
 Eigen::Quaterniond RotationFromVector(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   // sin(angle / 2) / angle, by its series near zero.

@@ -77,6 +77,14 @@ Rigid3 CameraFromB(const Rigid3& camera_from_a, const Similarity3& a_from_b);
 Result<Similarity3> EstimateSimilarity(std::span<const Eigen::Vector3d> points_in_a,
                                        std::span<const Eigen::Vector3d> points_in_b);
 
+// The rotation nearest to a matrix by the sum of squared differences (Arun, Huang and Blostein,
+// "Least-squares fitting of two 3-D point sets", PAMI 1987; the sign after Umeyama, 1991). It turns
+// the points x_b nearest to x_a where matrix is the sum of x_a x_b^T.
+Eigen::Quaterniond ClosestRotation(const Eigen::Matrix3d& matrix);
+
+// The shortest rotation that turns the direction of b into that of a. Neither may be zero.
+Eigen::Quaterniond RotationBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
 // Rotation by |w| radians about w, and its inverse. |w| <= pi.
 Eigen::Quaterniond RotationFromVector(const Eigen::Vector3d& w);
 Eigen::Vector3d VectorFromRotation(const Eigen::Quaterniond& rotation);

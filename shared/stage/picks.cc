@@ -1,7 +1,6 @@
 #include "shared/stage/picks.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <span>
 
 #include "shared/core/units.h"
+#include "shared/geometry/point_spread.h"
 #include "shared/geometry/triangulation.h"
 
 namespace lararium::stage {
@@ -158,17 +158,9 @@ std::optional<Plane> PlaneThrough(const Eigen::Vector3d& a,
 }
 
 Plane LeastSquaresPlane(std::span<const Eigen::Vector3d> points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points) {
-    mean += point / static_cast<double>(points.size());
-  }
-  Eigen::MatrixX3d centred(points.size(), 3);
-  for (size_t i = 0; i < points.size(); ++i) {
-    centred.row(static_cast<Eigen::Index>(i)) = (points[i] - mean).transpose();
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(centred, Eigen::ComputeFullV);
-  const Eigen::Vector3d normal = svd.matrixV().col(2);
-  return {normal, normal.dot(mean)};
+  const geometry::PointSpread spread = geometry::SpreadOf(points);
+  const Eigen::Vector3d normal = spread.axes.col(0);
+  return {normal, normal.dot(spread.mean)};
 }
 
 // Least median of squares (Rousseeuw, "Least Median of Squares Regression", JASA 1984) over all

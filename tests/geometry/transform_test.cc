@@ -136,6 +136,22 @@ TEST(EstimateSimilarity, RefusesPointsOnALine) {
   EXPECT_FALSE(EstimateSimilarity(line, line).ok());
 }
 
+TEST(ClosestRotation, IsTheRotationOfANoisyOneAndNeverAMirror) {
+  Random random(8);
+  const Eigen::Quaterniond rotation = RandomRigid(random).rotation;
+  EXPECT_LT(ClosestRotation(3.0 * rotation.toRotationMatrix()).angularDistance(rotation), 1e-9);
+  const Eigen::Matrix3d mirror = Eigen::Vector3d(1.0, 1.0, -0.5).asDiagonal();
+  EXPECT_LT(ClosestRotation(rotation.toRotationMatrix() * mirror).angularDistance(rotation), 1e-9);
+}
+
+TEST(RotationBetween, TurnsOneDirectionIntoTheOtherAlsoWhereTheyAreOpposite) {
+  Random random(9);
+  const Eigen::Vector3d b = RandomOffset(random);
+  for (const Eigen::Vector3d& a : {RandomOffset(random), b, Eigen::Vector3d(-2.0 * b)}) {
+    EXPECT_LT((RotationBetween(a, b) * b.normalized() - a.normalized()).norm(), 1e-7);
+  }
+}
+
 TEST(RotationVector, IsInverseOfItsRotation) {
   Random random(6);
   for (const double size : {0.0, 1e-12, 1e-7, 1e-3, 1.0, std::numbers::pi - 1e-6}) {

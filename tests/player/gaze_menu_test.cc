@@ -19,8 +19,7 @@ std::vector<MenuItem> Items() {
 // The pose of a head that looks at a point of the plane one metre in front of its first direction.
 geometry::Rigid3 LookingAt(const Eigen::Vector2d& plane) {
   const Eigen::Vector3d towards = plane.homogeneous().normalized();
-  return {Eigen::Quaterniond::FromTwoVectors(towards, Eigen::Vector3d::UnitZ()),
-          Eigen::Vector3d::Zero()};
+  return {geometry::RotationBetween(Eigen::Vector3d::UnitZ(), towards), Eigen::Vector3d::Zero()};
 }
 
 class GazeMenuTest : public ::testing::Test {

@@ -19,6 +19,7 @@
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/geometry/transform.h"
 #include "shared/human/human.h"
 #include "shared/human/skinning.h"
 
@@ -226,8 +227,7 @@ void SceneView::AddFloor(const editor::LoadedMap& loaded) {
   }
   const train::FloorPlane& floor = *loaded.measures.floor;
   const Similarity3 map_from_floor{
-      2.0 * floor.radius, Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), floor.normal),
-      floor.center};
+      2.0 * floor.radius, geometry::RotationBetween(floor.normal, Vector3d::UnitY()), floor.center};
   const Similarity3 world_from_floor = loaded.picks.map_from_picked.Inverse() * map_from_floor;
   scene_.meshes.push_back({*floor_, geometry::ToGlm(world_from_floor), kFloorColour});
 }
