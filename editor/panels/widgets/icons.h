@@ -1,12 +1,10 @@
 #pragma once
 
-// The icons of the interface: strokes on a grid of 16, drawn into the fonts (theme.cc). An icon is
-// a character, so it has the size and the colour of the surrounding text.
+// The icons of the interface: characters of the font Material Design Icons, which theme.cc merges
+// into the interface's fonts. An icon therefore has the colour of the surrounding text.
 
-#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "shared/drama/timeline_lanes.h"
 
@@ -69,11 +67,8 @@ enum class Icon {
 };
 inline constexpr int kIcons = static_cast<int>(Icon::kSearching) + 1;
 
-// The coverage of each pixel by an icon, 0 to 255; [side][side], rows from the top. side: pixels.
-std::vector<uint8_t> DrawIcon(Icon icon, int side);
-
-// The character of an icon, in Unicode's private use area behind those of wrapped_text.h.
-constexpr char32_t LetterOf(Icon icon) { return 0xe100 + static_cast<char32_t>(icon); }
+// The icon's character in the font.
+char32_t LetterOf(Icon icon);
 // The character in UTF-8, alone and in front of a text.
 std::string IconText(Icon icon);
 std::string WithIcon(Icon icon, std::string_view text);

@@ -1,9 +1,6 @@
 #include "editor/panels/widgets/theme.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -18,6 +15,8 @@ namespace {
 constexpr const char* kFontFolders[] = {
     "/usr/share/fonts/opentype/inter", "/usr/share/fonts/truetype/inter",
     "/usr/local/share/fonts/inter", "/usr/share/fonts/truetype/dejavu"};
+constexpr const char* kIconFont =
+    "/usr/share/fonts/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf";
 
 // There is only one interface; these are set with the theme.
 float g_scale = 1.0f;
@@ -41,32 +40,29 @@ ImFont* LoadFont(const char* name, float size) {
   return nullptr;
 }
 
-// Indices of the icons' rectangles in the font texture.
-using IconRects = std::array<int, kIcons>;
-
-// Reserves icons that are centred in a line of the font.
-IconRects ReserveIcons(ImFont* font, float line, int side) {
-  const ImVec2 offset(0.0f, std::round(0.5f * (line - static_cast<float>(side))));
-  IconRects rects = {};
-  for (int i = 0; i < kIcons; ++i) {
-    rects[static_cast<size_t>(i)] = ImGui::GetIO().Fonts->AddCustomRectFontGlyph(
-        font, static_cast<ImWchar>(LetterOf(static_cast<Icon>(i))), side, side,
-        static_cast<float>(side), offset);
-  }
-  return rects;
-}
-
-void DrawIcons(const IconRects& rects, int side) {
-  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  unsigned char* texture = nullptr;
-  int width = 0;
-  atlas.GetTexDataAsAlpha8(&texture, &width, nullptr);
-  for (int i = 0; i < kIcons; ++i) {
-    const ImFontAtlasCustomRect& rect = *atlas.GetCustomRectByIndex(rects[static_cast<size_t>(i)]);
-    const std::vector<uint8_t> pixels = DrawIcon(static_cast<Icon>(i), side);
-    for (int y = 0; y < side; ++y) {
-      std::copy_n(pixels.begin() + y * side, side, texture + (rect.Y + y) * width + rect.X);
+// Adds the icons to a font whose line is line pixels high, centred in it.
+void MergeIcons(ImFont* font, float line, float side) {
+  static const std::vector<ImWchar> ranges = [] {
+    std::vector<ImWchar> list;
+    for (int i = 0; i < kIcons; ++i) {
+      const auto letter = static_cast<ImWchar>(LetterOf(static_cast<Icon>(i)));
+      list.insert(list.end(), {letter, letter});
     }
+    list.push_back(0);
+    return list;
+  }();
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  if (FileExists(kIconFont)) {
+    ImFontConfig config;
+    config.MergeMode = true;
+    config.DstFont = font;
+    config.GlyphMinAdvanceX = side;
+    config.GlyphOffset.y = std::round(0.5f * (side - line));
+    atlas.AddFontFromFileTTF(kIconFont, side, &config, ranges.data());
+    return;
+  }
+  for (size_t i = 0; i + 1 < ranges.size(); i += 2) {  // Empty, instead of a question mark.
+    atlas.AddCustomRectFontGlyph(font, ranges[i], 1, 1, 0.0f);
   }
 }
 
@@ -83,8 +79,7 @@ Fonts LoadFonts(float scale) {
     ImGui::GetIO().Fonts->AddCustomRectFontGlyph(fonts.regular, static_cast<ImWchar>(sign), 1, 1,
                                                  0.0f);
   }
-  const int side = static_cast<int>(std::lround(kIconPx * scale));
-  const IconRects icons = ReserveIcons(fonts.regular, kTextPx * scale, side);
+  MergeIcons(fonts.regular, kTextPx * scale, std::round(kIconPx * scale));
   // Loaded after the interface's font, because ImGui uses the first font as its default.
   fonts.strong = LoadFont("Inter-SemiBold.otf", kTextPx * scale);
   fonts.code = LoadFont("DejaVuSansMono.ttf", kCodePx * scale);
@@ -96,7 +91,6 @@ Fonts LoadFonts(float scale) {
   if (fonts.code == nullptr) {
     fonts.code = ImGui::GetIO().Fonts->AddFontDefault();
   }
-  DrawIcons(icons, side);  // Builds the texture.
   return fonts;
 }
 
