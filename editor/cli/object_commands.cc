@@ -133,10 +133,11 @@ Result<CommandResult> ListSounds(const ProjectPaths& paths, const ProjectDocumen
   CommandResult result;
   result.json = {{"sounds", Json::array()}, {"missing", Json::array()}, {"places", Json::object()}};
   for (const SoundFile& sound : FindSounds(paths)) {
-    result.text +=
-        sound.name + ": " + (sound.built_in ? "built in" : paths.Shorten(sound.file)) + "\n";
-    result.json["sounds"].push_back(
-        {{"name", sound.name}, {"file", paths.Shorten(sound.file)}, {"built_in", sound.built_in}});
+    result.text += sound.name + ": " +
+                   (sound.of_library ? "of the library" : paths.Shorten(sound.file)) + "\n";
+    result.json["sounds"].push_back({{"name", sound.name},
+                                     {"file", paths.Shorten(sound.file)},
+                                     {"of_library", sound.of_library}});
   }
   LARARIUM_ASSIGN_OR_RETURN(const std::string script, ReadText(paths.Drama()));
   for (const MissingSound& missing : FindMissingSounds(paths, document, script)) {

@@ -33,10 +33,6 @@ struct ProjectPaths {
   std::filesystem::path Recordings(const std::string& language) const {
     return folder / "audio" / language;
   }
-  // A built-in sound after baking.
-  std::filesystem::path Sound(const std::string& name) const {
-    return folder / "sounds" / (name + ".flac");
-  }
   std::filesystem::path Place(const std::string& name) const { return folder / "places" / name; }
   std::filesystem::path Scene(const std::string& place) const {
     return Place(place) / "scene.larscene";

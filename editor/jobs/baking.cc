@@ -9,7 +9,6 @@
 
 #include "editor/bake/glossy_probe.h"
 #include "editor/bake/prop_transfer.h"
-#include "editor/bake/sound_synthesis.h"
 #include "editor/bake/sun_split.h"
 #include "editor/bake/transfer.h"
 #include "editor/document/document_fields.h"
@@ -487,16 +486,6 @@ void AddSpeechSteps(const SpokenLine& spoken, std::vector<BakeStep>& steps) {
                    }});
 }
 
-BakeStep SoundStep(const SoundFile& sound) {
-  return {"sound " + sound.name,
-          sound.file,
-          {},
-          "built-in sound 1 " + sound.name,
-          [name = sound.name](std::vector<std::string>&) {
-            return bake::WriteFlac(bake::SynthesizeSound(name));
-          }};
-}
-
 Status AddPeople(const ProjectPaths& paths,
                  const ProjectDocument& document,
                  const Progress& progress,
@@ -538,11 +527,6 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
   }
   for (const SpokenLine& line : spoken) {
     AddSpeechSteps(line, steps);
-  }
-  for (const SoundFile& sound : FindSounds(paths)) {
-    if (sound.built_in) {
-      steps.push_back(SoundStep(sound));
-    }
   }
   return steps;
 }

@@ -201,7 +201,7 @@ std::vector<ProjectSubject> ListSubjects(const ProjectPaths& paths,
     subjects.push_back({Subject::kObject, object.name});
   }
   for (const SoundFile& sound : FindSounds(paths)) {
-    subjects.push_back({Subject::kSound, sound.name, !sound.built_in});
+    subjects.push_back({Subject::kSound, sound.name, !sound.of_library});
   }
   AddLinesOf(paths, document, subjects);
   AddPlaces(document, subjects);

@@ -24,7 +24,7 @@ Result<stage::Paradata> LoadParadata(const ProjectPaths& paths);
 struct ProjectSubject {
   stage::Subject subject = stage::Subject::kPerson;
   std::string name;
-  bool needs_claim = true;  // False for a built-in sound: not every project uses it.
+  bool needs_claim = true;  // False for a sound of the library: not every project uses it.
 };
 // Sorted by kind, then in the order of the project.
 std::vector<ProjectSubject> ListSubjects(const ProjectPaths& paths,

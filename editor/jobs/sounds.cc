@@ -7,11 +7,11 @@
 #include <string_view>
 #include <utility>
 
-#include "editor/bake/sound_synthesis.h"
 #include "editor/document/document_fields.h"
 #include "editor/jobs/baking.h"
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
+#include "shared/core/program.h"
 #include "shared/stage/object_use.h"
 
 namespace lararium::editor {
@@ -79,7 +79,7 @@ std::vector<Status> FindUnusedFiles(const ProjectPaths& paths) {
                                              ".wma", ".caf", ".mp4", ".mov"};
   std::map<std::string, std::filesystem::path> used;
   for (const SoundFile& sound : FindSounds(paths)) {
-    used[sound.name] = sound.built_in ? std::filesystem::path() : sound.file;
+    used[sound.name] = sound.of_library ? std::filesystem::path() : sound.file;
   }
   std::vector<Status> unused;
   for (const std::filesystem::path& file : FilesOf(paths.folder / "audio")) {
@@ -119,16 +119,16 @@ Status BringInSound(const ProjectPaths& paths,
 
 std::vector<SoundFile> FindSounds(const ProjectPaths& paths) {
   std::map<std::string, SoundFile> sounds;
-  for (const std::filesystem::path& file : FilesOf(paths.folder / "audio")) {
-    const std::string name = file.stem().string();
-    if (IsSound(LowerCase(file.extension().string()))) {
-      sounds.insert({name, {name, file, false}});
+  const auto add = [&](const std::filesystem::path& folder, bool of_library) {
+    for (const std::filesystem::path& file : FilesOf(folder)) {
+      const std::string name = file.stem().string();
+      if (IsSound(LowerCase(file.extension().string()))) {
+        sounds.insert({name, {name, file, of_library}});
+      }
     }
-  }
-  for (const bake::BuiltInSound& sound : bake::BuiltInSounds()) {
-    const std::string name(sound.name);
-    sounds.insert({name, {name, paths.Sound(name), true}});
-  }
+  };
+  add(paths.folder / "audio", false);
+  add(ShippedData("lararium/library/sounds", "scenes/library/sounds"), true);
   std::vector<SoundFile> found;
   for (auto& [name, sound] : sounds) {
     found.push_back(std::move(sound));
@@ -139,9 +139,6 @@ std::vector<SoundFile> FindSounds(const ProjectPaths& paths) {
 Result<std::vector<audio::SoundData>> LoadSounds(const ProjectPaths& paths) {
   std::vector<audio::SoundData> sounds;
   for (const SoundFile& sound : FindSounds(paths)) {
-    if (sound.built_in && !FileExists(sound.file)) {
-      continue;
-    }
     LARARIUM_ASSIGN_OR_RETURN(auto bytes, ReadBytes(sound.file, audio::SoundReader::kMaxBytes));
     const auto owner = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
     sounds.push_back({sound.name, *owner, owner});

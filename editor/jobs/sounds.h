@@ -1,6 +1,6 @@
 #pragma once
 
-// The sounds of a project: its own files, and the built-in ones that no file replaces.
+// The sounds of a project: its own files, and those of the library that no file replaces.
 
 #include <filesystem>
 #include <string>
@@ -17,13 +17,13 @@ namespace lararium::editor {
 struct SoundFile {
   std::string name;
   std::filesystem::path file;
-  bool built_in = false;  // file is the path of the baked sound.
+  bool of_library = false;  // The file comes with the editor (scenes/library).
 };
 
 // Sorted by name. Of two files with the same name (bell.wav, bell.flac) the first.
 std::vector<SoundFile> FindSounds(const ProjectPaths& paths);
 
-// The encoded sounds for a show, without built-in ones that were not baked.
+// The encoded sounds for a show.
 Result<std::vector<audio::SoundData>> LoadSounds(const ProjectPaths& paths);
 
 // Each missing sound once. Objects that were not baked are skipped; in a script only literal names

@@ -65,7 +65,7 @@ std::string PreviewSession::Key() const {
     key["texts"].push_back(FileStamp(paths.folder / file));
   }
   for (const SoundFile& sound : FindSounds(paths)) {
-    key["sounds"].push_back({sound.name, sound.built_in ? "" : FileStamp(sound.file)});
+    key["sounds"].push_back({sound.name, FileStamp(sound.file)});
   }
   for (const OccluderDocument& occluder : at.occluders) {
     // Sizes and effects of a shape can change without opening the preview again.

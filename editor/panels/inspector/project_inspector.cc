@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "editor/bake/sound_synthesis.h"
 #include "editor/document/titles.h"
 #include "editor/jobs/sounds.h"
 #include "editor/panels/dialogs/dialogs.h"
@@ -78,10 +77,11 @@ bool LanguageRow(const char* label,
   return changed;
 }
 
-bool IsBuiltInSound(const std::string& name) {
-  const auto sounds = bake::BuiltInSounds();
-  return std::any_of(sounds.begin(), sounds.end(),
-                     [&](const auto& sound) { return sound.name == name; });
+bool IsInLibrary(const editor::ProjectPaths& paths, const std::string& name) {
+  const auto sounds = editor::FindSounds(paths);
+  return std::any_of(sounds.begin(), sounds.end(), [&](const editor::SoundFile& sound) {
+    return sound.of_library && sound.name == name;
+  });
 }
 
 DialogProblem SoundProblem(const editor::ProjectPaths& paths,
@@ -116,8 +116,8 @@ bool SoundDialog(editor::Workspace& workspace, Dialogs& dialogs) {
     EndProperties();
   }
   const std::string name = fields.name.empty() ? usual_name : fields.name;
-  if (IsBuiltInSound(name)) {
-    Hint(Text(Tr("It takes the place of %s, which is built in."), name.c_str()));
+  if (IsInLibrary(workspace.project().paths(), name)) {
+    Hint(Text(Tr("It takes the place of %s of the library."), name.c_str()));
   }
   const DialogAnswer answer =
       DialogButtons(Tr("Bring in"), SoundProblem(workspace.project().paths(), name, fields.file));
@@ -159,11 +159,11 @@ void DrawSounds(editor::Workspace& workspace, Dialogs& dialogs) {
   Heading(Tr("Sounds"));
   Languages names;
   for (const editor::SoundFile& sound : editor::FindSounds(workspace.project().paths())) {
-    if (!sound.built_in) {
+    if (!sound.of_library) {
       names.push_back(sound.name);
     }
   }
-  Hint(names.empty() ? Tr("None was brought in; there are only those that are built in.")
+  Hint(names.empty() ? Tr("None was brought in; there are only those of the library.")
                      : Joined(names));
   BringInSoundButton(workspace, dialogs);
 }
