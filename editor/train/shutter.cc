@@ -1,5 +1,6 @@
 #include "editor/train/shutter.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,54 +10,50 @@ namespace {
 
 using geometry::Rigid3;
 
-constexpr int64_t kReach = 2;  // Frames before and after, whose poses tell the motion.
+constexpr double kReach = 4.0;  // Frame times before and after, whose poses tell the motion.
+constexpr int kDegree = 4;
 
-void FilterAll(Reconstruction& reconstruction, const TriangulationOptions& limits) {
+}  // namespace
+
+void FitAgain(Reconstruction& reconstruction, const MapperOptions& mapper) {
+  TriangulationOptions limits = mapper.triangulation;
+  limits.max_error_px = mapper.final_max_error_px;
   for (const uint32_t track : reconstruction.TracksWithPoints()) {
     reconstruction.Complete(track, limits.max_error_px);
     reconstruction.Filter(track, limits);
   }
 }
 
-}  // namespace
-
 std::vector<ImageMotion> EstimateMotions(std::span<const TimedPose> poses) {
   std::vector<ImageMotion> motions(poses.size(), ImageMotion::Zero());
   for (size_t i = 0; i < poses.size(); ++i) {
     const Rigid3 map_from_camera = poses[i].camera_from_map.Inverse();
-    // Least squares for the linear part of a cubic: hands tremble so fast that a line through the
-    // poses of five frames has a third less of the motion.
-    ImageMotion first = ImageMotion::Zero();  // Sums over time^1 and time^3 times the way.
-    ImageMotion third = ImageMotion::Zero();
-    double second = 0.0;  // Sum of time^2; the next two are those of time^4 and time^6.
-    double fourth = 0.0;
-    double sixth = 0.0;
-    // Frames before and after count in equal numbers, so that an acceleration cancels.
-    for (int64_t gap = 1; gap <= kReach; ++gap) {
-      const auto step = static_cast<size_t>(gap);
-      if (i < step || i + step >= poses.size() ||
-          poses[i].frame_index - poses[i - step].frame_index > kReach ||
-          poses[i + step].frame_index - poses[i].frame_index > kReach) {
+    // The linear term of the polynomial through the poses around: hands tremble so fast that a line
+    // through the poses of five frames has a third less of the motion. The rows are powers of the
+    // time and the way of each pose.
+    Eigen::Matrix<double, Eigen::Dynamic, kDegree, 0, 4, kDegree> powers(0, kDegree);
+    Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 4, 6> ways(0, 6);
+    // Frames before and after count in equal numbers.
+    for (size_t step = 1; step <= 2; ++step) {
+      if (i < step || i + step >= poses.size() || poses[i].time - poses[i - step].time > kReach ||
+          poses[i + step].time - poses[i].time > kReach) {
         break;
       }
       for (const TimedPose& other : {poses[i - step], poses[i + step]}) {
-        const auto time = static_cast<double>(other.frame_index - poses[i].frame_index);
+        const double time = other.time - poses[i].time;
         const Rigid3 since = other.camera_from_map * map_from_camera;
-        ImageMotion moved;
-        moved << geometry::VectorFromRotation(since.rotation), since.translation;
-        const double square = time * time;
-        first += time * moved;
-        third += time * square * moved;
-        second += square;
-        fourth += square * square;
-        sixth += square * square * square;
+        powers.conservativeResize(powers.rows() + 1, kDegree);
+        ways.conservativeResize(ways.rows() + 1, 6);
+        powers.bottomRows<1>() << time, time * time, std::pow(time, 3), std::pow(time, 4);
+        ways.bottomRows<1>() << geometry::VectorFromRotation(since.rotation).transpose(),
+            since.translation.transpose();
       }
     }
-    const double determinant = second * sixth - fourth * fourth;
-    if (determinant > 1e-9) {
-      motions[i] = (sixth * first - fourth * third) / determinant;
-    } else if (second > 0.0) {
-      motions[i] = first / second;  // The frames nearest in time only.
+    if (powers.rows() > 0) {
+      const Eigen::Index degree = powers.rows();
+      const Eigen::MatrixXd solved =
+          powers.leftCols(degree).colPivHouseholderQr().solve(Eigen::MatrixXd(ways));
+      motions[i] = solved.row(0).transpose();
     }
   }
   return motions;
@@ -77,17 +74,16 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
   reconstruction.SetShutter(Eigen::Vector2d::Zero(), std::move(motions));
   options.refine_readout = true;
   options.max_iterations = 50;
-  TriangulationOptions limits = mapper.triangulation;
-  limits.max_error_px = mapper.final_max_error_px;
   bool adjusted = true;
   for (const size_t points : {size_t{600}, kFinalPointsPerImage}) {
     options.points_per_image = points;
     adjusted = adjusted && AdjustAll(reconstruction, anchors, options);
-    FilterAll(reconstruction, limits);
+    FitAgain(reconstruction, mapper);
   }
   Shutter shutter{reconstruction.readout()};
   if (adjusted) {
-    const IntrinsicsDeviation deviation = EstimateDeviation(reconstruction, anchors[0], options);
+    const IntrinsicsDeviation deviation =
+        EstimateDeviations(reconstruction, anchors[0], options).front();
     shutter.deviation = {deviation.readout_x, deviation.readout_y};
   }
   const double longest = shutter.readout.cwiseAbs().maxCoeff();

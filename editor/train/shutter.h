@@ -18,13 +18,17 @@ namespace lararium::train {
 
 // The pose of a frame of a film.
 struct TimedPose {
-  int64_t frame_index = 0;
+  double time = 0.0;  // Counted in frame times.
   geometry::Rigid3 camera_from_map;
 };
 
 // [poses]: The motion of the camera during one frame time, from the poses of the frames nearest in
-// time. Zero where there are too few. poses must be in ascending order.
+// time, which need not be evenly spaced. Zero where there are too few. poses must be in ascending
+// order of time.
 std::vector<ImageMotion> EstimateMotions(std::span<const TimedPose> poses);
+
+// Chooses the observations again after the camera of a finished map has changed.
+void FitAgain(Reconstruction& reconstruction, const MapperOptions& mapper);
 
 struct Shutter {
   Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // See vision::RollingShutter.

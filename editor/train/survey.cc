@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/train/training_status.h"
+#include "shared/core/median.h"
 #include "shared/core/parallel.h"
 
 namespace lararium::train {
@@ -56,6 +57,21 @@ Status ReadKeyframes(FrameReader& reader,
     }
   }
   return Status();
+}
+
+// Turns seconds into frame times, the median interval. Where times do not ascend, frames count as
+// evenly spaced.
+void CountInFrameTimes(std::span<SurveyedFrame> frames) {
+  std::vector<double> intervals;
+  for (size_t i = 1; i < frames.size(); ++i) {
+    intervals.push_back(frames[i].time - frames[i - 1].time);
+  }
+  const bool ascending =
+      std::all_of(intervals.begin(), intervals.end(), [](double seconds) { return seconds > 0.0; });
+  const double frame_time = Median(std::move(intervals));
+  for (SurveyedFrame& frame : frames) {
+    frame.time = ascending ? frame.time / frame_time : static_cast<double>(frame.index);
+  }
 }
 
 // The features of the part of an image that shows something.
@@ -114,7 +130,8 @@ Result<Survey> SurveySource(capture::FrameSource& source,
       return CancelledStatus();
     }
     motions.push_back(meter.Measure(frame->grey));
-    survey.frames.push_back({frame->index, source.FrameName(frame->index), motions.back()});
+    survey.frames.push_back(
+        {frame->index, source.FrameName(frame->index), frame->capture_time, motions.back()});
     if (survey.frames.size() <= max_count) {
       kept.push_back({frame->index, frame->capture_time, frame->bgr.clone(), frame->grey.clone()});
     } else {
@@ -128,6 +145,7 @@ Result<Survey> SurveySource(capture::FrameSource& source,
     return Status::Error(kTraining, "the source has fewer than two frames",
                          "film the place while walking around it");
   }
+  CountInFrameTimes(survey.frames);
   const std::vector<capture::SourceCamera> cameras = source.Cameras();
   for (const size_t i : ChooseKeyframes(motions, max_count)) {
     TrainingImage& image = survey.keyframes.emplace_back();

@@ -20,7 +20,8 @@ namespace lararium::train {
 
 struct SurveyedFrame {
   int64_t index = -1;
-  std::string name;  // See FrameSource::FrameName.
+  std::string name;   // See FrameSource::FrameName.
+  double time = 0.0;  // Counted in frame times: the median time between two frames of the source.
   FrameMotion motion;
 };
 

@@ -1,5 +1,3 @@
-#include "editor/train/trainer.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "editor/train/frame_locator.h"
 #include "editor/train/image_mapping.h"
 #include "editor/train/survey.h"
+#include "editor/train/trainer.h"
 #include "editor/train/training_status.h"
 
 namespace lararium::train {
@@ -119,10 +118,10 @@ class Trainer {
     FillKeyframes();
     std::vector<TimedPose> poses;
     std::vector<FrameReport*> located;
-    for (FrameReport& frame : reports) {
-      if (frame.camera_from_map) {
-        poses.push_back({frame.frame_index, *frame.camera_from_map});
-        located.push_back(&frame);
+    for (size_t i = 0; i < reports.size(); ++i) {  // Parallel to the survey's frames.
+      if (reports[i].camera_from_map) {
+        poses.push_back({survey_.frames[i].time, *reports[i].camera_from_map});
+        located.push_back(&reports[i]);
       }
     }
     const std::vector<ImageMotion> motions = EstimateMotions(poses);
@@ -191,6 +190,14 @@ class Trainer {
     return model.Resized(size.width, size.height);
   }
 
+  // The time of the first frame from an index on that the survey could read.
+  double TimeOf(int64_t frame_index) const {
+    const auto frame =
+        std::lower_bound(survey_.frames.begin(), survey_.frames.end() - 1, frame_index,
+                         [](const SurveyedFrame& of, int64_t index) { return of.index < index; });
+    return frame->time;
+  }
+
   // The pose between those of the keyframes before and after a frame.
   std::optional<geometry::Rigid3> BetweenKeyframes(int64_t frame_index) const {
     const auto after = std::lower_bound(
@@ -203,9 +210,8 @@ class Trainer {
     if (!map_.reconstruction->Located(image - 1) || !map_.reconstruction->Located(image)) {
       return std::nullopt;
     }
-    const int64_t begin = survey_.keyframes[image - 1].frame_index;
-    const double share =
-        static_cast<double>(frame_index - begin) / static_cast<double>(after->frame_index - begin);
+    const double begin = TimeOf(survey_.keyframes[image - 1].frame_index);
+    const double share = (TimeOf(frame_index) - begin) / (TimeOf(after->frame_index) - begin);
     const geometry::Rigid3& from = map_.reconstruction->camera_from_map(image - 1);
     const geometry::Rigid3& to = map_.reconstruction->camera_from_map(image);
     const Eigen::Quaterniond rotation = from.rotation.slerp(share, to.rotation);

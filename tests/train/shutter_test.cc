@@ -64,18 +64,32 @@ TEST(EstimateMotions, FollowsATremblingHand) {
   constexpr double kFrequency = 0.8;  // Radians per frame: 4 Hz at 30 frames a second.
   constexpr double kAmplitude = 0.02;
   std::vector<TimedPose> poses;
-  for (int64_t frame = 0; frame < 40; ++frame) {
-    const double phase = kFrequency * static_cast<double>(frame);
+  const auto pose_at = [](double time) {
+    const double phase = kFrequency * time;
     const Eigen::Vector3d turn(0.0, kAmplitude * std::sin(phase), 0.0);
-    poses.push_back({frame,
+    return TimedPose{time,
                      {geometry::RotationFromVector(turn),
-                      Eigen::Vector3d(kAmplitude * std::cos(phase), 0.0, 0.0)}});
+                      Eigen::Vector3d(kAmplitude * std::cos(phase), 0.0, 0.0)}};
+  };
+  for (int frame = 0; frame < 40; ++frame) {
+    poses.push_back(pose_at(frame));
   }
   const std::vector<ImageMotion> motions = EstimateMotions(poses);
   for (size_t i = 2; i + 2 < poses.size(); ++i) {
-    const double phase = kFrequency * static_cast<double>(i);
-    EXPECT_NEAR(motions[i][1], kAmplitude * kFrequency * std::cos(phase),
+    EXPECT_NEAR(motions[i][1], kAmplitude * kFrequency * std::cos(kFrequency * poses[i].time),
                 0.03 * kAmplitude * kFrequency);
+  }
+  // A phone that drops frames and states their times.
+  std::vector<TimedPose> uneven;
+  for (int frame = 0; frame < 60; ++frame) {
+    if (frame % 3 != 1) {
+      uneven.push_back(pose_at(frame + 0.1 * std::sin(2.3 * frame)));
+    }
+  }
+  const std::vector<ImageMotion> found = EstimateMotions(uneven);
+  for (size_t i = 2; i + 2 < uneven.size(); ++i) {
+    EXPECT_NEAR(found[i][1], kAmplitude * kFrequency * std::cos(kFrequency * uneven[i].time),
+                0.08 * kAmplitude * kFrequency);
   }
 }
 
@@ -115,9 +129,9 @@ TEST(EstimateMotions, AreThoseBetweenTheFramesAround) {
   speed << 0.01, -0.02, 0.005, 0.02, 0.01, -0.03;
   std::vector<TimedPose> poses;
   geometry::Rigid3 pose;
-  for (int64_t frame = 0; frame < 9; ++frame) {
+  for (int frame = 0; frame < 9; ++frame) {
     if (frame != 6) {  // This one was not located.
-      poses.push_back({frame, pose});
+      poses.push_back({static_cast<double>(frame), pose});
     }
     pose = vision::PoseAfter(pose, speed, 1.0);
   }
