@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "editor/train/bundle_adjustment.h"
+#include "shared/vision/rolling_shutter.h"
 
 namespace lararium::train {
 namespace {
@@ -16,12 +17,10 @@ using SessionPoseManifold =
 
 class ObservationCost : public ceres::SizedCostFunction<2, 7, 3> {
  public:
-  ObservationCost(const vision::SceneDatabase& db, const vision::Observation& observation)
-      : camera_(db.camera),
-        intrinsics_(ToIntrinsicsBlock(db.camera, db.readout)),
-        motion_(observation.keyframe < db.keyframes.size()
-                    ? db.keyframes[observation.keyframe].motion
-                    : ImageMotion::Zero()),
+  ObservationCost(const PosedCameras& cameras, const vision::Observation& observation)
+      : camera_(cameras.model),
+        intrinsics_(ToIntrinsicsBlock(cameras.model, cameras.readout)),
+        motion_(cameras.motions[observation.keyframe]),
         pixel_(observation.x, observation.y) {}
 
   bool Evaluate(double const* const* parameters,
@@ -73,7 +72,7 @@ ceres::Solver::Options SolverOptions(size_t free_poses) {
 }
 
 // Adjusts the poses from first_free on and the points in free_points.
-bool Solve(const vision::SceneDatabase& map,
+bool Solve(const PosedCameras& cameras,
            std::span<const vision::Observation> observations,
            const std::vector<bool>& free_points,
            size_t first_free,
@@ -92,7 +91,7 @@ bool Solve(const vision::SceneDatabase& map,
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (const vision::Observation& o : observations) {
     if (free_points[o.point]) {
-      problem.AddResidualBlock(new ObservationCost(map, o), &loss, poses[o.keyframe].data(),
+      problem.AddResidualBlock(new ObservationCost(cameras, o), &loss, poses[o.keyframe].data(),
                                moved[o.point].data());
     }
   }
@@ -133,22 +132,38 @@ bool Solve(const vision::SceneDatabase& map,
 
 }  // namespace
 
-bool AdjustSession(const vision::SceneDatabase& map,
+std::optional<Eigen::Vector2d> PosedCameras::PixelOf(size_t pose,
+                                                     const Rigid3& camera_from_map,
+                                                     const Eigen::Vector3d& point,
+                                                     const Eigen::Vector2d& observed) const {
+  const double time = readout.dot(vision::ReadoutOrder(model, observed));
+  return model.Project(vision::PoseAfter(camera_from_map, motions[pose], time) * point);
+}
+
+PosedCameras CamerasOf(const vision::SceneDatabase& map) {
+  PosedCameras cameras{map.camera, map.readout, {}};
+  for (const vision::Keyframe& keyframe : map.keyframes) {
+    cameras.motions.push_back(keyframe.motion);
+  }
+  return cameras;
+}
+
+bool AdjustSession(const PosedCameras& cameras,
                    std::span<const vision::Observation> observations,
                    size_t first_free,
                    std::span<Rigid3> camera_from_map,
                    std::span<Eigen::Vector3d> points) {
-  return Solve(map, observations, FreePoints(observations, first_free, points.size()), first_free,
-               camera_from_map, points);
+  return Solve(cameras, observations, FreePoints(observations, first_free, points.size()),
+               first_free, camera_from_map, points);
 }
 
-bool AdjustPoints(const vision::SceneDatabase& map,
+bool AdjustPoints(const PosedCameras& cameras,
                   std::span<const vision::Observation> observations,
                   std::span<const Rigid3> camera_from_map,
                   const std::vector<bool>& moves,
                   std::span<Eigen::Vector3d> points) {
   std::vector<Rigid3> poses(camera_from_map.begin(), camera_from_map.end());
-  return Solve(map, observations, moves, poses.size(), poses, points);
+  return Solve(cameras, observations, moves, poses.size(), poses, points);
 }
 
 }  // namespace lararium::train

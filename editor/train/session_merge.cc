@@ -15,6 +15,7 @@
 #include "editor/train/database_builder.h"
 #include "editor/train/lookalikes.h"
 #include "editor/train/session_adjustment.h"
+#include "editor/train/session_camera.h"
 #include "editor/train/survey.h"
 #include "shared/core/check.h"
 #include "shared/core/random.h"
@@ -205,7 +206,12 @@ class Merger {
          std::span<const Features> features,
          const MergeOptions& options,
          Log& log)
-      : map_(map), session_(session), options_(options), log_(log), guided_(map) {
+      : map_(map),
+        session_(session),
+        options_(options),
+        log_(log),
+        guided_(map),
+        cameras_(CamerasOf(map)) {
     for (const Features& of_keyframe : features) {
       features_.push_back(FeaturesIn(map.camera, session.camera, of_keyframe));
     }
@@ -293,6 +299,7 @@ class Merger {
       poses_[k] = geometry::CameraFromB(session_.keyframes[k].camera_from_map,
                                         report_.map_from_session.Inverse());
     }
+    AddMotions();
     points_.clear();
     for (const Eigen::Vector3f& point : map_.points) {
       points_.push_back(point.cast<double>());
@@ -301,6 +308,35 @@ class Merger {
       points_.push_back(report_.map_from_session * point.cast<double>());
     }
     return Status();
+  }
+
+  // Adds the motions of the session's images. The merged map has one readout time: that of the map
+  // or, if the map's shutter is a global one, that of the session. A session of another readout
+  // time along the same axis gets faster or slower motions, because only the products of times and
+  // motions matter.
+  void AddMotions() {
+    constexpr double kOtherAxis = 0.1;
+    // The extent of an image on the plane z = 1, along which it is read.
+    const auto extent = [](const CameraModel& camera) {
+      return Eigen::Vector2d(camera.width / camera.fx, camera.height / camera.fy);
+    };
+    const Eigen::Vector2d of_session =
+        session_.readout.cwiseProduct(extent(map_.camera).cwiseQuotient(extent(session_.camera)));
+    if (map_.readout.isZero(0.0)) {
+      cameras_.readout = of_session;
+      cameras_.motions.assign(MapKeyframes(), ImageMotion::Zero());
+    }
+    const double square = cameras_.readout.squaredNorm();
+    const double ratio = square > 0.0 ? of_session.dot(cameras_.readout) / square : 0.0;
+    const bool same_axis =
+        (of_session - ratio * cameras_.readout).norm() <= kOtherAxis * of_session.norm();
+    for (const vision::Keyframe& keyframe : session_.keyframes) {
+      ImageMotion& motion = cameras_.motions.emplace_back(ImageMotion::Zero());
+      if (same_axis) {
+        motion = ratio * keyframe.motion;
+        motion.tail<3>() *= report_.map_from_session.scale;
+      }
+    }
   }
 
   // Searches for the map's points in keyframes of the session. A point of the session that was
@@ -370,8 +406,10 @@ class Merger {
   }
 
   double ErrorPx(const Observation& o) const {
-    const auto pixel = map_.camera.Project(poses_[o.keyframe] * points_[o.point]);
-    return pixel ? (*pixel - Eigen::Vector2d(o.x, o.y)).norm() : 1e9;
+    const Eigen::Vector2d observed(o.x, o.y);
+    const auto pixel = cameras_.PixelOf(MapKeyframes() + o.keyframe, poses_[o.keyframe],
+                                        points_[o.point], observed);
+    return pixel ? (*pixel - observed).norm() : 1e9;
   }
 
   // Keeps at most one observation per keyframe and point and one point per feature: those with the
@@ -395,7 +433,7 @@ class Merger {
       poses.push_back(keyframe.camera_from_map);
     }
     poses.insert(poses.end(), poses_.begin(), poses_.end());
-    if (!AdjustSession(map_, AllObservations(), MapKeyframes(), poses, points_)) {
+    if (!AdjustSession(cameras_, AllObservations(), MapKeyframes(), poses, points_)) {
       log_.warn("the joint adjustment found no solution");
       return;
     }
@@ -428,13 +466,13 @@ class Merger {
   SceneDatabase Build() {
     SceneDatabase db;
     db.camera = map_.camera;
-    db.readout = map_.readout;
+    db.readout = cameras_.readout;
     db.keyframes = map_.keyframes;
     const std::array<float, 3> exposure = ReferenceRatio();
     for (size_t k = 0; k < poses_.size(); ++k) {
       vision::Keyframe& keyframe = db.keyframes.emplace_back(session_.keyframes[k]);
       keyframe.camera_from_map = poses_[k];
-      keyframe.motion.setZero();  // The map has the readout time of another camera.
+      keyframe.motion = cameras_.motions[MapKeyframes() + k];
       keyframe.grey = Resampled(keyframe.grey, session_.camera, map_.camera);
       for (size_t c = 0; c < 3; ++c) {
         keyframe.gain[c] *= exposure[c];
@@ -592,6 +630,7 @@ class Merger {
   MergeOptions options_;
   Log& log_;
   vision::GuidedMatcher guided_;
+  PosedCameras cameras_;                      // The map's keyframes come first.
   std::vector<Features> features_;            // [session's keyframes]: In the map's camera.
   std::vector<Observation> observations_;     // The session's, in the map's camera.
   std::vector<size_t> first_observation_;     // [keyframes + 1]: Ranges of observations_.
@@ -605,17 +644,6 @@ class Merger {
 };
 
 // ------------------------------------------------------------ the video
-
-// The intrinsics to train with; nullopt if they have to be estimated.
-std::optional<CameraModel> KnownCamera(const SceneDatabase& map,
-                                       const capture::FrameSource& source,
-                                       const TrainOptions& options) {
-  if (options.intrinsics) {
-    return options.intrinsics;
-  }
-  const Result<CameraModel> same = map.camera.ForImages(source.width(), source.height());
-  return same.ok() && source.Cameras().size() == 1 ? std::optional(*same) : std::nullopt;
-}
 
 Result<std::vector<Features>> KeyframeFeatures(const SceneDatabase& session,
                                                int max_features,
@@ -718,9 +746,9 @@ Result<TrainResult> AddSession(const SceneDatabase& map,
     return Status::Error(kSessionPlace, "the map already has 32 sessions, the maximum",
                          "remove a session, or train the place again");
   }
-  of_session.intrinsics = KnownCamera(map, source, options);
-  if (!of_session.intrinsics) {
-    log.info("the images are not those of the map's camera; their intrinsics are estimated");
+  if (!options.intrinsics) {
+    LARARIUM_ASSIGN_OR_RETURN(of_session.intrinsics,
+                              RecogniseCamera(map, source, options.seed, progress, log));
   }
   LARARIUM_ASSIGN_OR_RETURN(TrainResult trained, Train(source, of_session, progress, log));
   progress.Report("merging", 0.0);

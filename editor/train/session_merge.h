@@ -52,10 +52,10 @@ Result<MergedMap> MergeSession(const vision::SceneDatabase& map,
                                Log& log);
 
 // Implements `train --add`: trains source by itself, then merges it into map as the next session
-// (options.session is ignored). Without options.intrinsics, the map's camera is used if source has
-// one camera and the aspect ratio agrees; otherwise intrinsics are estimated. The report describes
-// source, in the map's frame; points, observations and error are those of the merged database. map
-// itself is never changed.
+// (options.session is ignored). Without options.intrinsics, the map's camera is used if
+// RecogniseCamera finds that it took the images; otherwise intrinsics are estimated. The report
+// describes source, in the map's frame; points, observations and error are those of the merged
+// database. map itself is never changed.
 Result<TrainResult> AddSession(const vision::SceneDatabase& map,
                                capture::FrameSource& source,
                                const TrainOptions& options,

@@ -129,7 +129,7 @@ class Remover {
     for (const Eigen::Vector3f& point : db_.points) {
       points.push_back(point.cast<double>());
     }
-    if (!AdjustPoints(db_, db_.observations, poses, moves, points)) {
+    if (!AdjustPoints(CamerasOf(db_), db_.observations, poses, moves, points)) {
       return;
     }
     for (size_t i = 0; i < points.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "editor/train/budget.h"
 #include "editor/train/session_adjustment.h"
 #include "editor/train/session_removal.h"
+#include "shared/vision/rolling_shutter.h"
 #include "tests/support/synthetic_world.h"
 
 namespace lararium::train {
@@ -31,21 +32,45 @@ struct TwoSessionsOptions {
   double changed_share = 0.5;
   double noise_px = 0.3;
   bool other_camera = false;
+  double readout = 0.0;      // The session's readout time along y.
+  double map_readout = 0.0;  // The map's, whose camera stood still in each image.
 };
+
+// Where a camera with a rolling shutter sees a point, minus where it is in the middle of the image.
+Eigen::Vector2d RolledBy(const SceneDatabase& db, uint32_t keyframe, const Eigen::Vector3d& point) {
+  const vision::Keyframe& seen = db.keyframes[keyframe];
+  const Eigen::Vector2d sharp = *db.camera.Project(seen.camera_from_map * point);
+  Eigen::Vector2d rolled = sharp;
+  for (int round = 0; round < 10; ++round) {
+    const double time = db.readout.dot(vision::ReadoutOrder(db.camera, rolled));
+    rolled = *db.camera.Project(vision::PoseAfter(seen.camera_from_map, seen.motion, time) * point);
+  }
+  return rolled - sharp;
+}
 
 void Retake(test::SyntheticWorld& world,
             double noise_px,
+            double readout,
             SceneDatabase& db,
             std::vector<vision::Features>& features) {
   db = test::MakeSceneDatabase(world);
   db.observations.clear();
+  db.readout.y() = readout;
+  Random random(11);
   for (uint32_t k = 0; k < world.cameras_from_world.size(); ++k) {
+    for (int i = 0; readout != 0.0 && i < 6; ++i) {
+      db.keyframes[k].motion[i] = 0.02 * random.Normal();
+    }
     test::SyntheticViewOptions options;
     options.noise_px = noise_px;
     options.seed = 100 + k;
-    const test::SyntheticView view = test::RenderView(world, world.cameras_from_world[k], options);
+    test::SyntheticView view = test::RenderView(world, world.cameras_from_world[k], options);
     for (size_t f = 0; f < view.features.size(); ++f) {
-      const vision::Keypoint& keypoint = view.features.keypoints[f];
+      vision::Keypoint& keypoint = view.features.keypoints[f];
+      const auto point = static_cast<size_t>(view.points[f]);
+      const Eigen::Vector2d rolled = RolledBy(db, k, world.points[point]);
+      keypoint.x += static_cast<float>(rolled.x());
+      keypoint.y += static_cast<float>(rolled.y());
       db.observations.push_back(
           {static_cast<uint32_t>(view.points[f]), k, keypoint.x, keypoint.y, keypoint.scale});
     }
@@ -61,7 +86,8 @@ TwoSessions MakeTwoSessions(const TwoSessionsOptions& options) {
   TwoSessions sessions;
   test::SyntheticWorld world = test::MakeSyntheticWorld({.points = 300, .cameras = 8});
   std::vector<vision::Features> unused;
-  Retake(world, options.noise_px, sessions.map, unused);
+  Retake(world, options.noise_px, 0.0, sessions.map, unused);
+  sessions.map.readout.y() = options.map_readout;
   sessions.map.colours.assign(300, Eigen::Vector3f(0.4f, 0.2f, 0.1f));
 
   sessions.map_from_session = {2.5, geometry::RotationFromVector({0.3, -0.8, 0.4}),
@@ -87,7 +113,7 @@ TwoSessions MakeTwoSessions(const TwoSessionsOptions& options) {
   if (options.other_camera) {
     world.camera = {.width = 800, .height = 500, .fx = 700, .fy = 700, .cx = 400, .cy = 250};
   }
-  Retake(world, options.noise_px, sessions.session, sessions.features);
+  Retake(world, options.noise_px, options.readout, sessions.session, sessions.features);
   for (vision::Keyframe& keyframe : sessions.session.keyframes) {
     keyframe.session = 1;
     keyframe.gain = {2.0f, 2.0f, 2.0f};
@@ -125,6 +151,21 @@ TEST(MergeSession, FindsTheSessionsPlaceInTheMap) {
   EXPECT_NEAR(merged->report.map_from_session.scale, 2.5, 0.02);
   EXPECT_LT(LargestCenterError(sessions, merged->database),
             0.02);  // The cameras are at a distance of 4.
+}
+
+// The session was filmed by another phone, whose shutter rolls.
+TEST(MergeSession, AllowsForTheSessionsRollingShutter) {
+  for (const double map_readout : {0.0, 0.5, -0.3}) {
+    const TwoSessions sessions =
+        MakeTwoSessions({.other_camera = true, .readout = 0.9, .map_readout = map_readout});
+    const Result<MergedMap> merged = Merge(sessions);
+    ASSERT_TRUE(merged.ok()) << merged.message();
+    EXPECT_LT(LargestCenterError(sessions, merged->database), 0.02) << map_readout;
+    EXPECT_LT(merged->database.mean_reprojection_error_px, 0.6) << map_readout;
+    if (map_readout != 0.0) {
+      EXPECT_EQ(merged->database.readout.y(), map_readout);
+    }
+  }
 }
 
 TEST(MergeSession, LeavesTheMapsFrameAndKeyframesAlone) {
@@ -197,8 +238,8 @@ void Settle(SceneDatabase& map) {
   for (const Eigen::Vector3f& point : map.points) {
     points.push_back(point.cast<double>());
   }
-  ASSERT_TRUE(
-      AdjustPoints(map, map.observations, poses, std::vector<bool>(points.size(), true), points));
+  ASSERT_TRUE(AdjustPoints(CamerasOf(map), map.observations, poses,
+                           std::vector<bool>(points.size(), true), points));
   std::vector<Eigen::Vector3d> towards(points.size(), Eigen::Vector3d::Zero());
   std::fill(map.observation_counts.begin(), map.observation_counts.end(), 0u);
   for (const Observation& o : map.observations) {
