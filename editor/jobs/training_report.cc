@@ -26,10 +26,10 @@ constexpr size_t kMostWarnings = 10'000;
 using train::CaptureAdvice;
 
 // Indexed by CaptureAdvice::Kind; kWritten has no name.
-constexpr std::array<std::string_view, 14> kKinds = {
-    "enough",     "not_located",   "short_gaps", "one_side",  "step_left",
-    "step_right", "step_nearer",   "step_back",  "turn_left", "turn_right",
-    "focal",      "few_keyframes", "exposure",   "lookalikes"};
+constexpr std::array<std::string_view, 15> kKinds = {
+    "enough",     "not_located",   "short_gaps", "one_side",   "step_left",
+    "step_right", "step_nearer",   "step_back",  "turn_left",  "turn_right",
+    "focal",      "few_keyframes", "exposure",   "lookalikes", "unordered"};
 // Indexed by CaptureAdvice::End; kNone is not written.
 constexpr std::array<std::string_view, 5> kPathEnds = {"", "left", "right", "near", "far"};
 constexpr std::array<std::string_view, 5> kReasons = {"few_features", "blur", "fast_motion",

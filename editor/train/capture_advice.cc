@@ -174,6 +174,13 @@ Sentence AdviceSentence(const CaptureAdvice& advice) {
           "after they saw something unique. Put up something unique, such as a notice, or let them "
           "begin elsewhere.",
           {Frames(advice), Where(advice.end)});
+    case Kind::kUnordered:
+      return Sentence(
+          "Parts of this place look alike (%s %% of what the images show), and images in no order "
+          "do "
+          "not tell which part they show: equal parts may have been taken for one, and the map may "
+          "be wrong. Film the place on one walk past all of its parts.",
+          {Fixed(advice.value, 0)});
     case Kind::kWritten:
       break;
   }

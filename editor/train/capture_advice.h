@@ -47,7 +47,10 @@ struct CaptureAdvice {
     kFewKeyframes,  // value: number of keyframes in the map
     kExposure,      // value: change of the exposure in stops; session
     kLookalikes,    // Nothing in the stretch tells it from other parts. first, last, end
-    kWritten,       // The field `text` is a whole sentence; the report has no name for the kind.
+    // Parts of the place look alike, and the images have no order that tells them apart. value:
+    // share of what the images show that other parts have too, percent
+    kUnordered,
+    kWritten,  // The field `text` is a whole sentence; the report has no name for the kind.
   };
   // The end of the plan at which a stretch lies.
   enum class End { kNone, kLeft, kRight, kNear, kFar };

@@ -298,6 +298,7 @@ class Adviser {
   }
 
   std::vector<CaptureAdvice> Advise() {
+    AdviseOnOrder();
     AdviseOnGaps();
     AdviseOnParallax();
     AdviseOnSteps();
@@ -468,6 +469,19 @@ class Adviser {
     const Eigen::Vector3d right = (axis - up * up.dot(axis)).stableNormalized();
     const Eigen::Vector3d ahead = up.cross(right);
     return Turned(Displaced(pose, right * offset.x() + ahead * offset.y()), turn);
+  }
+
+  // Says that a map of images without an order may have taken equal parts of the place for one.
+  void AdviseOnOrder() {
+    constexpr double kLittle = 0.05;
+    const auto with = std::ranges::count_if(database_.observations, [&](const Observation& o) {
+      return database_.HasLookalike(o.point);
+    });
+    const double share = static_cast<double>(with) /
+                         static_cast<double>(std::max<size_t>(database_.observations.size(), 1));
+    if (!report_.ordered && share > kLittle) {
+      advice_.push_back({.kind = AdviceKind::kUnordered, .value = 100.0 * share});
+    }
   }
 
   // Advises on stretches that show only what other parts of the place have too.

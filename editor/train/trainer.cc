@@ -90,6 +90,7 @@ class Trainer {
   Status Match() {
     LARARIUM_ASSIGN_OR_RETURN(verified_,
                               MatchImages(survey_.keyframes, MappingOptions(), progress_, log_));
+    report_.ordered = verified_.film_gap.has_value();
     return Status();
   }
 

@@ -72,6 +72,7 @@ struct CameraReport {
 
 struct TrainReport {
   int frames = 0;                          // Number of frames of the source.
+  bool ordered = true;                     // Each image looks like the next one, as in a film.
   int keyframes = 0;                       // Number of frames selected for the map.
   std::vector<LocatedFrame> located;       // Frames with a pose, in the order of the source.
   std::vector<std::string> unlocated;      // Names of frames without a pose.

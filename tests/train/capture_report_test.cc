@@ -137,6 +137,21 @@ TEST(CaptureReport, NamesStretchesThatLookLikeOtherParts) {
   }
 }
 
+TEST(CaptureReport, SaysThatTwinsInUnorderedImagesMayBeTakenForOne) {
+  vision::SceneDatabase db = MakeDatabase();
+  TrainReport report = MakeReport(db);
+  const auto said = [&] {
+    const std::vector<CaptureAdvice> advice = AnalyseCapture(report, db, std::nullopt).advice;
+    return advice.front().kind == CaptureAdvice::Kind::kUnordered;
+  };
+  report.ordered = false;
+  EXPECT_FALSE(said());  // No part looks like another one.
+  db.lookalikes.assign(db.points.size(), 1);
+  EXPECT_TRUE(said());
+  report.ordered = true;
+  EXPECT_FALSE(said());
+}
+
 TEST(CaptureReport, HistogramsCountEveryObservationAndPoint) {
   vision::SceneDatabase db = MakeDatabase();
   for (size_t i = 0; i < 50; ++i) {
