@@ -1,8 +1,7 @@
-#include "editor/train/frame_locator.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "editor/train/frame_locator.h"
 #include "shared/core/median.h"
 #include "shared/core/parallel.h"
 #include "shared/vision/guided_matcher.h"
@@ -25,6 +24,7 @@ LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image) 
     return view;
   }
   view.camera_from_map = reconstruction.camera_from_map(image);
+  view.camera = reconstruction.camera(image);
   std::vector<double> errors;
   for (const uint32_t element : reconstruction.ElementsOf(image)) {
     if (reconstruction.Observed(element)) {
@@ -53,15 +53,14 @@ class FrameLocator::Worker {
       return view;
     }
     view.features = static_cast<int>(features_.size());
-    view.camera_from_map =
-        localizer_.Locate(features_, {vision::ExactCamera(wanted.camera), {}, wanted.prediction})
-            .camera_from_map;
+    const vision::Location location = localizer_.Locate(features_, wanted.camera);
+    view.camera_from_map = location.camera_from_map;
+    view.camera = location.camera.model;
     if (view.camera_from_map) {
       if (!database_.readout.isZero(0.0) && !motion.isZero(0.0)) {
-        view.camera_from_map = WhileReading(wanted.camera, *view.camera_from_map, motion);
+        view.camera_from_map = WhileReading(view.camera, *view.camera_from_map, motion);
       }
-      std::vector<double> errors =
-          ErrorsOfObservations(wanted.camera, *view.camera_from_map, motion);
+      std::vector<double> errors = ErrorsOfObservations(view.camera, *view.camera_from_map, motion);
       view.observations = static_cast<int>(errors.size());
       view.median_error_px = Median(std::move(errors));
     }

@@ -11,6 +11,7 @@
 
 #include "editor/train/reconstruction.h"
 #include "shared/geometry/frame.h"
+#include "shared/vision/localizer.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::train {
@@ -21,6 +22,8 @@ struct LocatedView {
   int features = 0;
   int observations = 0;  // Number of observed map points.
   double median_error_px = 0.0;
+  // The camera that took it: the given one or, if that was a guess, the estimate.
+  geometry::CameraModel camera = {};
 };
 
 // Describes an image of the reconstruction; leaves LocatedView::features 0.
@@ -28,12 +31,11 @@ LocatedView DescribeImage(const Reconstruction& reconstruction, uint32_t image);
 
 struct FrameToLocate {
   const geometry::Frame* frame = nullptr;
-  geometry::CameraModel camera;  // The camera that took it.
+  // The camera that took it. CameraGuess::predicted is where it probably was, for images that do
+  // not say which of several parts that look alike they show.
+  vision::CameraGuess camera;
   // How the camera moved in the frame, zero if it is not known; it matters if the shutter rolls.
   ImageMotion motion = ImageMotion::Zero();
-  // Where the camera probably was, for images that do not say which of several parts that look
-  // alike they show.
-  std::optional<geometry::Rigid3> prediction;
 };
 
 // Locates images in a map by vision::Localizer. The time per image hardly depends on the size of

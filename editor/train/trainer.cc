@@ -9,6 +9,7 @@
 #include "editor/train/survey.h"
 #include "editor/train/trainer.h"
 #include "editor/train/training_status.h"
+#include "shared/vision/camera_filter.h"
 
 namespace lararium::train {
 namespace {
@@ -158,8 +159,7 @@ class Trainer {
             const bool known = next < reports.size() && reports[next].frame_index == frame.index;
             of_batch.push_back(known ? &reports[next] : nullptr);
             wanted.push_back({&frame, CameraAssumed(frame.index),
-                              known ? reports[next].camera_motion : ImageMotion::Zero(),
-                              BetweenKeyframes(frame.index)});
+                              known ? reports[next].camera_motion : ImageMotion::Zero()});
           }
           const std::vector<LocatedView> views = locator.Locate(wanted);
           for (size_t i = 0; i < batch.size(); ++i) {
@@ -170,25 +170,44 @@ class Trainer {
         });
   }
 
-  // The camera that the source says took a frame.
-  const geometry::CameraModel& CameraAssumed(int64_t frame_index) const {
-    return map_.reconstruction->cameras()[source_.CameraOf(frame_index)].model;
-  }
-  // The camera that took a frame of the report, for the upright image.
-  geometry::CameraModel CameraOf(const FrameReport& frame) const {
-    const auto keyframe = std::lower_bound(
-        survey_.keyframes.begin(), survey_.keyframes.end(), frame.frame_index,
-        [](const TrainingImage& image, int64_t index) { return image.frame_index < index; });
-    const size_t source_camera = source_.CameraOf(frame.frame_index);
-    return OfUprightImages(frame.keyframe ? map_.reconstruction->CameraOf(static_cast<uint32_t>(
-                                                keyframe - survey_.keyframes.begin()))
-                                          : static_cast<uint32_t>(source_camera),
-                           source_.Cameras()[source_camera].size);
+  // What is known of the camera that took a frame, and of its pose. The lens of a photograph is not
+  // known if no keyframe is by the camera that the source names, or if keyframes show that several
+  // cameras count as that one.
+  vision::CameraGuess CameraAssumed(int64_t frame_index) const {
+    const size_t source_camera = source_.CameraOf(frame_index);
+    const Reconstruction& map = *map_.reconstruction;
+    const TrainingCamera& assumed = map.cameras()[source_camera];
+    std::vector<uint32_t> takers;  // Cameras of keyframes that count as by the same one.
+    for (const uint32_t image : map.LocatedImages()) {
+      if (survey_.keyframes[image].camera == source_camera) {
+        takers.push_back(map.CameraOf(image));
+      }
+    }
+    std::sort(takers.begin(), takers.end());
+    takers.erase(std::unique(takers.begin(), takers.end()), takers.end());
+    if (assumed.given || takers.size() == 1) {
+      return {
+          vision::ExactCamera(assumed.given ? assumed.model : map.cameras()[takers.front()].model),
+          {},
+          BetweenKeyframes(frame_index)};
+    }
+    vision::CameraGuess guess = vision::CameraFilter(assumed.model, false).Guess();
+    if (assumed.FocalKnown()) {
+      guess.prior.covariance(vision::kFocal, vision::kFocal) = std::pow(assumed.focal_doubt, 2);
+    }
+    for (const uint32_t taker : takers) {
+      guess.candidates.push_back(map.cameras()[taker].model);
+    }
+    return guess;
   }
 
-  geometry::CameraModel OfUprightImages(uint32_t camera, cv::Size size) const {
-    const geometry::CameraModel model = ModelOfArea(map_.reconstruction->cameras()[camera]);
-    return model.Resized(size.width, size.height);
+  // A camera of frames as that of the upright images which the source put into them.
+  geometry::CameraModel OfUprightImages(const geometry::CameraModel& model,
+                                        size_t source_camera) const {
+    const capture::SourceCamera from = source_.Cameras()[source_camera];
+    TrainingCamera camera{model};
+    camera.area = from.area;
+    return ModelOfArea(camera).Resized(from.size.width, from.size.height);
   }
 
   // The time of the first frame from an index on that the survey could read.
@@ -222,6 +241,7 @@ class Trainer {
 
   static void Fill(FrameReport& report, const LocatedView& view) {
     report.camera_from_map = view.camera_from_map;
+    report.camera = view.camera;
     report.features = view.features;
     report.observations = view.observations;
     report.median_error_px = view.median_error_px;
@@ -259,8 +279,10 @@ class Trainer {
     }
     for (const FrameReport& frame : report_.frame_reports) {
       if (frame.camera_from_map) {
-        report_.located.push_back({frame.frame_index, frame.name, *frame.camera_from_map,
-                                   frame.keyframe, frame.camera_motion, CameraOf(frame)});
+        report_.located.push_back(
+            {frame.frame_index, frame.name, *frame.camera_from_map, frame.keyframe,
+             frame.camera_motion,
+             OfUprightImages(frame.camera, source_.CameraOf(frame.frame_index))});
       } else {
         report_.unlocated.push_back(frame.name);
       }
@@ -276,8 +298,7 @@ class Trainer {
       const uint32_t lens = LensOf(cameras, index);
       CameraReport& camera = report_.cameras[lens];
       if (lens == index || camera.keyframes == 0) {
-        camera.camera =
-            OfUprightImages(index, source_.Cameras()[survey_.keyframes[image].camera].size);
+        camera.camera = OfUprightImages(cameras[index].model, survey_.keyframes[image].camera);
       }
       camera.given = map_.reconstruction->cameras()[index].given;
       ++camera.keyframes;

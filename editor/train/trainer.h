@@ -56,6 +56,7 @@ struct FrameReport {
   bool keyframe = false;
   std::optional<geometry::Rigid3> camera_from_map;  // Set if the frame was located.
   ImageMotion camera_motion = ImageMotion::Zero();  // See LocatedFrame::motion.
+  geometry::CameraModel camera = {};                // The camera of the source's frames.
   int features = 0;
   // Number of observed map points; for keyframes, before the budget removes points.
   int observations = 0;
