@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "shared/core/check.h"
@@ -22,6 +23,11 @@ using geometry::CameraModel;
 using geometry::Rigid3;
 using PoseManifold =
     ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
+
+// Standard deviations of what is assumed of a camera: of the principal point where it is not
+// estimated, as a share of the longer side, and of the ratio of the focal lengths.
+constexpr double kCentreDoubt = 0.005;
+constexpr double kAspectDoubt = 0.0005;
 
 using Matrix2xIntrinsics = Eigen::Matrix<double, 2, kIntrinsics, Eigen::RowMajor>;
 using Matrix2x3 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
@@ -370,6 +376,7 @@ struct ReconstructionBundle {
           poses[image] = bundle.AddPose(reconstruction.camera_from_map(image), variable[image]);
           images.push_back(image);
         }
+        elements.push_back(element);
         bundle.AddObservation(reconstruction.CameraOf(image), reconstruction.motion(image),
                               reconstruction.Pixel(element), poses[image], point);
       }
@@ -391,7 +398,8 @@ struct ReconstructionBundle {
 
   Bundle bundle;
   std::vector<uint32_t> tracks;
-  std::vector<uint32_t> images;  // Parallel to the bundle's poses.
+  std::vector<uint32_t> images;    // Parallel to the bundle's poses.
+  std::vector<uint32_t> elements;  // Track elements in the order of their residuals.
 };
 
 // The normal equations of a Jacobian without its points (Schur complement), which are small; their
@@ -486,6 +494,117 @@ Eigen::MatrixXd WithoutPoints(const ceres::CRSMatrix& jacobian, int kept) {
   // makes the equations solvable without changing the result.
   normal.diagonal() *= 1.0 + 1e-9;
   return normal;
+}
+
+// By how much each residual moves the estimates of parameters, [residual][parameter]: the product
+// of the Jacobian and columns of the inverse normal equations. columns hold the part of these that
+// belongs to intrinsics and poses; that of the points follows from it. The rows of a point follow
+// one another.
+Eigen::MatrixXd Influences(const ceres::CRSMatrix& jacobian, const Eigen::MatrixXd& columns) {
+  const auto kept = static_cast<int>(columns.rows());
+  Eigen::MatrixXd influences = Eigen::MatrixXd::Zero(jacobian.num_rows, columns.cols());
+  Eigen::Matrix<double, Eigen::Dynamic, 3> by_point =
+      Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(jacobian.num_rows, 3);
+  std::vector<int> point(static_cast<size_t>(jacobian.num_rows), -1);
+  for (int row = 0; row < jacobian.num_rows; ++row) {
+    const auto index = static_cast<size_t>(row);
+    for (auto i = static_cast<size_t>(jacobian.rows[index]);
+         i < static_cast<size_t>(jacobian.rows[index + 1]); ++i) {
+      if (jacobian.cols[i] < kept) {
+        influences.row(row) += jacobian.values[i] * columns.row(jacobian.cols[i]);
+      } else {
+        point[index] = (jacobian.cols[i] - kept) / 3;
+        by_point(row, (jacobian.cols[i] - kept) % 3) = jacobian.values[i];
+      }
+    }
+  }
+  for (int begin = 0; begin < jacobian.num_rows;) {
+    int end = begin + 1;
+    while (end < jacobian.num_rows &&
+           point[static_cast<size_t>(end)] == point[static_cast<size_t>(begin)]) {
+      ++end;
+    }
+    const auto rows = by_point.middleRows(begin, end - begin);
+    const Eigen::Matrix3d inverse = (rows.transpose() * rows).inverse();
+    if (point[static_cast<size_t>(begin)] >= 0 && inverse.allFinite()) {
+      auto of_point = influences.middleRows(begin, end - begin);
+      const Eigen::MatrixXd moved = inverse * (rows.transpose() * of_point);
+      of_point -= rows * moved;
+    }
+    begin = end;
+  }
+  return influences;
+}
+
+// The normal equations of a map, and which column is which parameter of a camera.
+struct MapEquations {
+  MapEquations(const Reconstruction& reconstruction, uint32_t anchor, BundleOptions options)
+      : bundle(reconstruction,
+               reconstruction.TracksWithPoints(),
+               AllBut(reconstruction.image_count(), anchor),
+               WithAllPoints(options)) {
+    ceres::Problem& problem = bundle.bundle.problem();
+    ceres::Problem::EvaluateOptions evaluate;
+    evaluate.parameter_blocks = bundle.bundle.VariableBlocks();
+    double cost = 0.0;
+    if (!problem.Evaluate(evaluate, &cost, &residuals, nullptr, &jacobian) ||
+        jacobian.num_rows <= jacobian.num_cols) {
+      return;
+    }
+    variance = 2.0 * cost / (jacobian.num_rows - jacobian.num_cols);
+    normal.compute(
+        WithoutPoints(jacobian, jacobian.num_cols - 3 * static_cast<int>(bundle.tracks.size())));
+    solved = normal.info() == Eigen::Success;
+    // The intrinsics are the first blocks.
+    for (size_t camera = 0; camera < reconstruction.cameras().size(); ++camera) {
+      if (problem.IsParameterBlockConstant(bundle.bundle.intrinsics(camera))) {
+        continue;
+      }
+      const std::vector<int> constant =
+          ConstantIntrinsics(reconstruction.cameras()[camera], options);
+      for (int i = 0; i < kIntrinsics; ++i) {
+        if (std::find(constant.begin(), constant.end(), i) == constant.end()) {
+          parameters.push_back({camera, static_cast<size_t>(i)});
+        }
+      }
+    }
+  }
+
+  // A column of the inverse, without the rows of points.
+  Eigen::VectorXd Column(size_t parameter) const {
+    return normal.solve(Eigen::VectorXd::Unit(normal.rows(), static_cast<Eigen::Index>(parameter)));
+  }
+
+  struct Parameter {
+    size_t camera = 0;
+    size_t intrinsic = 0;  // Index into an IntrinsicsBlock.
+  };
+
+  ReconstructionBundle bundle;
+  ceres::CRSMatrix jacobian;
+  std::vector<double> residuals;
+  std::vector<Parameter> parameters;  // The first columns are their derivatives.
+  Eigen::LDLT<Eigen::MatrixXd> normal;
+  double variance = 0.0;  // The variance of the residuals.
+  bool solved = false;
+
+ private:
+  static std::vector<bool> AllBut(size_t images, uint32_t anchor) {
+    std::vector<bool> variable(images, true);
+    variable[anchor] = false;
+    return variable;
+  }
+  static BundleOptions WithAllPoints(BundleOptions options) {
+    options.points_per_image = 0;
+    return options;
+  }
+};
+
+double& DeviationOf(IntrinsicsDeviation& deviation, size_t intrinsic) {
+  const std::array<double*, kIntrinsics> all = {
+      &deviation.focal_px, &deviation.k1,        &deviation.k2,       &deviation.cx_px,
+      &deviation.cy_px,    &deviation.readout_x, &deviation.readout_y};
+  return *all[intrinsic];
 }
 
 // Triangulates all points again except those of tracks, which are ascending.
@@ -715,46 +834,13 @@ std::optional<PosedView> AdjustView(const TrainingCamera& camera,
 
 std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& reconstruction,
                                                     uint32_t anchor,
-                                                    BundleOptions options) {
+                                                    const BundleOptions& options) {
   std::vector<IntrinsicsDeviation> deviations(reconstruction.cameras().size());
-  std::vector<bool> variable(reconstruction.image_count(), true);
-  variable[anchor] = false;
-  options.points_per_image = 0;
-  ReconstructionBundle evaluated(reconstruction, reconstruction.TracksWithPoints(), variable,
-                                 options);
-  ceres::Problem& problem = evaluated.bundle.problem();
-  ceres::Problem::EvaluateOptions evaluate;
-  evaluate.parameter_blocks = evaluated.bundle.VariableBlocks();
-  double cost = 0.0;
-  ceres::CRSMatrix crs;
-  if (!problem.Evaluate(evaluate, &cost, nullptr, nullptr, &crs) || crs.num_rows <= crs.num_cols) {
-    return deviations;
-  }
-  const Eigen::LDLT<Eigen::MatrixXd> factors(
-      WithoutPoints(crs, crs.num_cols - 3 * static_cast<int>(evaluated.tracks.size())));
-  if (factors.info() != Eigen::Success) {
-    return deviations;
-  }
-  const double variance_of_residuals = 2.0 * cost / (crs.num_rows - crs.num_cols);
-  // Standard deviation of a parameter by its column; the intrinsics are the first blocks.
-  const auto deviation = [&](int parameter) {
-    Eigen::VectorXd unit = Eigen::VectorXd::Zero(factors.rows());
-    unit[parameter] = 1.0;
-    const double variance = factors.solve(unit)[parameter] * variance_of_residuals;
-    return variance > 0.0 ? std::sqrt(variance) : 0.0;
-  };
-  int column = 0;
-  for (size_t camera = 0; camera < deviations.size(); ++camera) {
-    const std::vector<int> constant = ConstantIntrinsics(reconstruction.cameras()[camera], options);
-    if (!problem.IsParameterBlockConstant(evaluated.bundle.intrinsics(camera))) {
-      std::array<double, kIntrinsics> found{};
-      for (int i = 0; i < kIntrinsics; ++i) {
-        if (std::find(constant.begin(), constant.end(), i) == constant.end()) {
-          found[i] = deviation(column++);
-        }
-      }
-      deviations[camera] = {found[0], found[1], found[2], found[3], found[4], found[5], found[6]};
-    }
+  const MapEquations equations(reconstruction, anchor, options);
+  for (size_t i = 0; equations.solved && i < equations.parameters.size(); ++i) {
+    const auto [camera, intrinsic] = equations.parameters[i];
+    const double variance = equations.Column(i)[static_cast<Eigen::Index>(i)] * equations.variance;
+    DeviationOf(deviations[camera], intrinsic) = variance > 0.0 ? std::sqrt(variance) : 0.0;
   }
   for (uint32_t camera = 0; camera < deviations.size(); ++camera) {
     const uint32_t lens = LensOf(reconstruction.cameras(), camera);
@@ -770,8 +856,53 @@ std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& recons
 
 IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
                                       uint32_t anchor,
-                                      BundleOptions options) {
-  return EstimateDeviations(reconstruction, anchor, options)[reconstruction.MainCamera()];
+                                      const BundleOptions& options) {
+  IntrinsicsDeviation deviation;
+  const MapEquations equations(reconstruction, anchor, options);
+  const size_t main = LensOf(reconstruction.cameras(), reconstruction.MainCamera());
+  const CameraModel& camera = reconstruction.cameras()[main].model;
+  const double centre_doubt =
+      options.refine_centre ? 0.0 : kCentreDoubt * std::max(camera.width, camera.height);
+  for (size_t i = 0; equations.solved && i < equations.parameters.size(); ++i) {
+    if (equations.parameters[i].camera != main) {
+      continue;
+    }
+    const Eigen::VectorXd influences = Influences(equations.jacobian, equations.Column(i));
+    // Sums over the observations of each image and each track, and over all of them for each
+    // doubted parameter.
+    std::vector<double> by_image(reconstruction.image_count(), 0.0);
+    std::vector<double> by_track(reconstruction.tracks().size(), 0.0);
+    double independent = 0.0;
+    Eigen::Vector2d by_centre = Eigen::Vector2d::Zero();
+    double by_aspect = 0.0;
+    for (size_t o = 0; o < equations.bundle.elements.size(); ++o) {
+      const uint32_t element = equations.bundle.elements[o];
+      const uint32_t image = reconstruction.ImageOf(element);
+      const Eigen::Vector2d influence(influences[static_cast<Eigen::Index>(2 * o)],
+                                      influences[static_cast<Eigen::Index>(2 * o + 1)]);
+      const Eigen::Vector2d residual(equations.residuals[2 * o], equations.residuals[2 * o + 1]);
+      const double moved = influence.dot(residual);
+      by_image[image] += moved;
+      by_track[reconstruction.TrackOf(element)] += moved;
+      independent += moved * moved;
+      if (reconstruction.CameraOf(image) == main) {
+        // Cauchy's loss has scaled residuals and Jacobian by this.
+        const double weight = std::sqrt(std::max(
+            1.0 - residual.squaredNorm() / (options.loss_scale_px * options.loss_scale_px), 0.0));
+        by_centre += weight * influence;
+        by_aspect += weight * influence.y() * (reconstruction.Pixel(element).y() - camera.cy);
+      }
+    }
+    const auto square = [](std::span<const double> sums) {
+      return std::inner_product(sums.begin(), sums.end(), sums.begin(), 0.0);
+    };
+    const double shared = square(by_image) + square(by_track) - independent;
+    const double variance = std::max(shared, independent) +
+                            centre_doubt * centre_doubt * by_centre.squaredNorm() +
+                            kAspectDoubt * kAspectDoubt * by_aspect * by_aspect;
+    DeviationOf(deviation, equations.parameters[i].intrinsic) = std::sqrt(variance);
+  }
+  return deviation;
 }
 
 }  // namespace lararium::train

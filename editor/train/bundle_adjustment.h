@@ -80,9 +80,8 @@ std::optional<PosedView> AdjustView(const TrainingCamera& camera,
                                     const geometry::Rigid3& start,
                                     const BundleOptions& options);
 
-// Standard deviations of the estimated intrinsics of a camera, from the residuals and the normal
-// equations of AdjustAll. 0 for parameters that were not refined, and if the equations are
-// singular.
+// Standard deviations of the estimated intrinsics of a camera. 0 for parameters that were not
+// refined, and if the normal equations are singular.
 struct IntrinsicsDeviation {
   double focal_px = 0.0;
   double k1 = 0.0;
@@ -92,13 +91,20 @@ struct IntrinsicsDeviation {
   double readout_x = 0.0;
   double readout_y = 0.0;
 };
-// options: as those with which the parameters were refined. One result for each camera.
+// The deviations of each camera from the residuals and the normal equations of AdjustAll, as if the
+// errors of the observations were independent and the camera were as it is modelled. options: as
+// those with which the parameters were refined.
 std::vector<IntrinsicsDeviation> EstimateDeviations(const Reconstruction& reconstruction,
                                                     uint32_t anchor,
-                                                    BundleOptions options);
-// Returns the deviations of the main camera only.
+                                                    const BundleOptions& options);
+// The deviations of the main camera without these assumptions. Observations of one image share
+// errors, such as those of how the camera moved meanwhile, and so do those of one point; their sums
+// count (Cameron, Gelbach & Miller, "Robust inference with multiway clustering", JBES 2011). What
+// is assumed of a camera and not estimated, its principal point and the ratio of its focal lengths,
+// may be wrong (a consider covariance; Schmidt, "Application of state-space methods to navigation
+// problems", 1966).
 IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
                                       uint32_t anchor,
-                                      BundleOptions options);
+                                      const BundleOptions& options);
 
 }  // namespace lararium::train

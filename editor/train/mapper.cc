@@ -311,7 +311,8 @@ class Mapper {
     FilterAll(limits);
     AdjustAll(reconstruction_, anchors_, bundle);
     const geometry::CameraModel& after = reconstruction_.camera();
-    const IntrinsicsDeviation deviation = EstimateDeviation(reconstruction_, anchors_[0], bundle);
+    const IntrinsicsDeviation deviation =
+        EstimateDeviations(reconstruction_, anchors_[0], bundle).front();
     const bool taken = deviation.cx_px > 0.0 && deviation.cx_px < kMaxDeviation * side &&
                        deviation.cy_px > 0.0 && deviation.cy_px < kMaxDeviation * side &&
                        std::hypot(after.cx - before.cx, after.cy - before.cy) < kMaxShift * side;
