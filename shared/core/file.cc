@@ -217,12 +217,20 @@ Status FileReplacement::Commit() {
   if (file.get() < 0) {
     return SystemError(named_, "cannot write to disk");
   }
+  // Disks that keep neither owners nor modes (exFAT, cameras, shares) refuse to change them, even
+  // to what they are.
+  struct stat now {};
+  if (::fstat(file.get(), &now) != 0) {
+    return SystemError(named_, "cannot write to disk");
+  }
+  const bool owned = !replaces_ || (now.st_uid == owner_ && now.st_gid == group_);
   // Who may not give the file away keeps at least its group, and otherwise owns it.
-  if (replaces_ && ::fchown(file.get(), owner_, group_) != 0 &&
+  if (!owned && ::fchown(file.get(), owner_, group_) != 0 &&
       ::fchown(file.get(), static_cast<uid_t>(-1), group_) != 0) {
     mode_ &= static_cast<uint32_t>(~0070) | (mode_ & 0007) << 3;  // Another group gains no rights.
   }
-  if (::fchmod(file.get(), mode_) != 0 || ::fsync(file.get()) != 0) {
+  const bool has_mode = (static_cast<uint32_t>(now.st_mode) & 0777) == mode_;
+  if ((!has_mode && ::fchmod(file.get(), mode_) != 0) || ::fsync(file.get()) != 0) {
     return SystemError(named_, "cannot write to disk");
   }
   if (::rename(unfinished_.c_str(), file_.c_str()) != 0) {

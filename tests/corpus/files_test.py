@@ -1,6 +1,8 @@
 """Names, links, modes and disks as people have them."""
+import ctypes
 import json
 import os
+import platform
 import subprocess
 import unittest
 
@@ -45,6 +47,49 @@ class Modes(Case):
         finally:
             os.umask(before)
         self.assertEqual((self.folder / "group.lararium" / "project.json").stat().st_mode & 0o777, 0o664)
+
+
+# System calls that change modes and owners: those of x86, and those that every machine has.
+CHANGES = {"x86_64": (90, 91, 92, 93, 94, 260, 268), "aarch64": (52, 53, 54, 55)}
+
+
+class Instruction(ctypes.Structure):
+    _fields_ = [("code", ctypes.c_ushort), ("if_true", ctypes.c_ubyte), ("if_false", ctypes.c_ubyte),
+                ("value", ctypes.c_uint)]
+
+
+class Program(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_ushort), ("instructions", ctypes.POINTER(Instruction))]
+
+
+def refuse_changes():
+    """From now on this process is refused to change modes and owners, as disks without them refuse it (seccomp)."""
+    calls = CHANGES[platform.machine()]
+    code = [Instruction(0x20, 0, 0, 0)]  # The number of the system call.
+    code += [Instruction(0x15, len(calls) - i, 0, call) for i, call in enumerate(calls)]
+    code += [Instruction(0x06, 0, 0, 0x7FFF0000), Instruction(0x06, 0, 0, 0x00050001)]  # Allowed; EPERM.
+    program = Program(len(code), (Instruction * len(code))(*code))
+    libc = ctypes.CDLL(None)
+    if libc.prctl(38, 1, 0, 0, 0) != 0 or libc.prctl(22, 2, ctypes.byref(program), 0, 0) != 0:
+        os._exit(99)
+
+
+@unittest.skipIf(platform.machine() not in CHANGES, "the numbers of the system calls are not known")
+class Disks(Case):
+    def test_a_disk_that_keeps_no_modes_can_be_written_to(self):
+        """exFAT, shares of Windows, cameras."""
+        def run(*arguments):
+            done = subprocess.run([f"{os.environ['LARARIUM_BIN']}/lararium-editor", *arguments], cwd=self.folder,
+                                  capture_output=True, text=True, timeout=100, check=False, preexec_fn=refuse_changes,
+                                  env=os.environ | {"HOME": str(self.home)})
+            self.assertEqual(done.returncode, 0, done.stderr)
+        run("new", "p.lararium")
+        run("project", "p.lararium", "--title", "On a stick")
+        self.assertIn("On a stick", (self.folder / "p.lararium/project.json").read_text())
+        os.chmod(self.folder / "p.lararium/project.json", 0o600)
+        refused = subprocess.run([f"{os.environ['LARARIUM_BIN']}/lararium-editor", "project", "p.lararium", "--title", "Open"],
+                                 cwd=self.folder, capture_output=True, text=True, check=False, preexec_fn=refuse_changes)
+        self.assertEqual(refused.returncode, 1, "the file would be open to others")
 
 
 class Names(Case):
