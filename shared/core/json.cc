@@ -88,8 +88,8 @@ void ChangeStrings(Json& json, std::string (*change)(std::string_view)) {
 
 Result<Json> ParseJson(std::string_view text, std::string_view where) {
   try {
-    Json json =
-        LooksLikeUtf16(text) ? Json::parse(PlainText(std::string(text))) : Json::parse(text);
+    Json json = LooksLikeUtf16(text) ? Json::parse(PlainText(std::string(text)))
+                                     : Json::parse(WithoutByteOrderMark(text));
     if (MayHoldEscapes(text)) {
       ChangeStrings(json, Unescaped);
     }

@@ -79,7 +79,8 @@ std::string PlainText(std::string bytes) {
   if (const std::optional<Order> order = OrderOf(bytes)) {
     bytes = FromUtf16(bytes, *order).value_or(std::move(bytes));
   }
-  if (bytes.size() != WithoutByteOrderMark(bytes).size()) {
+  // Programs that do not know of the mark that is there put a second one before it.
+  while (bytes.size() != WithoutByteOrderMark(bytes).size()) {
     bytes.erase(0, bytes.size() - WithoutByteOrderMark(bytes).size());
   }
   return WithUnixLineEnds(std::move(bytes));
