@@ -20,9 +20,13 @@ namespace lararium::editor {
 Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   LARARIUM_RETURN_IF_ERROR(RequireSpace(job.out.parent_path()));
   LARARIUM_ASSIGN_OR_RETURN(const auto source, capture::OpenVideo(job.video));
-  for (const std::string& note : source->Notes()) {
-    log.warn("{}", note);
-  }
+  size_t told = 0;
+  const auto tell = [&] {
+    for (const std::vector<std::string> notes = source->Notes(); told < notes.size(); ++told) {
+      log.warn("{}", notes[told]);
+    }
+  };
+  tell();
   LARARIUM_ASSIGN_OR_RETURN(
       const geometry::CameraModel camera,
       job.intrinsics.empty()
@@ -73,6 +77,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   }
   LARARIUM_RETURN_IF_ERROR(sound.Finish(1.0 / source->frames_per_second()));
   LARARIUM_RETURN_IF_ERROR(writer->Finish());
+  tell();
   return report;
 }
 

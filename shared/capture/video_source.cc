@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -22,6 +24,10 @@ using image::LibavPtr;
 constexpr char kContainers[] =
     "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,ogg,flv,asf,ivf,m4v,h264,hevc,mjpeg,mxf,"
     "dv";
+
+// Seconds. Recorders that were stopped in between and films that were joined leave longer ones,
+// which are no time that passed in the film.
+constexpr double kLongestPause = 10.0;
 
 struct FormatDeleter {
   void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
@@ -160,6 +166,22 @@ int64_t EstimateFrameCount(const Decoder& decoder, double frames_per_second) {
   return 0;
 }
 
+// How long the film is by what its container states; zero if that is not known or known to be right
+// (CheckComplete). What is stated for the file as a whole may be the length of its sound.
+double StatedSeconds(const Decoder& decoder) {
+  const AVFormatContext& format = *decoder.format;
+  if (std::string_view(format.iformat->name).starts_with("mov") ||
+      format.duration_estimation_method == AVFMT_DURATION_FROM_BITRATE) {
+    return 0.0;
+  }
+  if (decoder.stream->duration > 0) {
+    return static_cast<double>(decoder.stream->duration) * av_q2d(decoder.stream->time_base);
+  }
+  return format.nb_streams == 1 && format.duration > 0
+             ? static_cast<double>(format.duration) / AV_TIME_BASE
+             : 0.0;
+}
+
 // Frames are numbered in the order in which the decoder returns them when the file is read from its
 // start, because containers may state wrong counts and packets may be undecodable. Times of frames
 // are learned while decoding. A jump goes to a key frame, identifies the frame by its time, and
@@ -223,13 +245,22 @@ class VideoSource final : public FrameSource {
   std::string FrameName(int64_t index) const override { return NumberedFrameName(index); }
   std::vector<std::string> Notes() const override {
     std::vector<std::string> notes = converter_->notes();
+    if (decoder_.films > 1) {
+      notes.push_back(file_.string() + ": holds " + std::to_string(decoder_.films) +
+                      " films; stream " + std::to_string(decoder_.stream->index) + " is used");
+    }
+    // What is found while the film is read comes last.
     if (undecodable_ > 0) {
       notes.push_back(file_.string() + ": " + std::to_string(undecodable_) +
                       " of its packets cannot be decoded; their frames are missing");
     }
-    if (decoder_.films > 1) {
-      notes.push_back(file_.string() + ": holds " + std::to_string(decoder_.films) +
-                      " films; stream " + std::to_string(decoder_.stream->index) + " is used");
+    if (jumps_ > 0) {
+      notes.push_back(file_.string() + ": its times jump in " + std::to_string(jumps_) +
+                      " places, as if several films were joined; it is played without a pause "
+                      "there");
+    }
+    if (!cut_off_.empty()) {
+      notes.push_back(cut_off_);
     }
     return notes;
   }
@@ -321,6 +352,7 @@ class VideoSource final : public FrameSource {
     LARARIUM_ASSIGN_OR_RETURN(has_picture_, ReceivePicture());
     if (!has_picture_) {
       count_ = next_index_;
+      CompareWithStated();
       return false;
     }
     if (next_index_ == static_cast<int64_t>(times_.size())) {
@@ -330,15 +362,37 @@ class VideoSource final : public FrameSource {
     return true;
   }
 
+  // Notes that the film ends much earlier than its container states.
+  void CompareWithStated() {
+    const double stated = StatedSeconds(decoder_);
+    const double unit = av_q2d(decoder_.stream->time_base);
+    const double end = seconds_.empty() ? 0.0
+                                        : seconds_.back() + 1.0 / frames_per_second_ +
+                                              static_cast<double>(skipped_) * unit;
+    if (times_are_ordered_ && end < 0.9 * stated - 1.0) {
+      std::array<char, 128> text = {};
+      std::snprintf(text.data(), text.size(),
+                    ": ends after %.1f s, but states %.1f s: it is cut off; copy it again", end,
+                    stated);
+      cut_off_ = file_.string() + text.data();
+    }
+  }
+
   void Learn() {
     const int64_t time = picture_->best_effort_timestamp;
     times_are_ordered_ =
         times_are_ordered_ && time != AV_NOPTS_VALUE && (times_.empty() || time > times_.back());
-    times_.push_back(time);
+    const double unit = av_q2d(decoder_.stream->time_base);
     if (times_are_ordered_) {
-      seconds_.push_back(static_cast<double>(time - times_[0]) *
-                         av_q2d(decoder_.stream->time_base));
+      const int64_t step = times_.empty() ? 0 : time - times_.back();
+      if (static_cast<double>(step) * unit > kLongestPause) {
+        ++jumps_;
+        skipped_ += step - std::llround(1.0 / (frames_per_second_ * unit));
+      }
+      times_.push_back(time);
+      seconds_.push_back(static_cast<double>(time - times_[0] - skipped_) * unit);
     } else {
+      times_.push_back(time);
       seconds_.push_back(seconds_.empty() ? 0.0 : seconds_.back() + 1.0 / frames_per_second_);
     }
     if (image::IsKeyFrame(*picture_)) {
@@ -404,10 +458,13 @@ class VideoSource final : public FrameSource {
   bool has_picture_ = false;    // True if picture_ is frame next_index_ - 1.
   bool pending_ = false;        // True if Next() has not returned that frame yet.
   std::vector<int64_t> times_;  // Times of the decoded frames in the stream's time base.
-  // Capture times of the same frames. From the frame on at which the file's times are no longer in
-  // order, they continue at its frame rate.
+  // Capture times of the same frames. They continue at the file's frame rate where its times jump,
+  // and from the frame on at which they are no longer in order.
   std::vector<double> seconds_;
+  int64_t skipped_ = 0;  // Time that jumps leave out, in the stream's time base.
+  int jumps_ = 0;  // The number of frames that came more than kLongestPause after the one before.
   std::vector<int64_t> key_frames_;
+  std::string cut_off_;  // The note that the end of the film is missing; empty if it is not.
   int undecodable_ = 0;  // The number of packets that gave an error when they were first read.
   bool times_are_ordered_ = true;
 };

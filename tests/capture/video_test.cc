@@ -21,7 +21,9 @@ namespace lararium::capture {
 namespace {
 
 using image::LibavPtr;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr int kWidth = 160;
 constexpr int kHeight = 96;
@@ -201,6 +203,47 @@ TEST(OpenVideo, TimeGoesOnWhereTheFilesOwnTimesLoseTheirOrder) {
       EXPECT_NEAR((*frame)->capture_time, expected[i], 1e-9) << i;
     }
   }
+}
+
+TEST(OpenVideo, TimeGoesOnWhereTheFilesOwnTimesJump) {
+  test::TemporaryFolder folder;
+  const auto file = folder / "joined.mkv";
+  ASSERT_NO_FATAL_FAILURE(WriteTimedVideo(
+      file, std::array<int64_t, 6>{0, 100, 9'100, 3'609'100, 3'609'200, 90'000'000}));
+  const auto source = OpenVideo(file);
+  ASSERT_TRUE(source.ok()) << source.message();
+  const std::array<double, 6> expected = {0.0, 0.1, 9.1, 9.14, 9.24, 9.28};  // 25 frames a second
+  for (const size_t first : {size_t{0}, size_t{4}, size_t{2}}) {
+    ASSERT_TRUE((*source)->Seek(static_cast<int64_t>(first)).ok());
+    for (size_t i = first; i < expected.size(); ++i) {
+      const auto frame = (*source)->Next();
+      ASSERT_TRUE(frame.ok() && frame->has_value()) << i;
+      EXPECT_EQ(ReadNumber((*frame)->grey), static_cast<int>(i));
+      EXPECT_NEAR((*frame)->capture_time, expected[i], 1e-9) << i;
+    }
+  }
+  EXPECT_THAT((*source)->Notes(), ElementsAre(HasSubstr("its times jump in 2 places")));
+}
+
+TEST(OpenVideo, SaysThatTheEndOfAFilmIsMissing) {
+  test::TemporaryFolder folder;
+  std::vector<int64_t> milliseconds(200);
+  for (size_t i = 0; i < milliseconds.size(); ++i) {
+    milliseconds[i] = 40 * static_cast<int64_t>(i);
+  }
+  ASSERT_NO_FATAL_FAILURE(WriteTimedVideo(folder / "whole.mkv", milliseconds));
+  const auto bytes = ReadBytes(folder / "whole.mkv");
+  ASSERT_TRUE(bytes.ok());
+  ASSERT_TRUE(
+      WriteFileAtomically(folder / "cut.mkv", std::span(*bytes).first(bytes->size() / 2)).ok());
+  const auto notes_of = [&](const char* name) {
+    const auto source = OpenVideo(folder / name);
+    while (source.ok() && (*source)->frame_count() == std::nullopt && (*source)->Next().ok()) {
+    }
+    return source.ok() ? (*source)->Notes() : std::vector<std::string>{source.message()};
+  };
+  EXPECT_THAT(notes_of("whole.mkv"), IsEmpty());
+  EXPECT_THAT(notes_of("cut.mkv"), ElementsAre(HasSubstr("but states 8.0 s: it is cut off")));
 }
 
 // Writes an MP4 with a large cover, a small preview and the film, in this order.

@@ -22,6 +22,13 @@ class WholeWays(FilmCase):
         for i in range(2):
             self.assertLess(abs(wide[i] / square[i] - 1.0), 0.005, (wide, square))
 
+    def test_a_film_that_is_cut_off_says_so(self):
+        self.ffmpeg("-i", TRAINING, "-map", "0:v", "-c", "copy", "film.mkv")
+        data = (self.folder / "film.mkv").read_bytes()
+        (self.folder / "film.mkv").write_bytes(data[:len(data) // 2])
+        self.assertRegex("\n".join(self.train("cut.lararium", "film.mkv")["warnings"]),
+                         r"film.mkv: ends after \d+\.\d s, but states \d+\.\d s: it is cut off")
+
     def test_phone_held_upright_is_rendered_upright(self):
         self.ffmpeg("-i", TRAINING, "-vf", "transpose=2", *LOSSLESS, "side.mp4")
         self.ffmpeg("-i", "side.mp4", "-metadata:s:v", "rotate=270", "-c", "copy", "phone.mp4")

@@ -3,6 +3,7 @@ so that the recording is what the program sees of it."""
 import pathlib
 import struct
 import subprocess
+import time
 import unittest
 
 from corpus import Case
@@ -103,6 +104,37 @@ class Shapes(FilmCase):
             self.assertEqual(edges, 2, y)
             self.assertGreater(line[60], 200)
             self.assertLess(line[86], 60)
+
+
+class Times(FilmCase):
+    def joined(self, jump):
+        """Two films as one file; the second one begins `jump` seconds after the first."""
+        pieces = []
+        for offset in (0, jump):
+            self.ffmpeg("-f", "lavfi", "-i", f"testsrc2=s={WIDTH}x{HEIGHT}:r=25:d=0.4", "-vf", BT709, *LOSSLESS, "-g", "5",
+                        "-output_ts_offset", str(offset), "-f", "mpegts", "piece.ts")
+            pieces.append((self.folder / "piece.ts").read_bytes())
+        (self.folder / "joined.ts").write_bytes(b"".join(pieces))
+        return "joined.ts"
+
+    def test_joined_films_have_no_pause_between_them(self):
+        film = self.joined(3600)
+        started = time.monotonic()
+        seen = self.seen(film)  # Played as a camera: an hour with the pause.
+        self.assertLess(time.monotonic() - started, 100)
+        self.assertEqual(self.probe(seen, "nb_frames"), "20")
+        said = self.editor("train", "joined.ts.lararium", "--place", "again", "--video", film, code=None)
+        self.assertIn("joined.ts: its times jump in 1 places", said)
+
+    def test_odd_sizes_lose_a_row_and_a_column_at_most(self):
+        self.make("odd.mkv", "-c:v", "ffv1", "-pix_fmt", "yuv420p", filters=BT709 + ",scale=321:241")
+        seen = self.seen("odd.mkv")
+        self.assertEqual(self.size(seen), "320,240")
+        self.assert_alike(self.first(seen), self.first("odd.mkv", "crop=320:240:0:0"))
+
+    def test_a_film_of_a_browser_has_neither_duration_nor_index(self):
+        self.make("live.webm", "-c:v", "libvpx", "-b:v", "3M", "-live", "1")
+        self.assertEqual(self.probe(self.seen("live.webm"), "nb_frames"), "10")
 
 
 class Streams(FilmCase):
