@@ -81,6 +81,7 @@ struct ImageTraits {
   std::string camera;
   std::optional<uint32_t> focal_in_35mm_film;
   std::vector<std::string> notes;  // See image::PictureNotes().
+  bool shows_all_directions = false;
 
   // See SourceCamera. Sensors are wider than high: where the file does not tell how an image was
   // turned, one that is higher than wide was turned clockwise, as phones are held.
@@ -96,6 +97,16 @@ struct ImageTraits {
            (a.size == b.size || a.size == cv::Size(b.size.height, b.size.width));
   }
 };
+
+// Whether the metadata of a picture (XMP, "Photo Sphere XMP Metadata") say that its columns and
+// rows are angles, as those of 360 degree cameras are.
+bool ShowsAllDirections(std::span<const std::byte> file) {
+  constexpr size_t kFarthest = size_t{1} << 18;  // Bytes; metadata come before the pixels.
+  const std::string_view text(reinterpret_cast<const char*>(file.data()),
+                              std::min(file.size(), kFarthest));
+  const size_t at = text.find("GPano:ProjectionType");
+  return at != std::string_view::npos && text.substr(at, 64).find("equirectangular") != text.npos;
+}
 
 ImageTraits TraitsOf(const std::filesystem::path& file) {
   ImageTraits traits;
@@ -119,6 +130,7 @@ ImageTraits TraitsOf(const std::filesystem::path& file) {
   traits.notes = image::PictureNotes(mapped->bytes());
   traits.camera = FindCameraName(mapped->bytes());
   traits.focal_in_35mm_film = FindFocalLengthIn35mmFilm(mapped->bytes());
+  traits.shows_all_directions = ShowsAllDirections(mapped->bytes());
   return traits;
 }
 
@@ -298,10 +310,47 @@ const std::array<UnreadFormat, 2>& UnreadFormats() {
          ".nrw", ".orf", ".pef", ".raf", ".rw2", ".rwl", ".srw", ".x3f"},
         "develop them as JPEG or TIFF"},
        {"pictures of formats that are not read",
-        {".exr", ".gif", ".hdr", ".j2k", ".jp2", ".jps", ".jxr", ".pcx", ".ppm", ".psd", ".tga",
-         ".xcf"},
+        {".exr", ".gif", ".hdr", ".insp", ".j2k", ".jp2", ".jps", ".jxr", ".mpo", ".pcx", ".pgm",
+         ".ppm", ".psd", ".tga", ".xcf"},
         "save them as PNG or JPEG"}}};
   return kFormats;
+}
+
+// Whether a file begins as a picture of a format that is read.
+bool BeginsAsPicture(const std::filesystem::path& file) {
+  constexpr size_t kBytes = 16;
+  const Result<std::vector<std::byte>> head = ReadBytesAt(file, 0, kBytes);
+  if (!head.ok()) {
+    return false;
+  }
+  const std::string_view text(reinterpret_cast<const char*>(head->data()), kBytes);
+  const std::string_view brand = text.substr(4, 8);
+  return text.starts_with("\xff\xd8\xff") || text.starts_with("\x89PNG\r\n\x1a\n") ||
+         (text.starts_with("RIFF") && text.substr(8, 4) == "WEBP") || brand == "ftypheic" ||
+         brand == "ftypavif" || brand == "ftypmif1";
+}
+
+// The name of the file for which a cloud left a hidden placeholder (".IMG_1.HEIC.icloud"); empty if
+// it is none.
+std::filesystem::path NameInCloud(const std::string& name) {
+  constexpr std::string_view kCloud = ".icloud";
+  return name.starts_with('.') && name.ends_with(kCloud) && name.size() > kCloud.size()
+             ? name.substr(1, name.size() - 1 - kCloud.size())
+             : std::string();
+}
+
+std::string LeftOutNote(const std::filesystem::path& folder,
+                        const std::map<std::string, size_t>& numbers,
+                        const std::string& what,
+                        const std::string& remedy) {
+  size_t count = 0;
+  std::string extensions;
+  for (const auto& [extension, files] : numbers) {
+    count += files;
+    extensions += (extensions.empty() ? "" : ", ") + extension;
+  }
+  return folder.string() + ": " + std::to_string(count) + " " + what + " (" + extensions +
+         ") are left out: " + remedy;
 }
 
 // Collects the files of one folder, or of it and all folders below.
@@ -323,6 +372,8 @@ class Lister {
         if (entry.depth() >= deepest || name.starts_with('.')) {
           entry.disable_recursion_pending();
         }
+      } else if (IsImageName(NameInCloud(name))) {
+        ++in_cloud_;
       } else if (!name.starts_with('.') && entry->is_regular_file(unknown)) {
         Add(entry->path());
       }
@@ -338,17 +389,18 @@ class Lister {
   std::vector<std::string> UnreadNotes() const {
     std::vector<std::string> notes;
     for (size_t i = 0; i < unread_.size(); ++i) {
-      size_t count = 0;
-      std::string extensions;
-      for (const auto& [extension, files] : unread_[i]) {
-        count += files;
-        extensions += (extensions.empty() ? "" : ", ") + extension;
+      if (!unread_[i].empty()) {
+        notes.push_back(
+            LeftOutNote(folder_, unread_[i], UnreadFormats()[i].name, UnreadFormats()[i].remedy));
       }
-      if (count > 0) {
-        notes.push_back(folder_.string() + ": " + std::to_string(count) + " " +
-                        UnreadFormats()[i].name + " (" + extensions +
-                        ") are left out: " + UnreadFormats()[i].remedy);
-      }
+    }
+    if (!misnamed_.empty()) {
+      notes.push_back(LeftOutNote(folder_, misnamed_, "files that begin as pictures do",
+                                  "name them .jpg, .png, .webp or .heic if they show the place"));
+    }
+    if (in_cloud_ > 0) {
+      notes.push_back(folder_.string() + ": " + std::to_string(in_cloud_) +
+                      " pictures are still in the cloud (.icloud) and are left out: download them");
     }
     return notes;
   }
@@ -364,13 +416,20 @@ class Lister {
       const auto& known = UnreadFormats()[i].extensions;
       if (std::find(known.begin(), known.end(), extension) != known.end()) {
         ++unread_[i][extension];
+        return;
       }
+    }
+    if (BeginsAsPicture(file)) {
+      ++misnamed_[extension.empty() ? "without an extension" : extension];
     }
   }
 
   std::filesystem::path folder_;
   std::vector<std::string> names_;
-  std::array<std::map<std::string, size_t>, 2> unread_;  // Numbers of files by extension.
+  // Numbers of files by extension.
+  std::array<std::map<std::string, size_t>, 2> unread_;
+  std::map<std::string, size_t> misnamed_;
+  size_t in_cloud_ = 0;
 };
 
 // The images of a folder, or of all folders below it if it holds none itself. (A folder of
@@ -423,8 +482,9 @@ std::vector<std::string> NotesOf(const std::filesystem::path& folder,
 }  // namespace
 
 std::span<const char* const> ImageExtensions() {
-  static constexpr std::array kExtensions = {".png",  ".jpg",  ".jpeg", ".bmp", ".tif",  ".tiff",
-                                             ".webp", ".heic", ".heif", ".hif", ".avif", ".jxl"};
+  static constexpr std::array kExtensions = {".png",  ".jpg", ".jpeg", ".jpe",  ".jfif",
+                                             ".bmp",  ".tif", ".tiff", ".webp", ".heic",
+                                             ".heif", ".hif", ".avif", ".jxl"};
   return kExtensions;
 }
 
@@ -433,6 +493,15 @@ Result<std::unique_ptr<FrameSource>> OpenImageFolder(const std::filesystem::path
   std::vector<ImageTraits> traits(listing.names.size());
   ParallelFor(traits.size(), [&](size_t i) { traits[i] = TraitsOf(folder / listing.names[i]); });
   std::optional<FolderLayout> layout = LayOut(traits);
+  const auto spheres = std::count_if(traits.begin(), traits.end(), [](const ImageTraits& image) {
+    return image.shows_all_directions;
+  });
+  if (spheres > 0) {
+    listing.notes.push_back(
+        folder.string() + ": " + std::to_string(spheres) +
+        " pictures of all directions (360 degrees) are taken for those of an ordinary lens: cut "
+        "ordinary views out of them");
+  }
   if (!layout) {
     // Says what is wrong with one of them.
     LARARIUM_RETURN_IF_ERROR(

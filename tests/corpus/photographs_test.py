@@ -83,6 +83,31 @@ class Folders(Photographs):
         for text in ("IMG_1.JPG", "IMG_13.tif", "(.cr2)", "(.gif)"):
             self.assertIn(text, told)
 
+    def test_names_of_other_programs(self):
+        """Browsers name a JPEG .jfif; clouds leave placeholders; 360 degree cameras say what they made."""
+        images = self.photographs()
+        for image, ending in zip(images, (".jfif", ".JFIF", ".jpe")):
+            image.rename(image.with_suffix(ending))
+        images[3].rename(images[3].with_suffix(""))
+        shutil.copy(images[4], images[4].with_suffix(".jpg_original"))
+        (images[0].parent / ".IMG_31.HEIC.icloud").write_bytes(b"bplist00")
+        (images[0].parent / "notes.txt").write_text("not a picture at all")
+        report = self.train()
+        self.assertEqual(report["frames"], PHOTOGRAPHS - 1)
+        told = "\n".join(report["warnings"])
+        self.assertEqual(len(report["warnings"]), 2, told)
+        self.assertIn("2 files that begin as pictures do (.jpg_original, without an extension) are left out", told)
+        self.assertIn("1 pictures are still in the cloud (.icloud)", told)
+
+    def test_pictures_of_all_directions_are_told(self):
+        images = self.photographs()
+        xmp = (b"http://ns.adobe.com/xap/1.0/\0<x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:Description "
+               b"GPano:ProjectionType='equirectangular'/></x:xmpmeta>")
+        for image in images[:2]:
+            jpeg = image.read_bytes()
+            image.write_bytes(jpeg[:2] + b"\xff\xe1" + struct.pack(">H", len(xmp) + 2) + xmp + jpeg[2:])
+        self.assertIn("2 pictures of all directions (360 degrees)", "\n".join(self.train()["warnings"]))
+
     def test_nested_folders(self):
         for i, image in enumerate(self.photographs()):
             camera = self.folder / "img" / f"cam{i % 2}"
