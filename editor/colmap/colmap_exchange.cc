@@ -16,6 +16,7 @@
 #include "shared/capture/exif.h"
 #include "shared/capture/frame_source.h"
 #include "shared/core/file.h"
+#include "shared/core/lower_case.h"
 #include "shared/core/parallel.h"
 #include "shared/core/srgb.h"
 #include "shared/geometry/resampling.h"
@@ -145,6 +146,7 @@ Status WriteImage(const fs::path& file, const cv::Mat& grey) {
 // An image of the model that is being imported.
 struct Import {
   const ColmapImage* image = nullptr;
+  std::string file;  // Relative to the image folder.
   int64_t frame_index = -1;
   const CameraModel* own_camera = nullptr;  // Set if the image must be resampled.
 };
@@ -174,10 +176,6 @@ cv::Mat Resample(const cv::Mat& image, const CameraModel& from, const CameraMode
 }
 
 Result<cv::Mat> ReadImage(const fs::path& file, const ColmapCamera& camera) {
-  if (!FileExists(file)) {
-    return Status::Error(file.string(), "does not exist",
-                         "name the folder of the model's images with --images");
-  }
   LARARIUM_ASSIGN_OR_RETURN(cv::Mat bgr, image::ReadImage(file, image::Channels::kBgr));
   const auto size = [](auto width, auto height) {
     return std::to_string(width) + "x" + std::to_string(height);
@@ -236,6 +234,65 @@ class FeatureGrid {
   const vision::Features& features_;
   double radius_;
   std::vector<std::pair<CellIndex, uint32_t>> order_;
+};
+
+// Finds the files that a model's images are named after: in a folder that was moved, on a system
+// that distinguishes capital letters, or converted to another format.
+class ImageFiles {
+ public:
+  explicit ImageFiles(const fs::path& folder) : folder_(folder) {
+    if (const auto source = capture::OpenImageFolder(folder); source.ok()) {
+      const int64_t count = (*source)->frame_count().value_or(0);
+      for (int64_t i = 0; i < count; ++i) {
+        const std::string name = (*source)->FrameName(i);
+        indices_[name] = i;
+        for (const std::string& key : {LowerCase(name), WithoutExtension(LowerCase(name))}) {
+          alike_.emplace(key, name);
+        }
+      }
+    }
+  }
+
+  // Returns the path of an image relative to the folder, and whether it is the name; nullopt if
+  // there is no such file, or if several are alike.
+  std::optional<std::pair<std::string, bool>> Find(const std::string& name) const {
+    std::string path = name;
+    std::replace(path.begin(), path.end(), '\\', '/');
+    const bool leads_out = path.starts_with('/') || path.substr(1).starts_with(":/") ||
+                           ("/" + path).find("/../") != std::string::npos;
+    for (; !path.empty(); path = path.substr(std::min(path.find('/'), path.size() - 1) + 1)) {
+      if (!leads_out && FileExists(folder_ / path)) {
+        return std::pair(path, path == name);
+      }
+      if (indices_.contains(path)) {
+        return std::pair(path, path == name);
+      }
+      for (const std::string& key : {LowerCase(path), WithoutExtension(LowerCase(path))}) {
+        if (alike_.count(key) == 1) {
+          return std::pair(alike_.find(key)->second, false);
+        }
+      }
+      if (!leads_out) {
+        break;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // The frame index when the folder is opened; -1 if it is not found then.
+  int64_t IndexOf(const std::string& file) const {
+    const auto known = indices_.find(file);
+    return known != indices_.end() ? known->second : -1;
+  }
+
+ private:
+  static std::string WithoutExtension(std::string name) {
+    return name.substr(0, name.size() - fs::path(name).extension().string().size());
+  }
+
+  const fs::path& folder_;
+  std::map<std::string, int64_t> indices_;
+  std::multimap<std::string, std::string> alike_;
 };
 
 class Importer {
@@ -297,44 +354,47 @@ class Importer {
   }
 
   Status OrderImages() {
-    std::map<std::string, int64_t> index_of_name;
-    if (const auto source = capture::OpenImageFolder(folder_); source.ok()) {
-      const int64_t count = (*source)->frame_count().value_or(0);
-      for (int64_t i = 0; i < count; ++i) {
-        index_of_name[(*source)->FrameName(i)] = i;
-      }
-    }
+    const ImageFiles files(folder_);
     bool all_known = true;
     size_t turned = 0;
+    size_t renamed = 0;
+    std::string example;
     for (const ColmapImage& image : model_.images) {
-      const fs::path path(image.name);
-      if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end()) {
-        return Status::Error(kImport,
-                             "the image name \"" + image.name + "\" leads out of the image folder",
-                             "write the model again with relative names");
+      const auto found = files.Find(image.name);
+      if (!found) {
+        LeaveOut(Status::Error((folder_ / image.name).string(), "does not exist",
+                               "name the folder of the model's images with --images"));
+        continue;
       }
-      Import import{.image = &image};
+      if (!found->second && renamed++ == 0) {
+        example = "\"" + image.name + "\" for " + found->first;
+      }
+      Import import{.image = &image, .file = found->first};
       const CameraModel& own = cameras_.at(image.camera);
       if (!ProjectAlike(own, camera_)) {
         import.own_camera = &own;
       }
-      const auto known = index_of_name.find(image.name);
-      all_known = all_known && known != index_of_name.end();
-      import.frame_index = known != index_of_name.end() ? known->second : -1;
-      const Result<MappedFile> file = MappedFile::Open(folder_ / path);
+      import.frame_index = files.IndexOf(import.file);
+      all_known = all_known && import.frame_index >= 0;
+      const Result<MappedFile> file = MappedFile::Open(folder_ / import.file);
       turned += file.ok() && !capture::FindOrientation(file->bytes()).upright() ? 1 : 0;
       imports_.push_back(import);
     }
+    LARARIUM_RETURN_IF_ERROR(RequireImages());
     std::sort(imports_.begin(), imports_.end(), [&](const Import& a, const Import& b) {
-      return all_known ? a.frame_index < b.frame_index : a.image->name < b.image->name;
+      return all_known ? a.frame_index < b.frame_index : a.file < b.file;
     });
     for (size_t i = 0; i < imports_.size(); ++i) {
-      if (i > 0 && imports_[i].image->name == imports_[i - 1].image->name) {
-        return Status::Error(
-            kImport, "two images of the model are named \"" + imports_[i].image->name + "\"",
-            "write the model again with COLMAP");
+      if (i > 0 && imports_[i].file == imports_[i - 1].file) {
+        return Status::Error(kImport,
+                             "two images of the model are named \"" + imports_[i].file + "\"",
+                             "write the model again with COLMAP");
       }
       imports_[i].frame_index = all_known ? imports_[i].frame_index : static_cast<int64_t>(i);
+    }
+    if (renamed > 0) {
+      warnings_.push_back(std::to_string(renamed) + " of " + std::to_string(imports_.size()) +
+                          " images have other names in the model, such as " + example);
     }
     if (turned > 0) {
       log_.warn(
@@ -372,20 +432,37 @@ class Importer {
       ParallelFor(std::min(kBatch, imports_.size() - begin), [&](size_t offset) {
         problems[begin + offset] = ReadOne(imports_[begin + offset], images_[begin + offset]);
       });
-      for (size_t i = begin; i < std::min(begin + kBatch, imports_.size()); ++i) {
-        LARARIUM_RETURN_IF_ERROR(problems[i]);
+    }
+    for (size_t i = imports_.size(); i-- > 0;) {
+      if (!problems[i].ok()) {
+        LeaveOut(std::move(problems[i]));
+        imports_.erase(imports_.begin() + static_cast<std::ptrdiff_t>(i));
+        images_.erase(images_.begin() + static_cast<std::ptrdiff_t>(i));
       }
+    }
+    LARARIUM_RETURN_IF_ERROR(RequireImages());
+    for (const Status& problem : left_out_) {
+      warnings_.push_back(problem.message() + " (the image is left out)");
     }
     return Status();
   }
 
+  // One image that cannot be read costs that image.
+  void LeaveOut(Status problem) { left_out_.push_back(std::move(problem)); }
+
+  // Fails if most of the images were left out.
+  Status RequireImages() const {
+    const bool enough = imports_.size() >= 2 && left_out_.size() <= imports_.size();
+    return enough ? Status() : left_out_.front();
+  }
+
   Status ReadOne(const Import& import, TrainingImage& image) const {
-    const fs::path file = folder_ / import.image->name;
+    const fs::path file = folder_ / import.file;
     const auto camera =
         std::find_if(model_.cameras.begin(), model_.cameras.end(),
                      [&](const ColmapCamera& c) { return c.id == import.image->camera; });
     image.frame_index = import.frame_index;
-    image.name = import.image->name;
+    image.name = import.file;
     LARARIUM_ASSIGN_OR_RETURN(image.bgr, ReadImage(file, *camera));
     if (import.own_camera != nullptr) {
       image.bgr = Resample(image.bgr, *import.own_camera, camera_);
@@ -554,6 +631,7 @@ class Importer {
   std::map<uint32_t, CameraModel> cameras_;  // Key: camera id.
   std::vector<Import> imports_;
   std::vector<TrainingImage> images_;  // Parallel to imports_.
+  std::vector<Status> left_out_;       // Why images of the model are not imported.
 };
 
 }  // namespace

@@ -81,6 +81,35 @@ class Colmap(Case):
             self.assertIn(told, said)
             self.assertGreater(counts[1], 60)
 
+    def test_names_of_another_machine_find_their_files(self):
+        scene = self.scene
+        for i, rename in enumerate((str.upper, lambda name: name.replace(".jpg", ".png"),
+                                    lambda name: "C:\\Users\\me\\photos\\" + name, lambda name: "/home/me/photos/" + name)):
+            images = [(a.rsplit(" ", 1)[0] + " " + rename(name), b) for (a, b), name in zip(scene.images, scene.names)]
+            write_model(self.folder / f"m{i}", scene.cameras, images, scene.points)
+            said, counts = self.imported(f"m{i}")
+            self.assertEqual(counts[0], len(scene.images), said)
+            self.assertRegex(said, r"warning: 6 of 6 images have other names in the model, such as \S+ for frame00.jpg")
+        scene.write_images(self.folder / "sub", ["cam/" + name for name in scene.names])
+        images = [(a.rsplit(" ", 1)[0] + " cam\\" + name, b) for (a, b), name in zip(scene.images, scene.names)]
+        write_model(self.folder / "back", scene.cameras, images, scene.points)
+        self.assertEqual(self.imported("back", images="sub")[1][0], len(scene.images))
+
+    def test_an_image_that_is_missing_or_damaged_costs_that_image(self):
+        scene = self.scene
+        write_model(self.folder / "m", scene.cameras, scene.images, scene.points)
+        (self.folder / "images" / scene.names[2]).unlink()
+        file = self.folder / "images" / scene.names[4]
+        file.write_bytes(file.read_bytes()[:5000])
+        said, counts = self.imported("m")
+        self.assertEqual(counts[0], len(scene.images) - 2, said)
+        self.assertIn(f"{scene.names[2]}: does not exist", said)
+        self.assertIn(f"{scene.names[4]}: the image is damaged", said)
+        for name in scene.names[:2]:
+            (self.folder / "images" / name).unlink()
+        said, _ = self.imported("m", code=1)
+        self.assertIn("does not exist; name the folder of the model's images", said)
+
     def test_images_in_subfolders_and_names_with_blanks(self):
         scene = self.scene
         names = [f"cam{i % 2}/A walk (part {i}) #1.jpg" for i in range(len(scene.names))]
