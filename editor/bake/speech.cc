@@ -1,5 +1,6 @@
 #include "editor/bake/speech.h"
 
+#include "editor/bake/recording.h"
 #include "editor/bake/speech_aligner.h"
 #include "editor/bake/speech_features.h"
 #include "editor/bake/speech_sound.h"
@@ -36,7 +37,7 @@ bool IsEnglish(const std::string& language) {
 
 Result<human::VisemeTrack> AlignRecording(const SpeechSource& source,
                                           std::vector<std::string>& warnings) {
-  LARARIUM_ASSIGN_OR_RETURN(const Sound recording, ReadSound(source.recording));
+  LARARIUM_ASSIGN_OR_RETURN(const Sound recording, ReadRecording(source.recording, warnings));
   LARARIUM_ASSIGN_OR_RETURN(const SpokenText reference,
                             Synthesize(source.text, source.language, source.voice));
   WordTimes words;

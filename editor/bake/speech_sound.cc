@@ -3,12 +3,18 @@
 #include <sndfile.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "editor/bake/libav_sound.h"
+#include "editor/bake/recording.h"
 #include "shared/core/file.h"
 
 namespace lararium::bake {
@@ -93,9 +99,73 @@ Result<std::optional<DecodedSound>> ReadWithSndfile(std::span<const std::byte> b
   return std::optional(std::move(sound));
 }
 
+double Power(std::span<const float> samples) {
+  return std::transform_reduce(samples.begin(), samples.end(), 0.0, std::plus<>(),
+                               [](float x) { return static_cast<double>(x) * x; });
+}
+
+// Averages the channels. That weakens a voice which is on one of several channels (a microphone on
+// the left, a field recorder), and removes one whose channels have opposite signs (a cable with
+// swapped wires): the loudest channel is taken instead.
+void MixDown(const DecodedSound& decoded,
+             const std::string& where,
+             Sound& sound,
+             std::vector<std::string>& notes) {
+  // Shares of the loudest channel's power. The mean of two unrelated channels has 0.5.
+  constexpr double kWeak = 0.4;
+  constexpr double kSilent = 0.001;
+  const auto count = static_cast<size_t>(decoded.channels);
+  std::vector<std::vector<float>> channels(count);
+  for (size_t i = 0; i + count <= decoded.samples.size(); i += count) {
+    double sum = 0.0;
+    for (size_t c = 0; c < count; ++c) {
+      const float value = decoded.samples[i + c];
+      channels[c].push_back(std::isfinite(value) ? value : 0.0f);
+      sum += channels[c].back();
+    }
+    sound.samples.push_back(static_cast<float>(sum / static_cast<double>(count)));
+  }
+  std::vector<double> powers;
+  for (const std::vector<float>& channel : channels) {
+    powers.push_back(Power(channel));
+  }
+  const auto loudest = std::max_element(powers.begin(), powers.end());
+  if (Power(sound.samples) >= kWeak * *loudest) {
+    return;
+  }
+  const auto index = static_cast<size_t>(loudest - powers.begin());
+  sound.samples = std::move(channels[index]);
+  if (std::count_if(powers.begin(), powers.end(),
+                    [&](double power) { return power > kSilent * *loudest; }) > 1) {
+    notes.push_back(where + ": its " + std::to_string(count) +
+                    " channels weaken each other when they are mixed; channel " +
+                    std::to_string(index + 1) + ", the loudest, is used alone");
+  }
+}
+
+// Decoders of compressed sounds overshoot a little, which is not worth a note.
+void LimitPeak(const std::string& where, Sound& sound, std::vector<std::string>& notes) {
+  constexpr double kOvershootDb = 1.0;
+  float peak = 1.0f;
+  for (const float sample : sound.samples) {
+    peak = std::max(peak, std::abs(sample));
+  }
+  for (float& sample : sound.samples) {
+    sample /= peak;
+  }
+  if (const double db = 20.0 * std::log10(static_cast<double>(peak)); db > kOvershootDb) {
+    std::array<char, 96> text = {};
+    std::snprintf(text.data(), text.size(),
+                  ": is %.0f dB louder than full scale; it was turned down by that", db);
+    notes.push_back(where + text.data());
+  }
+}
+
 }  // namespace
 
-Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where) {
+Result<Sound> ReadRecording(std::span<const std::byte> bytes,
+                            const std::string& where,
+                            std::vector<std::string>& notes) {
   LARARIUM_ASSIGN_OR_RETURN(std::optional<DecodedSound> decoded, ReadWithSndfile(bytes, where));
   if (!decoded || decoded->samples.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(decoded, DecodeWithLibav(bytes, where, kMaxSeconds));
@@ -107,23 +177,25 @@ Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& whe
       decoded->channels > kMaxChannels) {
     return Status::Error(where, "must have 8 to 192 thousand samples a second and 1 to 8 channels");
   }
-  Sound sound;
-  sound.rate = decoded->rate;
-  const auto channels = static_cast<size_t>(decoded->channels);
-  for (size_t i = 0; i + channels <= decoded->samples.size(); i += channels) {
-    float sum = 0.0f;
-    for (size_t c = 0; c < channels; ++c) {
-      sum += decoded->samples[i + c];
-    }
-    const float mean = sum / static_cast<float>(channels);
-    sound.samples.push_back(std::isfinite(mean) ? std::clamp(mean, -1.0f, 1.0f) : 0.0f);
-  }
+  Sound sound{decoded->rate, {}};
+  MixDown(*decoded, where, sound, notes);
+  LimitPeak(where, sound, notes);
   return sound;
 }
 
-Result<Sound> ReadSound(const std::filesystem::path& file) {
+Result<Sound> ReadRecording(const std::filesystem::path& file, std::vector<std::string>& notes) {
   LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
-  return ReadSound(bytes, file.string());
+  return ReadRecording(bytes, file.string(), notes);
+}
+
+Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where) {
+  std::vector<std::string> ignored;
+  return ReadRecording(bytes, where, ignored);
+}
+
+Result<Sound> ReadSound(const std::filesystem::path& file) {
+  std::vector<std::string> ignored;
+  return ReadRecording(file, ignored);
 }
 
 Result<std::vector<std::byte>> WriteFlac(const Sound& sound) {

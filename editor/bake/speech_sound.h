@@ -19,7 +19,8 @@ struct Sound {
 };
 
 // Reads WAV, FLAC, Ogg (Vorbis, Opus) and the other formats of libsndfile, then those of libav
-// (M4A, MP4, WMA); averages the channels. Accepts at most ten minutes at 8 to 192 kHz.
+// (M4A, MP4, WMA). Gives one channel of at most full scale; ReadRecording() says how. Accepts at
+// most ten minutes at 8 to 192 kHz.
 Result<Sound> ReadSound(const std::filesystem::path& file);
 Result<Sound> ReadSound(std::span<const std::byte> bytes, const std::string& where);
 

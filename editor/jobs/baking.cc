@@ -473,8 +473,9 @@ void AddSpeechSteps(const SpokenLine& spoken, std::vector<BakeStep>& steps) {
     sources.push_back(source.recording);
   }
   const std::string settings =
-      Json::array({"speech 1", source.text, source.language, source.voice.variant,
-                   source.voice.pitch, source.voice.range, source.voice.rate})
+      Json::array({source.recording.empty() ? "speech 1" : "recording 2", source.text,
+                   source.language, source.voice.variant, source.voice.pitch, source.voice.range,
+                   source.voice.rate})
           .dump();
   steps.push_back({"voice of " + name, spoken.sound, sources, settings,
                    [source](std::vector<std::string>&) { return bake::BakeSound(source); }});

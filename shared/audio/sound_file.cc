@@ -50,7 +50,24 @@ bool LooksLikeSound(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                               std::min<size_t>(bytes.size(), 12));
   return text.starts_with("fLaC") || text.starts_with("OggS") ||
-         (text.size() == 12 && text.starts_with("RIFF") && text.substr(8) == "WAVE");
+         (text.size() == 12 && (text.starts_with("RIFF") || text.starts_with("RF64")) &&
+          text.substr(8) == "WAVE");
+}
+
+bool IsFloat(int format) {
+  const int coding = format & SF_FORMAT_SUBMASK;
+  return coding == SF_FORMAT_FLOAT || coding == SF_FORMAT_DOUBLE;
+}
+
+// Files of floats may be louder than full scale, which would be clipped. The factor turns them
+// down.
+float GainOf(SNDFILE* sound, int format) {
+  double peak = 0.0;
+  if (!IsFloat(format) ||
+      sf_command(sound, SFC_CALC_SIGNAL_MAX, &peak, static_cast<int>(sizeof(peak))) != 0) {
+    return 1.0f;
+  }
+  return std::isfinite(peak) ? static_cast<float>(1.0 / std::max(peak, 1.0)) : 1.0f;
 }
 
 bool IsKnownFormat(int format) {
@@ -59,10 +76,11 @@ bool IsKnownFormat(int format) {
   switch (kind) {
     case SF_FORMAT_WAV:
     case SF_FORMAT_WAVEX:
+    case SF_FORMAT_RF64:
     case SF_FORMAT_FLAC:
       return coding == SF_FORMAT_PCM_S8 || coding == SF_FORMAT_PCM_U8 ||
              coding == SF_FORMAT_PCM_16 || coding == SF_FORMAT_PCM_24 ||
-             coding == SF_FORMAT_PCM_32 || coding == SF_FORMAT_FLOAT;
+             coding == SF_FORMAT_PCM_32 || IsFloat(format);
     case SF_FORMAT_OGG:
       return coding == SF_FORMAT_VORBIS || coding == SF_FORMAT_OPUS;
     default:
@@ -82,6 +100,7 @@ int16_t ToSample(float value) {
 struct SoundReader::File {
   MemoryFile memory;
   SNDFILE* sound = nullptr;
+  float gain = 1.0f;
 
   ~File() {
     if (sound != nullptr) {
@@ -128,6 +147,7 @@ Result<SoundReader> SoundReader::Open(std::span<const std::byte> bytes, const st
   if (info.seekable == 0) {
     return Status::Error(where, "is damaged: it cannot be played from the middle");
   }
+  file->gain = GainOf(file->sound, info.format);
   SoundReader reader(std::move(file));
   reader.rate_ = info.samplerate;
   reader.channels_ = info.channels;
@@ -152,7 +172,8 @@ size_t SoundReader::Read(std::span<int16_t> samples) {
     }
     const size_t count = static_cast<size_t>(read) * channels;
     std::transform(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(count),
-                   samples.begin() + static_cast<std::ptrdiff_t>(done), ToSample);
+                   samples.begin() + static_cast<std::ptrdiff_t>(done),
+                   [gain = file_->gain](float value) { return ToSample(gain * value); });
     done += count;
   }
   return done / channels;

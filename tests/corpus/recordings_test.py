@@ -1,5 +1,7 @@
 """Recordings of lines as recorders and phones name and store them."""
+import array
 import json
+import math
 import shutil
 import subprocess
 import unittest
@@ -37,6 +39,33 @@ class Recordings(SpeakingCase):
             said, rate = self.baked((source, name))
             self.assertEqual(rate, self.RATE, (name, said))
             self.assertNotIn("warning", said)
+
+    def level(self, file):
+        """Root mean square and peak of a sound, and how many of its samples lie at full scale."""
+        samples = array.array("f")
+        samples.frombytes(subprocess.run(["ffmpeg", "-v", "error", "-i", file, "-ac", "1", "-f", "f32le", "-"], check=True,
+                                         cwd=self.folder, stdout=subprocess.PIPE).stdout)
+        peak = max(abs(x) for x in samples)
+        return math.sqrt(sum(x * x for x in samples) / len(samples)), peak, sum(1 for x in samples if abs(x) > 0.9995)
+
+    def test_a_voice_on_one_of_several_channels_keeps_its_level(self):
+        plain, _, _ = self.level("s.wav")
+        for name, layout, told in (("left", "stereo|c0=c0|c1=0*c0", False), ("centre", "5.1|FC=c0", False),
+                                   ("lapel", "stereo|c0=0.1*c0|c1=c0", True), ("swapped", "stereo|c0=c0|c1=-1*c0", True)):
+            self.ffmpeg("-i", "s.wav", "-af", "pan=" + layout, name + ".wav")
+            said, rate = self.baked((name + ".wav", "hail.wav"))
+            self.assertEqual(rate, self.RATE, said)
+            self.assertAlmostEqual(self.level(self.project / "speech/la/hail.flac")[0], plain, delta=0.02 * plain, msg=name)
+            self.assertEqual("channels weaken each other" in said, told, said)
+
+    def test_a_recording_in_floats_above_full_scale_is_not_clipped(self):
+        _, peak, _ = self.level("s.wav")
+        self.ffmpeg("-i", "s.wav", "-af", f"volume={4 / peak}", "-c:a", "pcm_f32le", "loud.wav")
+        said, _ = self.baked(("loud.wav", "hail.wav"))
+        self.assertIn("hail.wav: is 12 dB louder than full scale; it was turned down by that", said)
+        _, peak, full = self.level(self.project / "speech/la/hail.flac")
+        self.assertGreater(peak, 0.99)
+        self.assertLess(full, 4)
 
     def test_opus_is_used(self):
         self.ffmpeg("-i", "s.wav", "s.opus")
