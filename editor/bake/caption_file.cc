@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "editor/text/foreign_text.h"
@@ -166,17 +168,21 @@ bool TakeEntity(std::string_view& row, std::string& plain) {
 size_t TagLength(std::string_view row) {
   const bool style = row.starts_with("{\\");
   const bool tag = row.size() > 1 && row.front() == '<' && row[1] != ' ' && row[1] != '<' &&
-                   row[1] != '-' && row[1] != '3';
+                   row[1] != '-' && (row[1] != '3' || (row.size() > 2 && IsDigit(row[2])));
   const size_t end = style ? row.find('}') : tag ? row.find('>') : std::string_view::npos;
   return end == std::string_view::npos ? 0 : end + 1;
 }
 
-// Removes tags and decodes entities.
+// Removes tags and decodes entities, and the line breaks and blanks of SubStation Alpha ("\N" and
+// "\h"), which programs leave in other formats.
 std::string PlainRow(std::string_view row) {
   std::string plain;
   while (!row.empty()) {
     if (const size_t tag = TagLength(row)) {
       row.remove_prefix(tag);
+    } else if (row.starts_with("\\N") || row.starts_with("\\h")) {
+      plain += row[1] == 'N' ? '\n' : ' ';
+      row.remove_prefix(2);
     } else if (!TakeEntity(row, plain)) {
       plain += row.front();
       row.remove_prefix(1);
@@ -406,6 +412,37 @@ class CaptionReader {
   size_t unsaid_ = 0;  // Number of notes beyond kMaxNotes.
 };
 
+// ---- Captions as they are shown ----
+
+// Overlaps that are not longer come from rounding and from fades, and are no captions to be read
+// together.
+constexpr double kShortOverlap = 0.5;  // seconds
+
+std::string OneRow(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+// At most two rows: the first caption, and all others behind it.
+std::string TextTogether(std::span<const FileCue* const> cues) {
+  if (cues.size() > 1) {
+    std::string text = OneRow(cues[0]->text);
+    for (size_t i = 1; i < cues.size(); ++i) {
+      text += (i == 1 ? "\n" : " ") + OneRow(cues[i]->text);
+    }
+    return text;
+  }
+  std::string text = cues[0]->text;
+  if (std::count(text.begin(), text.end(), '\n') > 1) {
+    text = OneRow(std::move(text));
+    const size_t middle = text.find(' ', text.size() / 2);
+    if (middle != std::string::npos) {
+      text[middle] = '\n';
+    }
+  }
+  return text;
+}
+
 std::string FormatTime(double seconds, char point) {
   const auto all = static_cast<int64_t>(std::llround(std::max(seconds, 0.0) * 1000.0));
   char text[40];
@@ -444,28 +481,46 @@ Result<CaptionFile> ParseCaptionFile(std::string_view text, const std::string& w
 std::vector<stage::CaptionCue> ShownCues(std::vector<FileCue> cues) {
   std::stable_sort(cues.begin(), cues.end(),
                    [](const FileCue& a, const FileCue& b) { return a.begin < b.begin; });
-  std::vector<stage::CaptionCue> shown;
+  std::vector<FileCue> merged;  // No two of these begin together.
   for (FileCue& cue : cues) {
-    if (std::count(cue.text.begin(), cue.text.end(), '\n') > 1) {
-      std::replace(cue.text.begin(), cue.text.end(), '\n', ' ');
-      const size_t middle = cue.text.find(' ', cue.text.size() / 2);
-      if (middle != std::string::npos) {
-        cue.text[middle] = '\n';
-      }
-    }
-    if (!shown.empty() && cue.begin <= shown.back().begin) {
-      // Captions that begin together are shown together.
-      shown.back().end = std::max(shown.back().end, cue.end);
-      std::replace(shown.back().text.begin(), shown.back().text.end(), '\n', ' ');
-      std::replace(cue.text.begin(), cue.text.end(), '\n', ' ');
-      shown.back().text += "\n" + cue.text;
+    if (merged.empty() || cue.begin > merged.back().begin) {
+      merged.push_back(std::move(cue));
       continue;
     }
-    if (!shown.empty()) {
-      shown.back().end = std::min(shown.back().end, cue.begin);
-    }
-    shown.push_back({cue.begin, cue.end, std::move(cue.text)});
+    merged.back().end = std::max(merged.back().end, cue.end);
+    merged.back().text = OneRow(std::move(merged.back().text)) + "\n" + OneRow(std::move(cue.text));
   }
+  for (size_t i = 0; i + 1 < merged.size(); ++i) {
+    const FileCue& next = merged[i + 1];
+    if (next.end > merged[i].end && merged[i].end - next.begin <= kShortOverlap) {
+      merged[i].end = std::min(merged[i].end, next.begin);
+    }
+  }
+  std::vector<stage::CaptionCue> shown;
+  std::vector<const FileCue*> present;
+  const auto show_until = [&](double end) {
+    while (!present.empty()) {
+      const double begin = shown.empty() ? present.front()->begin
+                                         : std::max(present.back()->begin, shown.back().end);
+      double until = end;
+      for (const FileCue* cue : present) {
+        until = std::min(until, cue->end);
+      }
+      if (until > begin) {
+        shown.push_back({begin, until, TextTogether(present)});
+      }
+      if (until >= end) {
+        break;
+      }
+      std::erase_if(present, [until](const FileCue* cue) { return cue->end <= until; });
+    }
+  };
+  for (const FileCue& cue : merged) {
+    show_until(cue.begin);
+    std::erase_if(present, [&cue](const FileCue* other) { return other->end <= cue.begin; });
+    present.push_back(&cue);
+  }
+  show_until(std::numeric_limits<double>::infinity());
   return shown;
 }
 

@@ -33,8 +33,8 @@ struct CaptionFile {
 // any that can be read is an error. Errors name the text as `where`, and the line.
 Result<CaptionFile> ParseCaptionFile(std::string_view text, const std::string& where);
 
-// The captions as a show has them: in order of time, at most two rows each. A caption that lasts
-// into the next one ends there.
+// The captions as a show has them: in order of time, without overlap, at most two rows each.
+// Captions that the file shows at the same time share the rows.
 std::vector<stage::CaptionCue> ShownCues(std::vector<FileCue> cues);
 
 std::string FormatSrt(const std::vector<FileCue>& cues);  // Numbers the cues from 1.

@@ -1,6 +1,7 @@
 #include "editor/bake/caption_font.h"
 
 #include <ft2build.h>
+#include <unicode/uchar.h>
 
 #include "shared/core/utf8.h"
 #include "shared/image/encode.h"
@@ -165,7 +166,10 @@ std::filesystem::path CaptionFontFile() {
 void AddCharacters(std::string_view text, std::set<uint32_t>& characters) {
   for (size_t at = 0; at < text.size();) {
     const uint32_t character = NextCharacter(text, at);
-    if (character >= 0x20) {
+    // Marks of direction, joiners and the like have no picture.
+    const bool seen = u_hasBinaryProperty(static_cast<UChar32>(character),
+                                          UCHAR_DEFAULT_IGNORABLE_CODE_POINT) == 0;
+    if (character >= 0x20 && seen) {
       characters.insert(character);
     }
   }

@@ -73,7 +73,7 @@ std::map<std::string, std::vector<bake::FileCue>> CuesByLine(std::vector<bake::F
       warnings.push_back(text + cue.text + "'");
     } else if (first[line->line] == line->begin) {
       std::vector<bake::FileCue>& own = lines[line->line];
-      const double begin = std::max(cue.begin - line->begin, own.empty() ? 0.0 : own.back().end);
+      const double begin = std::max(cue.begin - line->begin, 0.0);
       own.push_back({"", begin, std::max(cue.end - line->begin, begin + 0.001), cue.text});
     }
   }

@@ -8,6 +8,7 @@
 
 #include "editor/bake/caption_layout.h"
 #include "editor/document/check_sentences.h"
+#include "editor/jobs/caption_glyphs.h"
 #include "editor/text/text.h"
 #include "shared/core/file.h"
 #include "shared/drama/lua_tokens.h"
@@ -315,7 +316,10 @@ std::vector<Sentence> CheckTable(const ProjectPaths& paths,
     }
   }
   if (!lines.captions.empty()) {
-    if (const auto font = MakeCaptionFont(lines, {}, problems); !font.ok()) {
+    const auto spoken = SpokenLines(paths, document, lines);
+    const auto font = spoken.ok() ? MakeCaptionFont(lines, *spoken, {}, problems)
+                                  : Result<render::CaptionFont>(spoken.status());
+    if (!font.ok()) {
       problems.push_back(font.message());
     }
   }

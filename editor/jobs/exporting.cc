@@ -6,6 +6,7 @@
 #include "editor/bake/caption_font.h"
 #include "editor/export/export.h"
 #include "editor/jobs/baking.h"
+#include "editor/jobs/caption_glyphs.h"
 #include "editor/jobs/credits.h"
 #include "editor/jobs/lines.h"
 #include "editor/jobs/paradata.h"
@@ -73,7 +74,7 @@ Status PackTexts(const ProjectPaths& paths,
   if (!lines.captions.empty() || !paradata.empty()) {
     std::vector<Sentence> ignored;  // The check of the project reports these.
     LARARIUM_ASSIGN_OR_RETURN(const render::CaptionFont font,
-                              MakeCaptionFont(lines, paradata, ignored));
+                              MakeCaptionFont(lines, spoken_lines, paradata, ignored));
     LARARIUM_ASSIGN_OR_RETURN(bake::CaptionFontFiles files, bake::FormatCaptionFont(font));
     content.caption_metrics = std::move(files.metrics);
     content.caption_atlas = std::move(files.atlas);

@@ -11,6 +11,7 @@
 #include "editor/bake/caption_layout.h"
 #include "editor/bake/line_folder.h"
 #include "editor/document/check_sentences.h"
+#include "editor/jobs/caption_glyphs.h"
 #include "shared/bundle/show_manifest.h"
 #include "shared/core/file.h"
 #include "shared/show/evidence.h"
@@ -246,6 +247,7 @@ Result<stage::CaptionBook> MakeDescriptions(std::span<const SpokenLine> spoken,
 }
 
 Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
+                                            std::span<const SpokenLine> spoken,
                                             const stage::Paradata& paradata,
                                             std::vector<Sentence>& warnings) {
   std::set<uint32_t> characters = bake::CommonCharacters();
@@ -254,6 +256,14 @@ Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
       const auto text = line.text.find(language);
       if (text != line.text.end()) {
         bake::AddCharacters(text->second, characters);
+      }
+    }
+  }
+  for (const SpokenLine& line : spoken) {
+    for (const auto& [language, file] : line.placed) {
+      LARARIUM_ASSIGN_OR_RETURN(const bake::CaptionFile captions, LoadPlacedCaptions(file));
+      for (const bake::FileCue& cue : captions.cues) {
+        bake::AddCharacters(cue.text, characters);
       }
     }
   }
@@ -317,7 +327,7 @@ Status AddLines(const ProjectPaths& paths,
   if (!captions.empty() || !content.paradata.empty()) {
     std::vector<Sentence> ignored;
     LARARIUM_ASSIGN_OR_RETURN(content.caption_font,
-                              MakeCaptionFont(lines, content.paradata, ignored));
+                              MakeCaptionFont(lines, spoken, content.paradata, ignored));
   }
   for (show::CastMember& member : content.cast) {
     const auto names = book.names.find(member.name);

@@ -81,12 +81,6 @@ Result<stage::CaptionBook> MakeCaptions(const ProjectDocument& document,
 Result<stage::CaptionBook> MakeDescriptions(std::span<const SpokenLine> spoken,
                                             const std::string& language);
 
-// The glyphs of all captions and names. Adds a warning for characters that the font lacks.
-// paradata: its texts, which the evidence view shows, are included.
-Result<render::CaptionFont> MakeCaptionFont(const ProjectLines& lines,
-                                            const stage::Paradata& paradata,
-                                            std::vector<Sentence>& warnings);
-
 // Adds lines, glyphs and speakers' names to content, whose cast must be set. Fails where a line was
 // not baked, or where the project does not have a language.
 Status AddLines(const ProjectPaths& paths,

@@ -169,11 +169,27 @@ TEST(CaptionFile, OtherEncodingsAreRecognisedAndTold) {
 
 TEST(ShownCues, AreInOrderWithoutOverlapAndOfTwoRows) {
   const auto cues = ShownCues({{"", 3.0, 5.0, "b"},
-                               {"", 1.0, 4.0, "a\nlong caption\nof\nmany rows"},
+                               {"", 1.0, 3.5, "a\nlong caption\nof\nmany rows"},
                                {"", 3.0, 6.0, "with b"}});
   EXPECT_TRUE(stage::CheckCues(cues, "cues").ok());
   EXPECT_THAT(cues, ElementsAre(stage::CaptionCue{1.0, 3.0, "a long caption\nof many rows"},
                                 stage::CaptionCue{3.0, 6.0, "b\nwith b"}));
+}
+
+TEST(ShownCues, ThoseOfOneTimeShareTheRows) {
+  const auto cues = ShownCues({{"", 0.0, 6.0, "a\nsign"},
+                               {"", 1.0, 2.0, "b"},
+                               {"", 3.0, 8.0, "c\nc"},
+                               {"", 5.0, 5.5, "d"},
+                               {"", 9.0, 9.2, "e"}});
+  EXPECT_TRUE(stage::CheckCues(cues, "cues").ok());
+  EXPECT_THAT(
+      cues,
+      ElementsAre(
+          stage::CaptionCue{0.0, 1.0, "a\nsign"}, stage::CaptionCue{1.0, 2.0, "a sign\nb"},
+          stage::CaptionCue{2.0, 3.0, "a\nsign"}, stage::CaptionCue{3.0, 5.0, "a sign\nc c"},
+          stage::CaptionCue{5.0, 5.5, "a sign\nc c d"}, stage::CaptionCue{5.5, 6.0, "a sign\nc c"},
+          stage::CaptionCue{6.0, 8.0, "c\nc"}, stage::CaptionCue{9.0, 9.2, "e"}));
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ class Captions(SpeakingCase):
 
     def test_line_ends_marks_and_encodings(self):
         self.assert_taken(b"\xef\xbb\xbf" + self.srt.encode())
+        self.assert_taken(b"\xef\xbb\xbf" * 2 + self.srt.encode())
         self.assert_taken(self.srt.replace("\n", "\r\n"))
         self.assert_taken(self.srt.replace("\n", "\r"))
         self.assert_taken(self.srt.encode("utf-16"))
@@ -103,6 +104,32 @@ class Captions(SpeakingCase):
         self.assert_taken(b"\xef\xbb\xbf" + self.vtt.replace("\n", "\r\n").encode(), "vtt")
         said, _ = self.imported(self.vtt.replace("WEBVTT", "webvtt", 1), "vtt", code=1)
         self.assertIn("begins with WEBVTT in capital letters", said.strip().splitlines()[-1])
+
+    def test_breaks_of_other_formats_are_breaks(self):
+        first = TIMING.search(self.srt)[0]
+        _, texts = self.imported(f"1\n{first}\nPrima riga\\NSeconda\\hriga\n\n")
+        self.assertIn("Prima riga\nSeconda riga\n", texts)
+        times = first.replace(",", ".")
+        _, texts = self.imported(f"WEBVTT\n\n{times}\n<31:05.500>Ciao <31:06.000>bella <3\n\n", "vtt")
+        self.assertIn("\nCiao bella <3\n", texts)
+
+    def test_captions_at_the_same_time_keep_their_times(self):
+        first, second = "00:00:00,100 --> 00:00:03,000", "00:00:01,000 --> 00:00:02,000"
+        for one, other in ((first, first), (first, second)):
+            _, texts = self.imported(f"1\n{one}\n- Salve!\n\n2\n{other}\n{{\\an8}}- Vale!\n\n")
+            self.assertIn(f"{one}\n- Salve!\n", texts)
+            self.assertIn(f"{other}\n- Vale!\n", texts)
+
+    def test_letters_that_only_a_caption_file_has_are_drawn_or_told(self):
+        audio = self.project / "audio" / "la"
+        audio.mkdir(parents=True)
+        (audio / "hail.it.srt").write_text("1\n00:00:00,0 --> 00:00:02,0\n\u202b\u05e9\u05dc Ж\u200b\u202c\n",
+                                           encoding="utf-8")
+        said = self.editor("check", "p.lararium", "--seconds", "1", code=1)
+        for letter in ("05E9", "05DC"):
+            self.assertIn(f"captions: the font has no character U+{letter}", said)
+        for known in ("0416", "202B", "202C", "200B"):
+            self.assertNotIn("U+" + known, said)
 
     def test_captions_beside_a_recording_are_checked(self):
         audio = self.project / "audio" / "la"
