@@ -116,6 +116,23 @@ class Models(corpus.Case):
         (self.folder / name).write_bytes(head.encode() + b"".join(struct.pack("<3d", *p) for p in moved) +
                                          b"".join(struct.pack("<B3i", 3, *f) for f in faces))
 
+    def test_marks_before_a_text_and_points_without_faces(self):
+        self.new_project("q.lararium")
+        self.editor("place", "q.lararium", "--add", "room")
+        self.scan("plain.obj", (0.25, 0.5, 0.125))
+        text = (self.folder / "plain.obj").read_text()
+        (self.folder / "marked.obj").write_text("\ufeff" + text.replace("\n", "\r\n"), encoding="utf-8", newline="")
+        for name in ("plain", "marked"):
+            self.editor("occluder", "q.lararium", "--add", name, "--model", name + ".obj")
+        self.editor("bake", "q.lararium")
+        plain, marked = (next((self.folder / "q.lararium").glob(f"**/{name}.larmesh")) for name in ("plain", "marked"))
+        self.assertEqual(plain.read_bytes(), marked.read_bytes())
+        head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+        (self.folder / "cloud.ply").write_text(head + "0 0 0\n1 1 1\n")
+        self.editor("occluder", "q.lararium", "--add", "cloud", "--model", "cloud.ply")
+        said = self.editor("bake", "q.lararium", code=1)
+        self.assertIn("cloud.ply: holds points or lines, but no faces; make a mesh of its points", said)
+
     def test_a_scan_in_survey_coordinates_keeps_its_digits_and_comes_near(self):
         for kind in ("obj", "ply"):
             self.scan("near." + kind, (234.125, -321.875, 30))

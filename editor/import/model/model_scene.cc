@@ -16,6 +16,7 @@
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
 #include "shared/core/memory.h"
+#include "shared/core/plain_text.h"
 
 namespace lararium::import {
 namespace {
@@ -93,8 +94,18 @@ Status ReadWithAssimp(std::span<const std::byte> bytes, ModelScene& model) {
   } catch (...) {
     return CannotBeImported(model.file, "its reader gave up");
   }
-  return model.scene != nullptr ? Status()
-                                : CannotBeImported(model.file, model.importer.GetErrorString());
+  if (model.scene != nullptr) {
+    return Status();
+  }
+  const std::string_view why = model.importer.GetErrorString();
+  for (const std::string_view bare : {"contains no faces", "No meshes remaining"}) {
+    if (why.find(bare) != why.npos) {
+      return Status::Error(model.place(), "holds points or lines, but no faces",
+                           "make a mesh of its points first, as photogrammetry programs and "
+                           "CloudCompare do");
+    }
+  }
+  return CannotBeImported(model.file, std::string(why));
 }
 
 // The keys on either side of a time; `share` gets the weight of the second.
@@ -200,6 +211,9 @@ Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& 
   if (bytes.empty()) {
     return Status::Error(file.string(), "the file is empty");
   }
+  const std::string_view file_text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const size_t mark = file_text.size() - WithoutByteOrderMark(file_text).size();
+  bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(mark));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (LooksLikeGltf(bytes)) {
     LARARIUM_RETURN_IF_ERROR(ReadGltf(bytes, *model));
@@ -210,10 +224,10 @@ Result<std::unique_ptr<ModelScene>> ReadModelScene(const std::filesystem::path& 
   } else {
     const glm::dvec3 offset =
         survey_offset == nullptr ? glm::dvec3(0.0) : TakeOffSurvey(model->extension, bytes);
-    if (offset == glm::dvec3(0.0)) {
-      Release(bytes);
-    } else {
+    if (offset != glm::dvec3(0.0)) {
       *survey_offset = offset;
+    } else if (mark == 0) {
+      Release(bytes);
     }
     LARARIUM_RETURN_IF_ERROR(ReadWithAssimp(bytes, *model));
   }
