@@ -47,6 +47,9 @@ local function options_of(value, what)
   if value ~= nil and type(value) ~= "table" then
     error(what .. ": give a table like {x = 1}", 3)
   end
+  if value and value[1] ~= nil then
+    error(what .. ": " .. tostring(value[1]) .. " has no name; decimals have a point, as in {x = 0.5}", 3)
+  end
   return value or {}
 end
 

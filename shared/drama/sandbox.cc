@@ -1,8 +1,12 @@
 #include "shared/drama/sandbox.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <utility>
 
 #include "shared/core/plain_text.h"
+#include "shared/core/utf8.h"
 #include "shared/drama/lua_binding.h"
 #include "shared/drama/safe_libraries.h"
 
@@ -85,6 +89,58 @@ Sandbox::~Sandbox() {
   }
 }
 
+namespace {
+
+// What the line that Lua complains about holds instead of signs of Lua: word processors and web
+// pages put other blanks, quotes and dashes into scripts. Empty if there is none.
+std::string OddSign(std::string_view text, const std::string& problem) {
+  constexpr std::pair<uint32_t, std::string_view> kSigns[] = {{0xA0, "no-break space"},
+                                                              {0x202F, "narrow no-break space"},
+                                                              {0x3000, "ideographic space"},
+                                                              {0x200B, "zero width space"},
+                                                              {0x200E, "left-to-right mark"},
+                                                              {0x200F, "right-to-left mark"},
+                                                              {0xFEFF, "byte order mark"},
+                                                              {0x2018, "quotation mark"},
+                                                              {0x2019, "quotation mark"},
+                                                              {0x201C, "quotation mark"},
+                                                              {0x201D, "quotation mark"},
+                                                              {0x201E, "quotation mark"},
+                                                              {0xAB, "quotation mark"},
+                                                              {0xBB, "quotation mark"},
+                                                              {0x2010, "hyphen"},
+                                                              {0x2013, "dash"},
+                                                              {0x2014, "dash"},
+                                                              {0x2212, "minus sign"},
+                                                              {0x2026, "three dots as one"}};
+  // "file.lua:3: unexpected symbol". A name of a file may hold colons too.
+  const size_t end = problem.find(": ");
+  const size_t colon = end == std::string::npos ? end : problem.rfind(':', end - 1);
+  int line = 0;
+  if (colon == std::string::npos ||
+      std::from_chars(problem.data() + colon + 1, problem.data() + end, line).ec != std::errc()) {
+    return "";
+  }
+  for (; line > 1 && text.find('\n') != std::string_view::npos; --line) {
+    text.remove_prefix(text.find('\n') + 1);
+  }
+  text = text.substr(0, text.find('\n'));
+  for (size_t at = 0; at < text.size();) {
+    const uint32_t character = NextCharacter(text, at);
+    for (const auto& [sign, name] : kSigns) {
+      if (sign == character) {
+        char code[16];
+        std::snprintf(code, sizeof(code), "U+%04X", sign);
+        return std::string("; the line holds a ") + std::string(name) + " (" + code +
+               "), which Lua does not know: type it again in a plain text editor";
+      }
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
 Status Sandbox::Compile(std::string_view text, const std::string& where) {
   const size_t zero = text.find('\0');
   const auto at_line = [&](size_t offset) {
@@ -110,8 +166,9 @@ Status Sandbox::Compile(std::string_view text, const std::string& where) {
   const std::string problem = limits_.tripped() ? limits_.Reason() : lua_tostring(lua_, -1);
   lua_pop(lua_, 1);
   // Lua's messages begin with a shortened file name and ":line: ".
-  return limits_.tripped() ? Status::Error(where, problem)
-                           : Status::Error("drama", problem, "correct the script");
+  return limits_.tripped()
+             ? Status::Error(where, problem)
+             : Status::Error("drama", problem + OddSign(text, problem), "correct the script");
 }
 
 LuaError Sandbox::Describe(lua_State* coroutine, const std::string& started_at) {
