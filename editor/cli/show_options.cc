@@ -50,13 +50,16 @@ void ParseSize(const std::string& text, PortraitOptions& portrait) {
 }
 
 void AddPortrait(CLI::App* command, PortraitOptions& portrait) {
-  command->add_option("FILE", portrait.humans, "The people (.larhuman)")
+  command
+      ->add_option("FILE", portrait.files,
+                   "People (.larhuman), things (.larprop), or models of other programs")
       ->required()
       ->check(CLI::ExistingFile);
+  command->add_flag("--thing", portrait.thing,
+                    "Import the models of other programs as things, not as people");
   command->add_option("--out", portrait.out, "The picture (.png, .jpg)")->required();
   command->add_option("--view", portrait.view, "From where")
-      ->check(CLI::IsMember({"front", "side", "back", "bust", "face", "three-quarter"}))
-      ->capture_default_str();
+      ->check(CLI::IsMember({"front", "side", "back", "bust", "face", "three-quarter"}));
   command->add_option("--shape", portrait.shapes, "NAME=weight of the face; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -137,7 +140,7 @@ void AddShowCommands(CommandTable& table) {
   table.Add("bake", "Prepare light, occluders and people", AddBake);
   table.Add("check", "Find every problem", AddCheck);
   table.Add("render", "Composite the show into a recording", AddRender, CheckRender);
-  table.Add("portrait", "Picture people in a studio", AddPortrait);
+  table.Add("portrait", "Picture people and things in a studio", AddPortrait);
   table.Add("reference", "Path-trace a moment of a show, or a person in a probe's light",
             AddReference);
   table.Add("export", "Pack the show", AddExport);

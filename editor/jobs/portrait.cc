@@ -9,7 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "editor/import/model/model_import.h"
+#include "editor/import/objects/object_import.h"
 #include "editor/jobs/studio.h"
+#include "shared/core/file.h"
+#include "shared/core/lower_case.h"
 #include "shared/image/encode.h"
 
 namespace lararium::editor {
@@ -122,8 +126,9 @@ class Sheet {
 };
 
 struct Sitter {
-  std::shared_ptr<const human::Human> human;
+  std::shared_ptr<const human::Human> human;  // Null for a thing.
   StudioPose pose;
+  std::shared_ptr<const stage::ObjectModel> thing;  // Null for a person.
 };
 
 // One picture of each person on a sheet.
@@ -201,12 +206,62 @@ Result<cv::Mat> ShootSheet(std::span<const Sitter> sitters, Studio& studio) {
   return sheet.Finish();
 }
 
+Result<stage::Prop> ReadThing(const std::filesystem::path& file, std::vector<std::string>& notes) {
+  if (LowerCase(file.extension().string()) != ".larprop") {
+    return import::ImportObject(file, notes);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, ReadBytes(file));
+  return stage::ParseProp(bytes, file.string());
+}
+
+Result<human::Human> ReadPerson(const std::filesystem::path& file,
+                                std::vector<std::string>& notes) {
+  if (LowerCase(file.extension().string()) == ".larhuman") {
+    return human::LoadHuman(file);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(import::ImportedHuman imported, import::ImportPerson(file));
+  notes = std::move(imported.notes);
+  return std::move(imported.human);
+}
+
+Result<Sitter> ReadSitter(const std::filesystem::path& file,
+                          const PortraitOptions& options,
+                          std::vector<std::string>& warnings) {
+  const std::string extension = LowerCase(file.extension().string());
+  Sitter sitter;
+  std::vector<std::string> notes;
+  if (extension == ".larprop" || (options.thing && extension != ".larhuman")) {
+    LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, ReadThing(file, notes));
+    LARARIUM_ASSIGN_OR_RETURN(sitter.thing,
+                              stage::ObjectModel::Create(std::move(prop), file.string()));
+  } else {
+    LARARIUM_ASSIGN_OR_RETURN(human::Human human, ReadPerson(file, notes));
+    LARARIUM_ASSIGN_OR_RETURN(sitter.pose, ParsePose(options, human));
+    sitter.human = std::make_shared<const human::Human>(std::move(human));
+  }
+  for (const std::string& note : notes) {
+    warnings.push_back(file.filename().string() + ": " + note);
+  }
+  return sitter;
+}
+
 Result<cv::Mat> ShootSideBySide(std::span<const Sitter> sitters,
-                                const StudioView& view,
+                                const std::string& view_name,
                                 cv::Size size,
                                 Studio& studio) {
+  StudioView view;
+  if (!view_name.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(view, ParseStudioView(view_name));
+  }
   std::vector<cv::Mat> pictures;
   for (const Sitter& sitter : sitters) {
+    if (sitter.thing != nullptr) {
+      LARARIUM_ASSIGN_OR_RETURN(
+          const cv::Mat picture,
+          studio.ShootThing(sitter.thing, size, view_name.empty() ? kObliquely : view));
+      pictures.push_back(picture);
+      continue;
+    }
     LARARIUM_RETURN_IF_ERROR(studio.Seat(sitter.human, sitter.pose));
     LARARIUM_ASSIGN_OR_RETURN(const StudioShot shot, studio.Shoot(view, size));
     pictures.push_back(shot.picture);
@@ -220,24 +275,29 @@ Result<cv::Mat> ShootSideBySide(std::span<const Sitter> sitters,
 
 Result<CommandResult> RunPortrait(const PortraitOptions& options) {
   std::vector<Sitter> sitters;
-  for (const std::filesystem::path& file : options.humans) {
-    LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::LoadHuman(file));
-    LARARIUM_ASSIGN_OR_RETURN(StudioPose pose, ParsePose(options, human));
-    sitters.push_back({std::make_shared<const human::Human>(std::move(human)), std::move(pose)});
+  std::vector<std::string> warnings;
+  for (const std::filesystem::path& file : options.files) {
+    LARARIUM_ASSIGN_OR_RETURN(Sitter sitter, ReadSitter(file, options, warnings));
+    if (sitter.thing != nullptr && options.sheet) {
+      return Status::Error("--sheet", "shows people, and " + file.string() + " is a thing",
+                           "leave one of them out");
+    }
+    sitters.push_back(std::move(sitter));
   }
-  LARARIUM_ASSIGN_OR_RETURN(const StudioView view, ParseStudioView(options.view));
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Studio> studio, Studio::Create());
   cv::Mat picture;
   if (options.sheet) {
     LARARIUM_ASSIGN_OR_RETURN(picture, ShootSheet(sitters, *studio));
   } else {
     const cv::Size size(options.width, options.height);
-    LARARIUM_ASSIGN_OR_RETURN(picture, ShootSideBySide(sitters, view, size, *studio));
+    LARARIUM_ASSIGN_OR_RETURN(picture, ShootSideBySide(sitters, options.view, size, *studio));
   }
   LARARIUM_RETURN_IF_ERROR(image::WriteImage(options.out, picture));
-  return CommandResult{
+  CommandResult result{
       "wrote " + options.out.string() + "\n",
       {{"out", options.out.string()}, {"width", picture.cols}, {"height", picture.rows}}};
+  AddWarnings(warnings, result);
+  return result;
 }
 
 }  // namespace lararium::editor

@@ -206,6 +206,12 @@ render::RenderScene SceneFor(const Extent& subject, const StudioView& view, cv::
   scene.background = Backdrop(size);
   scene.camera = scene.display = StudioLens(size);
   scene.camera_from_stage = PlaceCamera(subject, view, size);
+  // A subject of any size lies between the planes of clipping.
+  const glm::vec3& at = subject.centre;
+  const auto distance =
+      static_cast<float>((*scene.camera_from_stage * Eigen::Vector3d(at.x, at.y, at.z)).norm());
+  scene.near = 0.02f * distance;
+  scene.far = 20.0f * distance;
   scene.light = StudioLight(view.azimuth);
   return scene;
 }
@@ -293,8 +299,8 @@ Result<StudioShot> Studio::Shoot(const StudioView& view, cv::Size size) {
 }
 
 Result<cv::Mat> Studio::ShootThing(const std::shared_ptr<const stage::ObjectModel>& model,
-                                   cv::Size size) {
-  constexpr StudioView kView = {.azimuth = 0.6f, .elevation = 0.4f};
+                                   cv::Size size,
+                                   const StudioView& view) {
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
                             render::RenderTarget::Create(size.width, size.height));
   LARARIUM_ASSIGN_OR_RETURN(
@@ -309,7 +315,7 @@ Result<cv::Mat> Studio::ShootThing(const std::shared_ptr<const stage::ObjectMode
   prop.prop = handle;
   prop.stage_from_part = stage_from_part;
   prop.shown = shown;
-  render::RenderScene scene = SceneFor(WholeThing(*model, kView.elevation), kView, size);
+  render::RenderScene scene = SceneFor(WholeThing(*model, view.elevation), view, size);
   scene.props = {&prop, 1};
   const Status drawn = renderer_->Draw(scene, target);
   renderer_->RemoveModel(handle);

@@ -35,6 +35,8 @@ struct StudioView {
   friend bool operator==(const StudioView&, const StudioView&) = default;
 };
 
+inline constexpr StudioView kObliquely = {.azimuth = 0.6f, .elevation = 0.4f};
+
 // name: one of front, side, back, bust, face, three-quarter.
 Result<StudioView> ParseStudioView(std::string_view name);
 
@@ -64,9 +66,11 @@ class Studio {
   // Takes a picture of the loaded person. A person must be loaded.
   Result<StudioShot> Shoot(const StudioView& view, cv::Size size);
 
-  // A picture of an object alone in its state at the beginning of a drama, seen obliquely from
-  // above, as large as fits; bgr, 8 bits. The loaded person stays.
-  Result<cv::Mat> ShootThing(const std::shared_ptr<const stage::ObjectModel>& model, cv::Size size);
+  // A picture of an object alone in its state at the beginning of a drama, as large as fits; bgr,
+  // 8 bits. The frame of the view is not used. The loaded person stays.
+  Result<cv::Mat> ShootThing(const std::shared_ptr<const stage::ObjectModel>& model,
+                             cv::Size size,
+                             const StudioView& view = kObliquely);
 
  private:
   struct Sitter;
