@@ -89,6 +89,26 @@ TEST_F(ModelImport, AsksForAnArmatureWhereThereIsNone) {
   EXPECT_THAT(human.message(), HasSubstr("skeleton"));
 }
 
+TEST_F(ModelImport, CountsVerticesWhoseColoursAndTextureCoordinatesAreInvalid) {
+  test::GlbFigure model = test::MakeGlbFigure(PlainSkeleton());
+  Json& attributes = model.json["meshes"][0]["primitives"][0]["attributes"];
+  const size_t count =
+      model.json["accessors"][attributes["POSITION"].get<size_t>()]["count"].get<size_t>();
+  std::vector<float> uvs(2 * count, 0.5f), colours(3 * count, 1.0f);
+  uvs[3] = std::numeric_limits<float>::quiet_NaN();
+  colours[0] = 7.0f;
+  colours[5] = std::numeric_limits<float>::infinity();
+  attributes["TEXCOORD_0"] = model.AddFloats(uvs, 2);
+  attributes["COLOR_0"] = model.AddFloats(colours, 3);
+  const auto imported = ImportPerson(Write("figure.glb", model));
+  ASSERT_TRUE(imported.ok()) << imported.message();
+  EXPECT_THAT(imported->notes,
+              ::testing::Contains(AllOf(HasSubstr("a colour outside"), HasSubstr(": 2"))));
+  EXPECT_THAT(imported->notes,
+              ::testing::Contains(AllOf(HasSubstr("texture coordinates"), HasSubstr(": 1"))));
+  EXPECT_EQ(imported->human.meshes[0].albedo[1], glm::vec3(1.0f));
+}
+
 TEST_F(ModelImport, RefusesImpossibleOptions) {
   ImportOptions options;
   options.metres_per_unit = 0.0f;

@@ -33,7 +33,7 @@ Status AddBody(const ModelScene& model,
   human::Human& human = built.human;
   built.notes.insert(built.notes.end(), model.notes.surface.begin(), model.notes.surface.end());
   ModelSurfaces surfaces = ReadSurfaces(model, parts, built.notes);
-  human.meshes = BuildMeshes(parts, skeleton, surfaces);
+  human.meshes = BuildMeshes(parts, skeleton, surfaces, built.notes);
   human.materials = std::move(surfaces.materials);
   built.images = std::move(surfaces.images);
   built.uses = std::move(surfaces.uses);

@@ -1,6 +1,8 @@
 #include "editor/import/model/model_meshes.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <utility>
 
 #include "editor/import/model/model_matrix.h"
@@ -16,6 +18,33 @@ glm::vec3 ColourOf(const aiMesh& mesh, size_t vertex) {
   const aiColor4D& c = mesh.mColors[0][vertex];
   const glm::vec3 colour(c.r, c.g, c.b);
   return human::Finite(colour) ? glm::clamp(colour, 0.0f, 1.0f) : glm::vec3(1.0f);
+}
+
+bool IsColour(const aiColor4D& c) {
+  constexpr float kRounding = 1e-3f;
+  const glm::vec3 colour(c.r, c.g, c.b);
+  return human::Finite(colour) &&
+         glm::all(glm::lessThan(glm::abs(colour - 0.5f), glm::vec3(0.5f + kRounding)));
+}
+
+void TellInvalid(std::span<const Part> parts, std::vector<std::string>& notes) {
+  size_t colours = 0, uvs = 0, normals = 0;
+  for (const Part& part : parts) {
+    const aiMesh& mesh = *part.mesh;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      colours += mesh.HasVertexColors(0) && !IsColour(mesh.mColors[0][v]);
+      uvs += mesh.HasTextureCoords(0) && !human::Finite(ToGlm(mesh.mTextureCoords[0][v]));
+      normals += !(glm::length(ToGlm(mesh.mNormals[v])) > 1e-6f);
+    }
+  }
+  for (const auto& [count, what] :
+       {std::pair{colours, "a colour outside 0 to 1, which is cut to it, or white if no number"},
+        {uvs, "texture coordinates that are no numbers and become 0"},
+        {normals, "a normal without a direction, which points upwards"}}) {
+    if (count > 0) {
+      notes.push_back("vertices with " + std::string(what) + ": " + std::to_string(count));
+    }
+  }
 }
 
 void AddSkin(const Influences& influences,
@@ -60,7 +89,9 @@ void AddTriangles(const Part& part, human::SkinnedMesh& skinned) {
 
 std::vector<human::SkinnedMesh> BuildMeshes(std::span<const Part> parts,
                                             const ModelSkeleton& skeleton,
-                                            const ModelSurfaces& surfaces) {
+                                            const ModelSurfaces& surfaces,
+                                            std::vector<std::string>& notes) {
+  TellInvalid(parts, notes);
   const glm::mat4& actor_from_scene = skeleton.actor_from_scene;
   std::vector<human::SkinnedMesh> meshes;
   for (const Part& part : parts) {

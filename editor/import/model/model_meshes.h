@@ -3,6 +3,7 @@
 // Converts the parts of a scene to skinned meshes.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "editor/import/model/model_parts.h"
@@ -12,10 +13,11 @@
 
 namespace lararium::import {
 
-// Makes one mesh in the actor frame from each part. Invalid vertex colours, normals and texture
-// coordinates are left out.
+// Makes one mesh in the actor frame from each part. Vertex colours, normals and texture coordinates
+// that are not valid become white, upwards and 0, and `notes` gets their number.
 std::vector<human::SkinnedMesh> BuildMeshes(std::span<const Part> parts,
                                             const ModelSkeleton& skeleton,
-                                            const ModelSurfaces& surfaces);
+                                            const ModelSurfaces& surfaces,
+                                            std::vector<std::string>& notes);
 
 }  // namespace lararium::import
