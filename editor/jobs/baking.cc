@@ -428,7 +428,7 @@ BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& obj
   BakeStep step{"object " + object.name,
                 paths.Prop(object.name),
                 {file},
-                "object file" + PropTransferSettings(),
+                "object file, scenery in one part" + PropTransferSettings(),
                 {}};
   step.cost = kCostOfObject;
   const std::filesystem::path use = import::UseFileBeside(file);

@@ -49,10 +49,11 @@ class ModelClips : public ::testing::Test {
     LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<ModelScene> model, ReadModelScene(file));
     LARARIUM_ASSIGN_OR_RETURN(const BindPose bind, FindBindPose(*model));
     LARARIUM_ASSIGN_OR_RETURN(const ModelRig rig,
-                              FindRig(*model, bind, Content::kMotion, {}, true, notes));
+                              FindRig(*model, bind, Content::kMotion, {}, notes));
     LARARIUM_ASSIGN_OR_RETURN(const glm::mat4 actor_from_scene,
                               PlaceFigure(*model, {}, rig, 1.0f, notes));
-    LARARIUM_ASSIGN_OR_RETURN(skeleton_, BuildSkeleton(*model, bind, {}, rig, actor_from_scene));
+    LARARIUM_ASSIGN_OR_RETURN(
+        skeleton_, BuildSkeleton(*model, bind, {}, rig, Content::kMotion, actor_from_scene));
     return SampleClips(*model, bind, skeleton_, keys_per_second, notes);
   }
 

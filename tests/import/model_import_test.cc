@@ -89,6 +89,55 @@ TEST_F(ModelImport, AsksForAnArmatureWhereThereIsNone) {
   EXPECT_THAT(human.message(), HasSubstr("skeleton"));
 }
 
+// Scenery may have any number of parts; where the joints of a skin were moved, it is seen so.
+TEST_F(ModelImport, TakesSceneryInOnePartAsItsFileShowsIt) {
+  test::GlbFigure model = test::MakeGlbFigure(PlainSkeleton());
+  Json& nodes = model.json["nodes"];
+  const size_t moved = model.json["skins"][0]["joints"][0].get<size_t>();
+  const auto translation = nodes[moved]["translation"].get<std::vector<float>>();
+  const auto height = [&] {
+    const auto thing = ImportThing(Write("statue.glb", model), false);
+    EXPECT_TRUE(thing.ok()) << thing.message();
+    EXPECT_EQ(thing->human.skeleton.size(), 1u);
+    EXPECT_TRUE(thing->human.clips.empty());
+    float top = 0.0f;
+    for (const human::SkinnedMesh& mesh : thing->human.meshes) {
+      for (const glm::vec3& position : mesh.positions) {
+        top = std::max(top, position.y);
+      }
+    }
+    return top;
+  };
+  const float before = height();
+  nodes[moved]["translation"] = {translation[0], translation[1] + 0.7f, translation[2]};
+  EXPECT_NEAR(height(), before + 0.7f, 1e-4f);
+  for (int i = 0; i < 300; ++i) {
+    model.json["scenes"][0]["nodes"].push_back(nodes.size());
+    nodes.push_back({{"mesh", 0}, {"translation", {0, 20 + i, 0}}});
+  }
+  EXPECT_GT(height(), before + 300.0f);
+}
+
+TEST_F(ModelImport, MakesPartsOfTheNodesOfAnObject) {
+  test::GlbFigure model;
+  model.json = {{"asset", {{"version", "2.0"}}},
+                {"accessors", Json::array()},
+                {"bufferViews", Json::array()},
+                {"nodes",
+                 {{{"name", "jar"}, {"mesh", 0}, {"children", {1}}},
+                  {{"name", "lid"}, {"mesh", 0}, {"translation", {0, 2, 0}}}}}};
+  const size_t positions = model.AddFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
+  model.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}}};
+  const auto thing = ImportThing(Write("jar.glb", model), true);
+  ASSERT_TRUE(thing.ok()) << thing.message();
+  const human::Human& jar = thing->human;
+  const auto lid = jar.skeleton.Find("lid");
+  ASSERT_TRUE(jar.skeleton.Find("jar") && lid);
+  ASSERT_EQ(jar.meshes.size(), 2u);
+  EXPECT_EQ(jar.meshes[1].joints[0][0], *lid);
+  EXPECT_NEAR(jar.skeleton.joint_from_actor[*lid][3].y, -2.0f, 1e-5f);
+}
+
 TEST_F(ModelImport, CountsVerticesWhoseColoursAndTextureCoordinatesAreInvalid) {
   test::GlbFigure model = test::MakeGlbFigure(PlainSkeleton());
   Json& attributes = model.json["meshes"][0]["primitives"][0]["attributes"];

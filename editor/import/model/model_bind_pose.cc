@@ -83,7 +83,7 @@ class Binder {
 
 }  // namespace
 
-Result<BindPose> FindBindPose(const ModelScene& model) {
+Result<BindPose> FindBindPose(const ModelScene& model, bool at_rest) {
   const aiScene& scene = *model.scene;
   BindPose pose;
   pose.nodes_of_mesh.resize(scene.mNumMeshes);
@@ -96,7 +96,9 @@ Result<BindPose> FindBindPose(const ModelScene& model) {
   for (const unsigned m : order) {
     const aiMesh& mesh = *scene.mMeshes[m];
     LARARIUM_ASSIGN_OR_RETURN(pose.nodes_of_mesh[m], NodesOf(mesh, model));
-    binder.Add(mesh, pose.nodes_of_mesh[m]);
+    if (!at_rest) {
+      binder.Add(mesh, pose.nodes_of_mesh[m]);
+    }
   }
   pose.scene_from_node = binder.Finish();
   for (size_t n = 0; n < model.nodes.size(); ++n) {

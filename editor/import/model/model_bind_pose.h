@@ -26,6 +26,7 @@ struct BindPose {
 // bones relative to one another; the rest pose of its topmost bone gives the position of the
 // whole. Meshes with more bones have priority. Bones that no mesh binds keep their rest pose
 // relative to the parent. Errors: a bone that is not in the scene, or has no finite position.
-Result<BindPose> FindBindPose(const ModelScene& model);
+// `at_rest`: nodes keep their rest pose, and only the bones of the meshes are found.
+Result<BindPose> FindBindPose(const ModelScene& model, bool at_rest = false);
 
 }  // namespace lararium::import

@@ -1,5 +1,6 @@
 #include "editor/import/model/model_builder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "editor/import/model/model_bind_pose.h"
@@ -29,6 +30,7 @@ Status AddBody(const ModelScene& model,
                const BindPose& bind,
                std::span<const Part> parts,
                const ModelSkeleton& skeleton,
+               Content content,
                BuiltModel& built) {
   human::Human& human = built.human;
   built.notes.insert(built.notes.end(), model.notes.surface.begin(), model.notes.surface.end());
@@ -37,12 +39,26 @@ Status AddBody(const ModelScene& model,
   human.materials = std::move(surfaces.materials);
   built.images = std::move(surfaces.images);
   built.uses = std::move(surfaces.uses);
+  if (IsRigid(content)) {
+    return Status();
+  }
   LARARIUM_ASSIGN_OR_RETURN(ModelMorphs morphs, ReadMorphs(model, parts, skeleton));
   human.face = BuildFace(model, morphs, skeleton, built.notes);
   human.morphs = std::move(morphs.targets);
   human.springs = BuildSprings(model, skeleton);
   human.capsules = BuildCapsules(model, bind, skeleton);
   return Status();
+}
+
+// Says what a rigid object does not take over.
+void TellWhatMoves(const ModelScene& model,
+                   std::span<const Part> parts,
+                   std::vector<std::string>& notes) {
+  if (model.scene->mNumAnimations > 0 || (model.vrm && !model.vrm->springs.empty()) ||
+      std::any_of(parts.begin(), parts.end(),
+                  [](const Part& part) { return part.mesh->mNumAnimMeshes > 0; })) {
+    notes.emplace_back("objects are rigid: its clips, morph targets and springs are left out");
+  }
 }
 
 std::string CreditsOf(const ModelScene& model, const ImportOptions& options) {
@@ -56,19 +72,18 @@ Result<BuiltModel> BuildModel(const ModelScene& model,
                               Content content) {
   BuiltModel built;
   built.notes = model.notes.structure;
-  LARARIUM_ASSIGN_OR_RETURN(BindPose bind, FindBindPose(model));
+  LARARIUM_ASSIGN_OR_RETURN(BindPose bind, FindBindPose(model, IsRigid(content)));
   std::vector<Part> parts;
-  if (content == Content::kFigure) {
+  if (content != Content::kMotion) {
     LARARIUM_ASSIGN_OR_RETURN(parts, GatherParts(model, bind));
   }
-  LARARIUM_ASSIGN_OR_RETURN(ModelRig rig, FindRig(model, bind, content, options.bones,
-                                                  options.needs_skeleton, built.notes));
+  LARARIUM_ASSIGN_OR_RETURN(ModelRig rig,
+                            FindRig(model, bind, content, options.bones, built.notes));
   if (content == Content::kMotion && !bind.HasSkin()) {
     if (auto rest = FindRestInMotion(model, rig, built.notes)) {
       bind.scene_from_node = *std::move(rest);
       std::vector<std::string> told_before;
-      LARARIUM_ASSIGN_OR_RETURN(rig,
-                                FindRig(model, bind, content, options.bones, true, told_before));
+      LARARIUM_ASSIGN_OR_RETURN(rig, FindRig(model, bind, content, options.bones, told_before));
       rig.is_posed = true;
     }
   }
@@ -76,12 +91,16 @@ Result<BuiltModel> BuildModel(const ModelScene& model,
   LARARIUM_ASSIGN_OR_RETURN(const glm::mat4 actor_from_scene,
                             PlaceFigure(model, parts, rig, options.metres_per_unit, built.notes));
   LARARIUM_ASSIGN_OR_RETURN(ModelSkeleton skeleton,
-                            BuildSkeleton(model, bind, parts, rig, actor_from_scene));
-  if (content == Content::kFigure) {
-    LARARIUM_RETURN_IF_ERROR(AddBody(model, bind, parts, skeleton, built));
+                            BuildSkeleton(model, bind, parts, rig, content, actor_from_scene));
+  if (content != Content::kMotion) {
+    LARARIUM_RETURN_IF_ERROR(AddBody(model, bind, parts, skeleton, content, built));
   }
-  LARARIUM_ASSIGN_OR_RETURN(
-      built.human.clips, SampleClips(model, bind, skeleton, options.keys_per_second, built.notes));
+  if (IsRigid(content)) {
+    TellWhatMoves(model, parts, built.notes);
+  } else {
+    LARARIUM_ASSIGN_OR_RETURN(built.human.clips, SampleClips(model, bind, skeleton,
+                                                             options.keys_per_second, built.notes));
+  }
   built.human.skeleton = std::move(skeleton.joints);
   built.human.name = options.name.empty() ? model.file.stem().string() : options.name;
   built.human.credits = CreditsOf(model, options);

@@ -99,6 +99,12 @@ Result<human::Human> ImportHuman(const std::filesystem::path& file, const Import
   return std::move(imported.human);
 }
 
+Result<ImportedHuman> ImportThing(const std::filesystem::path& file,
+                                  bool has_parts,
+                                  const ImportOptions& options) {
+  return Import(file, options, has_parts ? Content::kObject : Content::kScenery);
+}
+
 Result<ImportedHuman> ImportMotion(const std::filesystem::path& file,
                                    const ImportOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(ImportedHuman imported, Import(file, options, Content::kMotion));

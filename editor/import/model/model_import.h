@@ -25,7 +25,6 @@ struct ImportOptions {
   std::optional<float> metres_per_unit;
   float keys_per_second = 30.0f;  // Rate at which clips are resampled.
   bool in_child_process = true;   // False for tests that examine the reader itself.
-  bool needs_skeleton = true;     // False for objects, whose nodes are their parts.
 };
 
 struct ImportedHuman {
@@ -51,6 +50,13 @@ Result<ImportedHuman> ImportPerson(const std::filesystem::path& file,
 // Imports only the human of ImportPerson.
 Result<human::Human> ImportHuman(const std::filesystem::path& file,
                                  const ImportOptions& options = {});
+
+// Imports a rigid thing as a person whose joints are its parts, in the pose in which the file shows
+// its nodes, without clips, morph targets and springs. `has_parts`: nodes become parts; otherwise
+// it is of one part. `options.bones` is not used.
+Result<ImportedHuman> ImportThing(const std::filesystem::path& file,
+                                  bool has_parts,
+                                  const ImportOptions& options = {});
 
 // Imports only the skeleton and the clips, in the same frame, from a file with or without
 // meshes (BVH, FBX). Clips keep their root motion.

@@ -97,7 +97,6 @@ Result<ModelRig> FindRig(const ModelScene& model,
                          const BindPose& bind,
                          Content content,
                          const BoneNames& saved,
-                         bool needs_skeleton,
                          std::vector<std::string>& notes) {
   ModelRig result;
   result.bone_nodes = BoneNodes(model, bind, content);
@@ -112,8 +111,11 @@ Result<ModelRig> FindRig(const ModelScene& model,
   if (model.vrm) {
     given.push_back(VrmBones(model, bone_of_node, result.node_of_bone));
   }
-  result.map = MapBones(result.bones, given);
-  if (needs_skeleton && result.bone_nodes.empty() && !result.map.IsHuman()) {
+  // A thing keeps axes and unit of its file, even if there are people in it. A VRM is one figure.
+  if (!IsRigid(content) || model.vrm) {
+    result.map = MapBones(result.bones, given);
+  }
+  if (!IsRigid(content) && result.bone_nodes.empty() && !result.map.IsHuman()) {
     return Status::Error(model.place(), "no part of it is bound to a skeleton",
                          "add it as an object, or export it with its armature");
   }

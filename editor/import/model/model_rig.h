@@ -12,8 +12,12 @@
 
 namespace lararium::import {
 
-// What to import from a file: everything, or only skeleton and clips.
-enum class Content { kFigure, kMotion };
+// What to import from a file: everything, only skeleton and clips, or a thing.
+// Objects are rigid parts, each of which may move; scenery is one rigid part.
+enum class Content { kFigure, kMotion, kObject, kScenery };
+inline bool IsRigid(Content content) {
+  return content == Content::kObject || content == Content::kScenery;
+}
 
 struct ModelRig {
   Rig bones;                      // Bind pose, in the axes and units of the scene.
@@ -28,12 +32,11 @@ struct ModelRig {
 
 // The rig contains the bone nodes and all their ancestors, without the pivots of FBX. `saved`
 // is the map that the user trusts; bones in it that do not exist are listed in `notes`. Errors,
-// if `needs_skeleton`: a scene that is neither bound to a skeleton nor built like a human body.
+// unless it is rigid: a scene that is neither bound to a skeleton nor built like a human body.
 Result<ModelRig> FindRig(const ModelScene& model,
                          const BindPose& bind,
                          Content content,
                          const BoneNames& saved,
-                         bool needs_skeleton,
                          std::vector<std::string>& notes);
 
 }  // namespace lararium::import

@@ -94,10 +94,12 @@ class SkeletonBuilder {
                            "export it with its armature");
     }
     if (count > Skeleton::kMaxJoints) {
-      return Status::Error(model_.place(),
-                           "its skeleton needs " + std::to_string(count) + " joints, more than " +
-                               std::to_string(Skeleton::kMaxJoints),
-                           "remove bones of hair, clothes or face before exporting");
+      return Status::Error(
+          model_.place(),
+          "its skeleton needs " + std::to_string(count) + " joints, more than " +
+              std::to_string(Skeleton::kMaxJoints),
+          "remove bones of hair, clothes or face before exporting, or add it as an "
+          "object");
     }
     return Status();
   }
@@ -164,8 +166,14 @@ Result<ModelSkeleton> BuildSkeleton(const ModelScene& model,
                                     const BindPose& bind,
                                     std::span<const Part> parts,
                                     const ModelRig& rig,
+                                    Content content,
                                     const glm::mat4& actor_from_scene) {
-  const std::vector<bool> needed = NeededBones(MovingNodes(model, parts, rig), rig);
+  std::vector<bool> needed(rig.bones.size(), false);
+  if (content == Content::kScenery && !needed.empty()) {
+    needed[0] = true;  // The root of the scene is the ancestor of all bones.
+  } else {
+    needed = NeededBones(MovingNodes(model, parts, rig), rig);
+  }
   return SkeletonBuilder(model, bind, rig, actor_from_scene).Build(needed);
 }
 

@@ -26,11 +26,12 @@ struct ModelSkeleton {
 // Bones become joints if they are mapped, move vertices or swing, or are between such bones.
 // Joints have the H-Anim name from the map, otherwise the unique name of the bone. If `parts`
 // is empty because only motion is imported, all bone nodes become joints. Errors: no joint, or
-// more than human::Skeleton::kMaxJoints.
+// more than human::Skeleton::kMaxJoints. Scenery has one joint, its root.
 Result<ModelSkeleton> BuildSkeleton(const ModelScene& model,
                                     const BindPose& bind,
                                     std::span<const Part> parts,
                                     const ModelRig& rig,
+                                    Content content,
                                     const glm::mat4& actor_from_scene);
 
 }  // namespace lararium::import

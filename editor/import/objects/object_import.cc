@@ -145,16 +145,11 @@ Result<stage::Prop> ImportObject(const std::filesystem::path& file,
   if (EndsWith(file, kUseExtension)) {
     return RealThing(file);
   }
-  ImportOptions options;
-  options.needs_skeleton = false;
-  LARARIUM_ASSIGN_OR_RETURN(ImportedHuman model, ImportPerson(file, options));
+  LARARIUM_ASSIGN_OR_RETURN(std::string use, FindUse(file));
+  LARARIUM_ASSIGN_OR_RETURN(ImportedHuman model, ImportThing(file, !use.empty()));
   notes = std::move(model.notes);
-  const human::Human& human = model.human;
-  if (!human.clips.empty() || !human.morphs.empty() || !human.springs.empty()) {
-    notes.emplace_back("objects are rigid: its clips, morph targets and springs are left out");
-  }
   LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, FromModel(model.human, file));
-  LARARIUM_ASSIGN_OR_RETURN(prop.use, FindUse(file));
+  prop.use = std::move(use);
   LARARIUM_RETURN_IF_ERROR(prop.Validate(file.string()));
   return prop;
 }

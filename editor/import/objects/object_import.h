@@ -12,9 +12,9 @@
 
 namespace lararium::import {
 
-// Reads a model (glTF, FBX, ...). Its nodes become parts, at most Prop::kMaxParts that have
-// meshes or lead to such parts. NAME.object.json beside it describes its use, otherwise the
-// `object` in the extras of its scene (glTF); without either it is scenery. The file may also
+// Reads a model (glTF, FBX, ...). NAME.object.json beside it describes its use, otherwise the
+// `object` in the extras of its scene (glTF); its nodes become parts, at most Prop::kMaxParts that
+// have meshes or lead to such parts. Without either it is scenery of one part. The file may also
 // be NAME.object.json itself: a real object, which is used and not drawn. What the reader guessed
 // or left out is added to `notes`.
 Result<stage::Prop> ImportObject(const std::filesystem::path& file,
