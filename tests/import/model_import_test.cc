@@ -100,6 +100,7 @@ TEST_F(ModelImport, TakesSceneryInOnePartAsItsFileShowsIt) {
     EXPECT_TRUE(thing.ok()) << thing.message();
     EXPECT_EQ(thing->human.skeleton.size(), 1u);
     EXPECT_TRUE(thing->human.clips.empty());
+    EXPECT_EQ(thing->human.credits, "by an unknown sculptor");
     float top = 0.0f;
     for (const human::SkinnedMesh& mesh : thing->human.meshes) {
       for (const glm::vec3& position : mesh.positions) {
@@ -108,6 +109,7 @@ TEST_F(ModelImport, TakesSceneryInOnePartAsItsFileShowsIt) {
     }
     return top;
   };
+  model.json["asset"]["copyright"] = "by an unknown sculptor";
   const float before = height();
   nodes[moved]["translation"] = {translation[0], translation[1] + 0.7f, translation[2]};
   EXPECT_NEAR(height(), before + 0.7f, 1e-4f);

@@ -62,7 +62,15 @@ void TellWhatMoves(const ModelScene& model,
 }
 
 std::string CreditsOf(const ModelScene& model, const ImportOptions& options) {
-  return options.credits.empty() && model.vrm ? model.vrm->credits : options.credits;
+  if (!options.credits.empty() || !model.gltf) {
+    return options.credits;
+  }
+  if (model.vrm && !model.vrm->credits.empty()) {
+    return model.vrm->credits;
+  }
+  constexpr size_t kMostBytes = 1024;  // Longer texts are no credits.
+  const std::string text = TextOr(*Find(model.gltf->json, "asset"), "copyright", "");
+  return text.size() <= kMostBytes ? text : std::string();
 }
 
 }  // namespace

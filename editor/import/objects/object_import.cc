@@ -101,6 +101,7 @@ std::vector<bool> NeededJoints(const human::Human& model) {
 Result<stage::Prop> FromModel(const human::Human& model, const std::filesystem::path& file) {
   stage::Prop prop;
   prop.name = file.stem().string();
+  prop.credits = model.credits;
   prop.textures = model.textures;
   prop.materials = model.materials;
   const std::vector<bool> needed = NeededJoints(model);
