@@ -89,7 +89,7 @@ class Models(corpus.Case):
         figure.write_glb(self.folder / "a.glb")
         said = self.person("a.glb")
         self.assertIn("warning: ada: not taken over from its file: emission", said)
-        self.assertIn("texture 'image 0'", said)
+        self.assertIn("texture 'image 0': is in a format of graphics cards", said)
         self.assertIn("emission", self.editor("bake", "p.lararium"))
         self.assertIn("emission", self.editor("bake", "p.lararium"))
         self.assertIn('"warnings": [', self.editor("bake", "p.lararium", "--json"))
@@ -100,6 +100,17 @@ class Models(corpus.Case):
         figure.json["extensionsRequired"] = ["KHR_texture_basisu"]
         figure.write_glb(self.folder / "a.glb")
         self.assertIn("KHR_texture_basisu", self.person("a.glb", code=1))
+
+    def test_a_model_can_be_pictured_before_it_is_added(self):
+        figure = figures.Figure()
+        figure.json["materials"] = [{"emissiveFactor": [1, 1, 1]}]
+        figure.json["meshes"][0]["primitives"][0]["material"] = 0
+        figure.write_glb(self.folder / "a.glb")
+        for options in ((), ("--thing",)):
+            told = self.editor_json("portrait", "a.glb", "--out", "a.png", "--size", "64x64", *options)
+            self.assertIn("emission", told["warnings"][-1])
+            self.assertEqual((told["width"], told["height"]), (64, 64))
+        self.assertIn("is a thing", self.editor("portrait", "a.glb", "--out", "a.png", "--thing", "--sheet", code=1))
 
     def scan(self, name, move):
         """A room of two walls, as OBJ or PLY with doubles."""

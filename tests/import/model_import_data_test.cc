@@ -219,7 +219,7 @@ struct ModelClaim {
 };
 
 constexpr char kNoSkeleton[] = "no part of it is bound to a skeleton";
-constexpr char kNoMesh[] = "there is no mesh in it";
+constexpr char kNoMesh[] = "there is no mesh of triangles in it";
 
 // The assimp of Debian 13 reads models that the one of Debian 12 refuses.
 const bool kNewerAssimp = aiGetVersionMinor() >= 4;

@@ -107,17 +107,24 @@ Result<std::span<const std::byte>> GltfAccessors::View(size_t index) const {
   const Json& view = document_.json["bufferViews"][index];
   const std::string where = "bufferViews[" + std::to_string(index) + "]";
   const size_t length = WholeOr(view, "byteLength", 0);
-  if (const Json* compression = FindExtension(view, "EXT_meshopt_compression")) {
-    if (!decompressed_.contains(index)) {
-      LARARIUM_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, Decompress(*compression, where));
-      bytes.resize(std::max(bytes.size(), length));
-      decompressed_[index] = std::move(bytes);
-    }
-    return std::span<const std::byte>(decompressed_[index]);
-  }
-  const std::vector<std::byte>& buffer = document_.buffers[WholeOr(view, "buffer", 0)];
   const size_t offset = WholeOr(view, "byteOffset", 0);
-  if (offset + length > buffer.size()) {
+  const std::vector<std::byte>& buffer = document_.buffers[WholeOr(view, "buffer", 0)];
+  const bool has_plain_data = offset + length <= buffer.size();
+  if (const Json* compression = FindMeshopt(view)) {
+    const auto known = decompressed_.find(index);
+    if (known != decompressed_.end()) {
+      return std::span<const std::byte>(known->second);
+    }
+    Result<std::vector<std::byte>> bytes = Decompress(*compression, where);
+    if (bytes.ok()) {
+      bytes->resize(std::max(bytes->size(), length));
+      return std::span<const std::byte>(decompressed_[index] = *std::move(bytes));
+    }
+    if (!has_plain_data || length == 0) {
+      return bytes.status();
+    }
+  }
+  if (!has_plain_data) {
     return Problem(where, "reaches beyond the data of its buffer");
   }
   return std::span(buffer).subspan(offset, length);

@@ -27,7 +27,8 @@ class GltfAccessors {
   // in [-1, 1].
   Result<std::vector<float>> Floats(size_t accessor, size_t components) const;
   Result<std::vector<uint32_t>> Indices(size_t accessor) const;
-  // The bytes of a buffer view; decompresses EXT_meshopt_compression.
+  // The bytes of a buffer view; decompresses EXT_meshopt_compression. Where that fails, the
+  // uncompressed data is taken if the file has it.
   Result<std::span<const std::byte>> View(size_t view) const;
 
   Status Problem(const std::string& where, const std::string& what) const;

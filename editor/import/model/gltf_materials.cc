@@ -11,7 +11,7 @@
 namespace lararium::import {
 namespace {
 
-constexpr int kRepeat = 10497;
+constexpr size_t kRepeat = 10497, kNearest = 9728;
 
 const Json& At(const GltfDocument& document, const char* list, size_t index) {
   return document.json[list][index];
@@ -110,6 +110,9 @@ class MaterialReader {
       left_out_.insert("normal maps with texture coordinates of their own");
     } else {
       AddTexture(normals, aiTextureType_NORMALS, *material);
+      if (normals != nullptr && NumberOr(*normals, "scale", 1.0f) != 1.0f) {
+        left_out_.insert("scales of normal maps");
+      }
     }
     AddReflection(source, *material);
     AddAlpha(source, colours.texture != nullptr, *material);
@@ -135,7 +138,10 @@ class MaterialReader {
 
   void AddAlpha(const Json& source, bool textured, aiMaterial& material) {
     const aiString mode(TextOr(source, "alphaMode", "OPAQUE"));
-    const float cutoff = NumberOr(source, "alphaCutoff", 0.5f);
+    float cutoff = NumberOr(source, "alphaCutoff", 0.5f);
+    if (mode == aiString("MASK")) {  // The texture's alpha times the factor is compared with it.
+      cutoff /= std::max(ColoursOf(source).factor[3], 1e-6f);
+    }
     const Json* sides = Find(source, "doubleSided");
     const int two_sided = sides != nullptr && sides->is_boolean() && sides->get<bool>() ? 1 : 0;
     material.AddProperty(&mode, AI_MATKEY_GLTF_ALPHAMODE);
@@ -172,8 +178,14 @@ class MaterialReader {
     if (texture == nullptr) {
       return;
     }
+    const Json* samplers = Find(document_.json, "samplers");
+    const size_t sampler = WholeOr(*texture, "sampler", SIZE_MAX);
+    if (samplers != nullptr && sampler < samplers->size() &&
+        WholeOr((*samplers)[sampler], "magFilter", 0) == kNearest) {
+      left_out_.insert("pixels with hard edges (textures are smoothed)");
+    }
     size_t image = WholeOr(*texture, "source", SIZE_MAX);
-    for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"}) {
       const Json* other = FindExtension(*texture, name);
       if (image == SIZE_MAX && other != nullptr) {
         image = WholeOr(*other, "source", SIZE_MAX);
@@ -181,6 +193,11 @@ class MaterialReader {
     }
     const Json* images = Find(document_.json, "images");
     if (images == nullptr || image >= images->size()) {
+      const Json* extensions = Find(*texture, "extensions");
+      const bool has_other =
+          extensions != nullptr && extensions->is_object() && !extensions->empty();
+      left_out_.insert(has_other ? "textures in " + extensions->begin().key().substr(0, 64)
+                                 : "textures without an image");
       return;
     }
     const auto [path, is_new] = path_of_image_.try_emplace(image);

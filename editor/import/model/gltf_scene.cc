@@ -24,15 +24,32 @@ namespace {
 
 constexpr size_t kMaxVertices = 2'000'000;
 constexpr size_t kMaxCurveKeys = 20'000'000;
+constexpr size_t kMaxInstances = 10'000;  // Most instances of one node.
 constexpr size_t kNone = SIZE_MAX;
 constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
+constexpr std::array<std::string_view, 2> kToldWhereUsed = {"KHR_texture_basisu",
+                                                            "KHR_animation_pointer"};
 constexpr float kCurveStep = 1.0f / 60.0f;  // Seconds between the keys that replace a curve.
+
+// Translation, rotation and scale where an instance states none.
+constexpr std::array<float, 4> kNoTranslation = {0, 0, 0, 0}, kNoRotation = {0, 0, 0, 1},
+                               kNoScale = {1, 1, 1, 1};
+constexpr std::array<std::span<const float>, 3> kRestOfInstance = {
+    std::span(kNoTranslation).first(3), std::span(kNoRotation), std::span(kNoScale).first(3)};
 
 std::string Number(const std::string& text, size_t index) { return text + std::to_string(index); }
 
 aiMatrix4x4 ToAssimp(const glm::mat4& m) {
   return {m[0].x, m[1].x, m[2].x, m[3].x, m[0].y, m[1].y, m[2].y, m[3].y,
           m[0].z, m[1].z, m[2].z, m[3].z, m[0].w, m[1].w, m[2].w, m[3].w};
+}
+
+// t, r, s: translation, rotation (x, y, z, w) and scale.
+glm::mat4 Compose(std::span<const float> t, std::span<const float> r, std::span<const float> s) {
+  const glm::quat rotation(r[3], r[0], r[1], r[2]);
+  return glm::translate(glm::mat4(1.0f), glm::vec3(t[0], t[1], t[2])) *
+         glm::mat4_cast(glm::length(rotation) > 0.0f ? glm::normalize(rotation) : rotation) *
+         glm::scale(glm::mat4(1.0f), glm::vec3(s[0], s[1], s[2]));
 }
 
 glm::mat4 LocalOf(const Json& node) {
@@ -45,10 +62,7 @@ glm::mat4 LocalOf(const Json& node) {
   ReadNumbers(node, "translation", t);
   ReadNumbers(node, "rotation", r);
   ReadNumbers(node, "scale", s);
-  const glm::quat rotation(r[3], r[0], r[1], r[2]);
-  return glm::translate(glm::mat4(1.0f), glm::vec3(t[0], t[1], t[2])) *
-         glm::mat4_cast(glm::length(rotation) > 0.0f ? glm::normalize(rotation) : rotation) *
-         glm::scale(glm::mat4(1.0f), glm::vec3(s[0], s[1], s[2]));
+  return Compose(t, r, s);
 }
 
 // The corners of the triangles of a list, strip or fan, as indices into `indices`.
@@ -132,6 +146,7 @@ class SceneReader {
       scene_->mMeshes[scene_->mNumMeshes++] = mesh.release();
     }
     LARARIUM_RETURN_IF_ERROR(AddAnimations());
+    ListUnknownExtensions();
     Tell(left_out_, notes_.structure);
     Tell(left_out_surface_, notes_.surface);
     return std::move(scene_);
@@ -142,6 +157,25 @@ class SceneReader {
   size_t Count(const char* list) const {
     const Json* entries = Find(document_.json, list);
     return entries == nullptr ? 0 : entries->size();
+  }
+
+  // Those that are read, and those that are told where they are used, are known.
+  void ListUnknownExtensions() {
+    const Json* used = Find(document_.json, "extensionsUsed");
+    for (size_t i = 0; used != nullptr && used->is_array() && i < used->size(); ++i) {
+      const std::string name = (*used)[i].is_string() ? (*used)[i].get<std::string>() : "";
+      const auto is_known = [&](std::string_view known) { return name.starts_with(known); };
+      if (name == "KHR_lights_punctual") {
+        left_out_.insert("lights");
+      } else if (name == "KHR_materials_variants") {
+        left_out_surface_.insert("variants of materials other than the first choice");
+      } else if (name == "VRMC_node_constraint" || name == "VRMC_springBone_extended_collider") {
+        left_out_.insert(name);
+      } else if (std::none_of(kToldWhereUsed.begin(), kToldWhereUsed.end(), is_known) &&
+                 !CanReadGltfExtension(name)) {
+        left_out_.insert(name.substr(0, 64));
+      }
+    }
   }
 
   // ---- Nodes ----
@@ -188,11 +222,18 @@ class SceneReader {
     auto* node = new aiNode(Number("n", index));
     parent.addChildren(1, &node);  // Takes ownership.
     node->mTransformation = ToAssimp(LocalOf(source));
-    if (FindExtension(source, "EXT_mesh_gpu_instancing") != nullptr) {
-      left_out_.insert("instances (EXT_mesh_gpu_instancing)");
+    if (const Json* visibility = FindExtension(source, "KHR_node_visibility")) {
+      const Json* visible = Find(*visibility, "visible");
+      with_mesh = with_mesh && (visible == nullptr || *visible != false);
+    }
+    if (Find(source, "camera") != nullptr) {
+      left_out_.insert("cameras");
     }
     if (with_mesh && Find(source, "mesh") != nullptr) {
       LARARIUM_RETURN_IF_ERROR(AddMeshes(source, *node));
+      if (const Json* instancing = FindExtension(source, "EXT_mesh_gpu_instancing")) {
+        LARARIUM_RETURN_IF_ERROR(AddInstances(*instancing, *node));
+      }
     }
     if (const Json* children = Find(source, "children")) {
       for (const Json& child : *children) {
@@ -235,7 +276,8 @@ class SceneReader {
     const size_t count = At("meshes", mesh)["primitives"].size();
     std::vector<unsigned> indices;
     for (size_t p = 0; p < count; ++p) {
-      const auto [made, is_new] = made_.try_emplace({mesh, p, skin}, kNone);
+      const auto [made, is_new] =
+          made_.try_emplace({mesh, p, skin, Find(source, "weights")}, kNone);
       if (is_new) {
         LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<aiMesh> built, MakeMesh(source, mesh, p, skin));
         if (built != nullptr) {
@@ -251,6 +293,46 @@ class SceneReader {
     node.mNumMeshes = static_cast<unsigned>(indices.size());
     node.mMeshes = new unsigned[indices.size()];
     std::copy(indices.begin(), indices.end(), node.mMeshes);
+    return Status();
+  }
+
+  // Replaces the meshes of a node by a child with these meshes for each instance.
+  Status AddInstances(const Json& instancing, aiNode& node) {
+    const Json* attributes = Find(instancing, "attributes");
+    std::array<std::vector<float>, 3> values;
+    std::optional<size_t> count;
+    for (const auto& [i, name] :
+         {std::pair{size_t{0}, "TRANSLATION"}, {size_t{1}, "ROTATION"}, {size_t{2}, "SCALE"}}) {
+      const size_t accessor = attributes == nullptr ? kNone : WholeOr(*attributes, name, kNone);
+      if (accessor == kNone) {
+        continue;
+      }
+      if (accessor >= Count("accessors") || (count && accessors_.Count(accessor) != *count) ||
+          accessors_.Count(accessor) > kMaxInstances) {
+        return accessors_.Problem(node.mName.C_Str(), "its instances do not fit, or are too many");
+      }
+      count = accessors_.Count(accessor);
+      LARARIUM_ASSIGN_OR_RETURN(values[i], accessors_.Floats(accessor, kRestOfInstance[i].size()));
+    }
+    std::vector<aiNode*> instances;  // The node takes ownership.
+    for (size_t k = 0; k < count.value_or(0); ++k) {
+      std::array<std::span<const float>, 3> trs;
+      for (size_t i = 0; i < trs.size(); ++i) {
+        const size_t n = kRestOfInstance[i].size();
+        trs[i] = values[i].empty() ? kRestOfInstance[i] : std::span(values[i]).subspan(k * n, n);
+      }
+      auto* instance = new aiNode(node.mName.C_Str() + Number(":", k));
+      instance->mTransformation = ToAssimp(Compose(trs[0], trs[1], trs[2]));
+      instance->mNumMeshes = node.mNumMeshes;
+      instance->mMeshes = new unsigned[node.mNumMeshes];
+      std::copy_n(node.mMeshes, node.mNumMeshes, instance->mMeshes);
+      instances.push_back(instance);
+    }
+    if (!instances.empty()) {
+      node.mNumMeshes = 0;
+      delete[] std::exchange(node.mMeshes, nullptr);
+      node.addChildren(static_cast<unsigned>(instances.size()), instances.data());
+    }
     return Status();
   }
 
@@ -293,7 +375,9 @@ class SceneReader {
     AddFaces(primitive, *result);
     LARARIUM_RETURN_IF_ERROR(AddUvs(primitive, *result));
     LARARIUM_RETURN_IF_ERROR(AddColours(primitive, *result));
-    if (skin != kNone) {
+    if (skin != kNone && Find(attributes, "JOINTS_0") == nullptr) {
+      left_out_.insert("skins of meshes without weights");
+    } else if (skin != kNone) {
       LARARIUM_RETURN_IF_ERROR(AddBones(primitive, skin, *result));
     }
     return result;
@@ -390,7 +474,7 @@ class SceneReader {
     return Status();
   }
 
-  Status AddColours(const Primitive& primitive, aiMesh& mesh) const {
+  Status AddColours(const Primitive& primitive, aiMesh& mesh) {
     const Json* accessor = Find((*primitive.json)["attributes"], "COLOR_0");
     if (accessor == nullptr) {
       return Status();
@@ -405,8 +489,17 @@ class SceneReader {
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       const float* colour = values.data() + components * v;
       mesh.mColors[0][v] = {colour[0], colour[1], colour[2], 1.0f};
+      if (components == 4 && colour[3] < 1.0f && !IsOpaque(primitive)) {
+        left_out_surface_.insert("transparency of vertex colours");
+      }
     }
     return Status();
+  }
+
+  bool IsOpaque(const Primitive& primitive) const {
+    const size_t material = WholeOr(*primitive.json, "material", kNone);
+    return material == kNone ||
+           TextOr(At("materials", material), "alphaMode", "OPAQUE") == "OPAQUE";
   }
 
   // Adds the morph targets, and moves the vertices by their default weights.
@@ -566,8 +659,13 @@ class SceneReader {
                                          : "motion of anything but nodes (KHR_animation_pointer)");
       return Status();
     }
-    if (node == kNone || !is_added_[node] ||
-        (path != "rotation" && path != "translation" && path != "scale")) {
+    if (path != "rotation" && path != "translation" && path != "scale") {
+      left_out_.insert("motion of '" + path.substr(0, 64) + "' in clips");
+      return Status();
+    }
+    if (node == kNone || !is_added_[node]) {
+      left_out_.insert(node == kNone ? "curves of clips that name no node"
+                                     : "motion of nodes outside the scene");
       return Status();
     }
     const Json& sampler = animation["samplers"][channel["sampler"].get<size_t>()];
@@ -586,8 +684,14 @@ class SceneReader {
       }
       return Status();
     }
+    if (path == "rotation") {
+      left_out_.insert("second curves of clips for one node");
+      return Status();
+    }
     auto& list = path == "scale" ? curve->mScalingKeys : curve->mPositionKeys;
-    if (path != "rotation" && list == nullptr) {
+    if (list != nullptr) {
+      left_out_.insert("second curves of clips for one node");
+    } else {
       (path == "scale" ? curve->mNumScalingKeys : curve->mNumPositionKeys) = size;
       list = new aiVectorKey[size];
       for (unsigned k = 0; k < size; ++k) {
@@ -677,8 +781,8 @@ class SceneReader {
   std::set<std::string> left_out_, left_out_surface_;
   std::unique_ptr<aiScene> scene_ = std::make_unique<aiScene>();
   std::vector<std::unique_ptr<aiMesh>> meshes_;
-  std::map<std::tuple<size_t, size_t, size_t>, size_t>
-      made_;  // The key is mesh, primitive and skin.
+  // The key is mesh, primitive, skin and the morph weights of the node, null for the mesh's own.
+  std::map<std::tuple<size_t, size_t, size_t, const Json*>, size_t> made_;
   std::set<size_t> used_skins_;
   std::vector<size_t> parents_;  // Each node has an entry.
   std::vector<bool> is_added_;   // Each node has an entry.

@@ -38,17 +38,6 @@ const Json& Entry(const Json& json, const char* list, size_t index) {
                                                                               : kNothing;
 }
 
-bool CanBeRead(const std::string& extension) {
-  for (const char* known : {"KHR_materials_", "KHR_texture_transform", "KHR_lights_punctual",
-                            "KHR_xmp", "VRM", "EXT_texture_webp", "KHR_draco_mesh_compression",
-                            "EXT_meshopt_compression", "KHR_mesh_quantization"}) {
-    if (extension.starts_with(known)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 // Checks one document and stops at the first error.
 class Checker {
  public:
@@ -146,7 +135,7 @@ class Checker {
     const Json* required = Find(json_, "extensionsRequired");
     if (required != nullptr && required->is_array()) {
       for (const Json& extension : *required) {
-        if (!extension.is_string() || !CanBeRead(extension.get<std::string>())) {
+        if (!extension.is_string() || !CanReadGltfExtension(extension.get<std::string>())) {
           return Status::Error(place_,
                                "needs the glTF extension " + extension.dump().substr(0, 80) +
                                    ", which is not supported",
@@ -184,7 +173,7 @@ class Checker {
       LARARIUM_ASSIGN_OR_RETURN(const int64_t length,
                                 Number(buffer, "byteLength", kMaxBytes, where, std::nullopt));
       const std::string uri = TextOr(buffer, "uri", "");
-      const bool is_stand_in = FindExtension(buffer, "EXT_meshopt_compression") != nullptr;
+      const bool is_stand_in = FindMeshopt(buffer) != nullptr;
       const size_t in_glb = document_.buffers.empty() ? 0 : document_.buffers[0].size();
       if (uri.empty() && !is_stand_in && (i > 0 || in_glb < size_t(length))) {
         return Problem(where, "the file ends before its data does", "copy the whole file again");
@@ -512,6 +501,24 @@ std::vector<std::string> GltfDocument::TargetNames(size_t mesh) const {
     }
   }
   return {};
+}
+
+bool CanReadGltfExtension(std::string_view name) {
+  for (const char* known :
+       {"KHR_materials_", "KHR_texture_transform", "KHR_lights_punctual", "KHR_xmp", "VRM",
+        "EXT_texture_webp", "EXT_texture_avif", "KHR_draco_mesh_compression",
+        "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
+        "EXT_mesh_gpu_instancing", "KHR_node_visibility"}) {
+    if (name.starts_with(known)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+const Json* FindMeshopt(const Json& json) {
+  const Json* compression = FindExtension(json, "EXT_meshopt_compression");
+  return compression != nullptr ? compression : FindExtension(json, "KHR_meshopt_compression");
 }
 
 bool LooksLikeGltf(std::span<const std::byte> bytes) {

@@ -27,6 +27,9 @@ struct GltfDocument {
   std::vector<std::string> TargetNames(size_t mesh) const;
 };
 
+// Says whether an extension is read, or harmless where it is not.
+bool CanReadGltfExtension(std::string_view name);
+
 // True for GLB, and for JSON with an asset; does not examine the rest of the file.
 bool LooksLikeGltf(std::span<const std::byte> bytes);
 
@@ -50,6 +53,8 @@ bool IsSafeRelativePath(std::string_view uri);
 const Json* Find(const Json& json, const char* key);
 // An extension of an object of the document.
 const Json* FindExtension(const Json& json, const char* name);
+// EXT_meshopt_compression, or KHR_meshopt_compression, which is the same with a newer codec.
+const Json* FindMeshopt(const Json& json);
 std::string TextOr(const Json& json, const char* key, const std::string& instead);
 // A whole number of at least 0.
 size_t WholeOr(const Json& json, const char* key, size_t instead);

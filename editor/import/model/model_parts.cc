@@ -50,7 +50,7 @@ class PartGatherer {
       }
     }
     if (parts_.empty()) {
-      return Status::Error(model_.place(), "there is no mesh in it",
+      return Status::Error(model_.place(), "there is no mesh of triangles in it",
                            "import it as a clip, or export it with its mesh");
     }
     return std::move(parts_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <string_view>
 
 #include "editor/import/model/model_gltf.h"
 #include "shared/image/decode.h"
@@ -87,7 +88,12 @@ Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
   const std::string at = where + ": texture '" + name + "'";
   const std::optional<image::ImageHeader> size = image::ReadImageHeader(encoded);
   if (!size) {
-    return Status::Error(at, "is neither PNG, JPEG, WebP, TIFF nor BMP, or is damaged",
+    const std::string_view head(reinterpret_cast<const char*>(encoded.data()),
+                                std::min<size_t>(encoded.size(), 4));
+    return Status::Error(at,
+                         head == "\xABKTX" || head == "DDS "
+                             ? "is in a format of graphics cards (KTX or DDS), which is not read"
+                             : "is neither PNG, JPEG, WebP, AVIF, TIFF nor BMP, or is damaged",
                          "convert it to PNG");
   }
   if (size->width == 0 || size->height == 0 || size->width > 65'535 || size->height > 65'535 ||
