@@ -214,11 +214,12 @@ class BodyFinder {
     }
     const bool hangs = body_.root != kNoJoint && IsBelow(skeleton_, body_.root, right.hip) &&
                        IsBelow(skeleton_, body_.root, left.hip);
-    if (!hangs) {
-      body_.root = kNoJoint;  // No pelvis bears the legs, so the body cannot walk.
+    const float height = 0.5f * (Rest(right.hip).position.y + Rest(left.hip).position.y);
+    if (!hangs || !(height > 0.0f)) {
+      body_.root = kNoJoint;  // No pelvis bears the legs above the ground: the body cannot walk.
       return;
     }
-    body_.hip_height = 0.5f * (Rest(right.hip).position.y + Rest(left.hip).position.y);
+    body_.hip_height = height;
     body_.hip_width = RestDistance(right.hip, left.hip);
   }
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "shared/human/finite.h"
 #include "shared/human/turns.h"
 #include "tests/human/full_body.h"
 #include "tests/human/two_joint_human.h"
@@ -85,6 +87,22 @@ TEST(BodyRig, IsFoundInSkeletonsWithAnyAxes) {
     EXPECT_LT(body.legs[kRight].toe_out, 0.0f);  // turned right
     EXPECT_GT(body.legs[kLeft].toe_out, 0.0f);
     EXPECT_EQ(body.arms[kLeft].forearm_twist.size(), 1u);
+  }
+}
+
+TEST(BodyRig, DoesNotWalkWithItsHipsBelowTheGround) {
+  constexpr float kSunk = 0.95f;
+  Human human = FullBody(0.5f, 0);
+  human.skeleton.rest[0].translation.y -= kSunk;
+  for (glm::mat4& joint_from_actor : human.skeleton.joint_from_actor) {
+    joint_from_actor = glm::translate(joint_from_actor, glm::vec3(0.0f, kSunk, 0.0f));
+  }
+  EXPECT_FALSE(MakeBodyRig(human.skeleton).walks());
+  const auto model = ModelOf(std::move(human));
+  AnimationState animation_state;
+  UpdateAnimationState(*model, glm::vec3(0.0f), 0.0f, kTick, {}, animation_state);
+  for (const glm::mat4& joint : Show(model, animation_state).actor_from_joint) {
+    EXPECT_TRUE(Finite(joint));
   }
 }
 

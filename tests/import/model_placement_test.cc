@@ -107,5 +107,26 @@ TEST_F(ModelPlacement, StandsOnFeetWhateverHangsLower) {
   EXPECT_GT(LowestJoint(Place({cloak})), 0.3f);
 }
 
+// Only the head has a surface; the soles are where the joints of the feet are.
+TEST_F(ModelPlacement, StandsOnJointsWhereLegsHaveNoSurface) {
+  Stand(1.0f, glm::vec3(0.0f, -3.0f, 0.0f));
+  Part head;
+  head.positions = {rig_.bones.positions[static_cast<size_t>(Node("skullbase"))]};
+  head.influences.push_back({Influence{Node("skullbase"), 1.0f}});
+  EXPECT_NEAR(LowestJoint(Place({head}, 1.0f)), 0.0f, 1e-4f);
+}
+
+TEST_F(ModelPlacement, TellsSizesThatAreHardlyMeant) {
+  Part box;
+  box.positions = {glm::vec3(0.0f), glm::vec3(0.0f, 1.0f, 80.0f)};
+  box.influences.resize(2);
+  Place({box});
+  EXPECT_THAT(notes_, ::testing::Contains(HasSubstr("longest side is 80 m")));
+  notes_.clear();
+  box.positions[1] = glm::vec3(0.0f, 1.0f, 8.0f);
+  Place({box});
+  EXPECT_THAT(notes_, IsEmpty());
+}
+
 }  // namespace
 }  // namespace lararium::import

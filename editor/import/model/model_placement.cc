@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
@@ -77,13 +78,38 @@ Extent FindExtent(const glm::mat3& rotation,
                     IsLeg(part.influences[v][0].node, rig, nodes));
     }
   }
-  if (parts.empty()) {
-    for (size_t bone = 0; bone < rig.bones.size(); ++bone) {
-      extent.Extend((rotation * rig.bones.positions[bone]).y,
-                    IsLeg(rig.node_of_bone[bone], rig, nodes));
+  for (size_t bone = 0; bone < rig.bones.size(); ++bone) {
+    const float y = (rotation * rig.bones.positions[bone]).y;
+    const bool is_leg = IsLeg(rig.node_of_bone[bone], rig, nodes);
+    if (parts.empty()) {
+      extent.Extend(y, is_leg);
+    } else if (is_leg && !extent.has_legs) {
+      extent.low = std::min(extent.low, y);  // The legs have no surface, as of a bust.
     }
   }
   return extent;
+}
+
+// Says it where a thing, or a figure that is not human, has a size that is hardly meant.
+void TellSize(std::span<const Part> parts, float scale, std::vector<std::string>& notes) {
+  constexpr float kLeastThing = 0.005f, kMostThing = 50.0f;
+  glm::vec3 lower(std::numeric_limits<float>::max()), upper(-lower);
+  for (const Part& part : parts) {
+    for (const glm::vec3& position : part.positions) {
+      lower = glm::min(lower, position);
+      upper = glm::max(upper, position);
+    }
+  }
+  const glm::vec3 size = scale * (upper - lower);
+  const float metres = std::max({size.x, size.y, size.z});
+  if (metres > 0.0f && (metres < kLeastThing || metres > kMostThing)) {
+    char text[160];
+    std::snprintf(text, sizeof(text),
+                  "its longest side is %.4g m, as its file says; if that is not meant, scale it in "
+                  "its program to metres",
+                  static_cast<double>(metres));
+    notes.emplace_back(text);
+  }
 }
 
 bool IsPossible(float metres) { return metres > kLeast && metres < kMost; }
@@ -141,7 +167,9 @@ Result<glm::mat4> PlaceFigure(const ModelScene& model,
       metres_per_unit ? *metres_per_unit
                       : FindScale(height, model.StatedMetresPerUnit(), has_unit, is_human, notes);
   glm::vec3 offset(0.0f);
-  if (is_human) {
+  if (!is_human) {
+    TellSize(parts, scale, notes);
+  } else {
     const float floor = scale * extent.low;
     offset.y = std::abs(floor) < kWellPlaced ? 0.0f : -floor;
     const glm::vec3 hips =
