@@ -356,8 +356,8 @@ std::optional<Alignment> AlignOnCentres(std::span<const PosePair> pairs) {
   alignment.world_from_map = LeastMedianOfSquares(centres);
   for (int round = 0; round < kInlierRounds; ++round) {
     const std::vector<double> residuals = Residuals(centres, alignment.world_from_map);
-    const double bound =
-        std::max(kInlierMedians * Median(residuals), 1e-9 * Spread(centres.world)[0]);
+    const double bound = std::max(kInlierMedians * Median(residuals),
+                                  1e-9 * geometry::SpreadOf(centres.world).deviations[2]);
     std::vector<bool> now(pairs.size());
     std::vector<size_t> chosen;
     for (size_t i = 0; i < pairs.size(); ++i) {
