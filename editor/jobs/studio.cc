@@ -208,8 +208,8 @@ render::RenderScene SceneFor(const Extent& subject, const StudioView& view, cv::
   scene.camera_from_stage = PlaceCamera(subject, view, size);
   // A subject of any size lies between the planes of clipping.
   const glm::vec3& at = subject.centre;
-  const auto distance =
-      static_cast<float>((*scene.camera_from_stage * Eigen::Vector3d(at.x, at.y, at.z)).norm());
+  const Eigen::Vector3d from_camera = *scene.camera_from_stage * Eigen::Vector3d(at.x, at.y, at.z);
+  const float distance = std::max(static_cast<float>(from_camera.norm()), 1e-3f);
   scene.near = 0.02f * distance;
   scene.far = 20.0f * distance;
   scene.light = StudioLight(view.azimuth);

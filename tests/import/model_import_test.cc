@@ -149,6 +149,13 @@ TEST_F(ModelImport, CountsVerticesWhoseColoursAndTextureCoordinatesAreInvalid) {
   uvs[3] = std::numeric_limits<float>::quiet_NaN();
   colours[0] = 7.0f;
   colours[5] = std::numeric_limits<float>::infinity();
+  std::vector<float> joints(4 * count, 0.0f), weights(4 * count, 0.0f);
+  for (size_t k = 0; k < 4; ++k) {
+    joints[k] = static_cast<float>(k + 1);
+    weights[k] = 0.2f;
+  }
+  attributes["JOINTS_1"] = model.AddFloats(joints, 4);
+  attributes["WEIGHTS_1"] = model.AddFloats(weights, 4);
   attributes["TEXCOORD_0"] = model.AddFloats(uvs, 2);
   attributes["COLOR_0"] = model.AddFloats(colours, 3);
   const auto imported = ImportPerson(Write("figure.glb", model));
@@ -157,6 +164,8 @@ TEST_F(ModelImport, CountsVerticesWhoseColoursAndTextureCoordinatesAreInvalid) {
               ::testing::Contains(AllOf(HasSubstr("a colour outside"), HasSubstr(": 2"))));
   EXPECT_THAT(imported->notes,
               ::testing::Contains(AllOf(HasSubstr("texture coordinates"), HasSubstr(": 1"))));
+  EXPECT_THAT(imported->notes,
+              ::testing::Contains(AllOf(HasSubstr("more than four bones"), HasSubstr(": 1"))));
   EXPECT_EQ(imported->human.meshes[0].albedo[1], glm::vec3(1.0f));
 }
 

@@ -157,7 +157,11 @@ Result<std::vector<std::byte>> GltfAccessors::Decompress(const Json& compression
   }
   const std::string filter = TextOr(compression, "filter", "NONE");
   if (error != 0 || !(mode == "ATTRIBUTES" ? Filter(filter, bytes, count, stride) : true)) {
-    return Problem(where, "its compressed data cannot be decoded");
+    return Status::Error(where_,
+                         where +
+                             ": its compressed data cannot be decoded: it is damaged, or of a "
+                             "newer kind than is known",
+                         "export it without compression");
   }
   return bytes;
 }

@@ -166,16 +166,28 @@ class Checker {
     return Status();
   }
 
+  // Buffers that no view or only compressed views use need no data of their own.
+  std::vector<bool> StandIns() const {
+    std::vector<bool> stands_in(Count("buffers"), true);
+    for (size_t i = 0; i < Count("bufferViews"); ++i) {
+      const size_t buffer = WholeOr(At("bufferViews", i), "buffer", SIZE_MAX);
+      if (buffer < stands_in.size() && FindMeshopt(At("buffers", buffer)) == nullptr) {
+        stands_in[buffer] = stands_in[buffer] && FindMeshopt(At("bufferViews", i)) != nullptr;
+      }
+    }
+    return stands_in;
+  }
+
   Status CheckBuffers() {
+    const std::vector<bool> stands_in = StandIns();
     for (size_t i = 0; i < Count("buffers"); ++i) {
       const Json& buffer = At("buffers", i);
       const std::string where = Name("buffers", i);
       LARARIUM_ASSIGN_OR_RETURN(const int64_t length,
                                 Number(buffer, "byteLength", kMaxBytes, where, std::nullopt));
       const std::string uri = TextOr(buffer, "uri", "");
-      const bool is_stand_in = FindMeshopt(buffer) != nullptr;
       const size_t in_glb = document_.buffers.empty() ? 0 : document_.buffers[0].size();
-      if (uri.empty() && !is_stand_in && (i > 0 || in_glb < size_t(length))) {
+      if (uri.empty() && !stands_in[i] && (i > 0 || in_glb < size_t(length))) {
         return Problem(where, "the file ends before its data does", "copy the whole file again");
       } else if (!uri.empty() && !uri.starts_with("data:") && !IsSafeRelativePath(uri)) {
         return Problem(where,

@@ -28,9 +28,10 @@ bool IsColour(const aiColor4D& c) {
 }
 
 void TellInvalid(std::span<const Part> parts, std::vector<std::string>& notes) {
-  size_t colours = 0, uvs = 0, normals = 0;
+  size_t colours = 0, uvs = 0, normals = 0, skins = 0;
   for (const Part& part : parts) {
     const aiMesh& mesh = *part.mesh;
+    skins += part.cut_skins;
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       colours += mesh.HasVertexColors(0) && !IsColour(mesh.mColors[0][v]);
       uvs += mesh.HasTextureCoords(0) && !human::Finite(ToGlm(mesh.mTextureCoords[0][v]));
@@ -40,7 +41,8 @@ void TellInvalid(std::span<const Part> parts, std::vector<std::string>& notes) {
   for (const auto& [count, what] :
        {std::pair{colours, "a colour outside 0 to 1, which is cut to it, or white if no number"},
         {uvs, "texture coordinates that are no numbers and become 0"},
-        {normals, "a normal without a direction, which points upwards"}}) {
+        {normals, "a normal without a direction, which points upwards"},
+        {skins, "more than four bones, of which the four strongest are taken"}}) {
     if (count > 0) {
       notes.push_back("vertices with " + std::string(what) + ": " + std::to_string(count));
     }

@@ -14,13 +14,14 @@ namespace {
 
 constexpr size_t kMaxVertices = 2'000'000;
 
-// Keeps the four largest influences in descending order.
-void Insert(Influence influence, Influences& influences) {
+// Keeps the four largest influences in descending order. Returns the weight that is lost.
+float Insert(Influence influence, Influences& influences) {
   for (Influence& slot : influences) {
     if (influence.weight > slot.weight) {
       std::swap(influence, slot);
     }
   }
+  return std::max(influence.weight, 0.0f);
 }
 
 void Normalise(int instead, Influences& influences) {
@@ -84,6 +85,7 @@ class PartGatherer {
   Status GatherWeights(int node, const std::vector<int>& bones, Part& part) const {
     const aiMesh& mesh = *part.mesh;
     part.influences.resize(mesh.mNumVertices);
+    std::vector<float> lost(mesh.mNumVertices, 0.0f);
     for (unsigned b = 0; b < mesh.mNumBones; ++b) {
       const aiBone& bone = *mesh.mBones[b];
       for (unsigned w = 0; w < bone.mNumWeights; ++w) {
@@ -91,9 +93,12 @@ class PartGatherer {
         if (weight.mVertexId >= mesh.mNumVertices || !std::isfinite(weight.mWeight)) {
           return Error(part, "a skin weight is not a number or names no vertex");
         }
-        Insert({bones[b], weight.mWeight}, part.influences[weight.mVertexId]);
+        lost[weight.mVertexId] +=
+            Insert({bones[b], weight.mWeight}, part.influences[weight.mVertexId]);
       }
     }
+    part.cut_skins = static_cast<size_t>(
+        std::count_if(lost.begin(), lost.end(), [](float weight) { return weight > 0.01f; }));
     const int instead = bones.empty() ? node : *std::min_element(bones.begin(), bones.end());
     size_t bare = 0;
     for (Influences& influences : part.influences) {

@@ -29,7 +29,8 @@ struct Part {
   std::vector<glm::vec3> normals;      // Not normalised.
   std::vector<Influences> influences;  // The strongest first; their weights sum to 1.
   std::vector<glm::mat3> turns;  // scene_from_mesh for directions; only if there are morph targets.
-  bool mirrored = false;         // The order of the corners of its triangles must be reversed.
+  size_t cut_skins = 0;   // Number of vertices that lost weight, because they had more bones.
+  bool mirrored = false;  // The order of the corners of its triangles must be reversed.
 };
 
 // Skins each mesh linearly to the bind pose. This is exact if all bones of a mesh agree on its
