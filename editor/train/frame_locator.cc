@@ -1,7 +1,8 @@
+#include "editor/train/frame_locator.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "editor/train/frame_locator.h"
 #include "shared/core/median.h"
 #include "shared/core/parallel.h"
 #include "shared/vision/guided_matcher.h"

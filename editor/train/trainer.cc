@@ -1,3 +1,5 @@
+#include "editor/train/trainer.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include "editor/train/frame_locator.h"
 #include "editor/train/image_mapping.h"
 #include "editor/train/survey.h"
-#include "editor/train/trainer.h"
 #include "editor/train/training_status.h"
 #include "shared/vision/camera_filter.h"
 

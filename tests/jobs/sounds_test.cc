@@ -31,11 +31,11 @@ TEST(FindSounds, OffersTheLibraryToAnEmptyProject) {
   EXPECT_THAT(Names(sounds),
               ElementsAre("brazier", "door", "grind", "lid", "pour", "room", "street"));
   const auto loaded = LoadSounds(ProjectPaths{folder.path()});
-  ASSERT_TRUE(loaded.ok()) << loaded.status().ToString();
+  ASSERT_TRUE(loaded.ok()) << loaded.message();
   ASSERT_EQ(loaded->size(), sounds.size());
   for (const audio::SoundData& sound : *loaded) {
     const auto reader = audio::SoundReader::Open(sound.bytes, sound.name);
-    ASSERT_TRUE(reader.ok()) << reader.status().ToString();
+    ASSERT_TRUE(reader.ok()) << reader.message();
   }
 }
 
