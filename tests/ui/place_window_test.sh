@@ -54,7 +54,7 @@ open_window 700 780 "$project"
 sleep 5
 press F8       # the messages leave the most room above
 click 90 147   # the first place
-wait_for 60 test -e "$project/sounds/brazier.flac" || fail "nothing was baked"
+wait_for 60 test -e "$project/speech/la/hail.flac" || fail "nothing was baked"
 sleep 4
 view training
 
@@ -114,7 +114,7 @@ press Escape
 saved '"spoken":\["la"\]' "$json" "no language is spoken"
 
 # A sound of the project's own.
-cp "$project/sounds/brazier.flac" "$out/bell.flac"
+cp "$(dirname "$0")/../../scenes/library/sounds/brazier.flac" "$out/bell.flac"
 click 1264 408
 fill 762 448 "$out/bell.flac"
 press Return
