@@ -416,7 +416,7 @@ class CaptionReader {
 
 // Overlaps that are not longer come from rounding and from fades, and are no captions to be read
 // together.
-constexpr double kShortOverlap = 0.5;  // seconds
+constexpr double kShortOverlap = 0.5;  // The unit is seconds.
 
 std::string OneRow(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -316,10 +316,7 @@ std::vector<Sentence> CheckTable(const ProjectPaths& paths,
     }
   }
   if (!lines.captions.empty()) {
-    const auto spoken = SpokenLines(paths, document, lines);
-    const auto font = spoken.ok() ? MakeCaptionFont(lines, *spoken, {}, problems)
-                                  : Result<render::CaptionFont>(spoken.status());
-    if (!font.ok()) {
+    if (const auto font = MakeCaptionFont(lines, spoken, {}, problems); !font.ok()) {
       problems.push_back(font.message());
     }
   }

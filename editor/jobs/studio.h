@@ -67,7 +67,7 @@ class Studio {
   Result<StudioShot> Shoot(const StudioView& view, cv::Size size);
 
   // A picture of an object alone in its state at the beginning of a drama, as large as fits; bgr,
-  // 8 bits. The frame of the view is not used. The loaded person stays.
+  // The image has 8 bits a channel. The frame of the view is not used. The loaded person stays.
   Result<cv::Mat> ShootThing(const std::shared_ptr<const stage::ObjectModel>& model,
                              cv::Size size,
                              const StudioView& view = kObliquely);

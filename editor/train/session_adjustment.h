@@ -27,7 +27,7 @@ struct PosedCameras {
                                          const Eigen::Vector3d& point,
                                          const Eigen::Vector2d& observed) const;
 };
-// Those of a map's keyframes.
+// Returns the poses and cameras of a map's keyframes.
 PosedCameras CamerasOf(const vision::SceneDatabase& map);
 
 // Adjusts the poses from index first_free on, and the points that they observe: minimises Cauchy's

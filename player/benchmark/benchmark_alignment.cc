@@ -36,7 +36,8 @@ constexpr double kMostDamping = 1e6;
 
 // ------------------------------------------------------------ centres
 
-// Standard deviations along the two longest principal axes, longest first.
+// Whether points lie nearly on a line: they spread across it by at most `bound` of their spread
+// along it.
 bool Flat(std::span<const Vector3d> points, double bound) {
   const Vector3d deviations = geometry::SpreadOf(points).deviations;
   return !(deviations[1] > bound * deviations[2]);
