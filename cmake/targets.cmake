@@ -4,6 +4,19 @@ function(lararium_library room)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(lararium_${room} STATIC ${arg_SOURCES})
   target_link_libraries(lararium_${room} PUBLIC lararium_options ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  lararium_precompile(lararium_${room} rooms)
+endfunction()
+
+# lararium_tuned(ROOM OPTIONS ... SOURCES ...)
+# Sources of a room that are compiled with further options. They make a target of their own, because a unity
+# build leaves out a source that has options of its own.
+function(lararium_tuned room)
+  cmake_parse_arguments(arg "" "" "OPTIONS;SOURCES" ${ARGN})
+  add_library(lararium_${room}_tuned OBJECT ${arg_SOURCES})
+  get_target_property(libraries lararium_${room} LINK_LIBRARIES)
+  target_link_libraries(lararium_${room}_tuned PRIVATE ${libraries})
+  target_compile_options(lararium_${room}_tuned PRIVATE ${arg_OPTIONS})
+  target_sources(lararium_${room} PRIVATE $<TARGET_OBJECTS:lararium_${room}_tuned>)
 endfunction()
 
 # lararium_flatbuffer(ROOM SCHEMA.fbs): generates SCHEMA_generated.h for that
@@ -50,8 +63,8 @@ function(lararium_test name)
   cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} lararium_test_support GTest::gmock GTest::gtest_main)
-  # Optimising the assertions would take a third of the time in which tests compile.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${name} PRIVATE ${lararium_test_options})
+  lararium_precompile(${name} tests)
   string(REGEX REPLACE "_(data_|gl_|ui_|slow_)?test$" "" room ${name})
   if(arg_LABEL MATCHES "^(unit|data|gl)$")
     lararium_test_program(${name} ${arg_LABEL} ${room}/${arg_LABEL} "*" "${arg_TIMEOUT}")

@@ -216,7 +216,8 @@ struct FilePortal::State {
     sd_bus_get_unique_name(bus.get(), &unique);
     std::string sender = unique != nullptr && unique[0] == ':' ? unique + 1 : "";
     std::replace(sender.begin(), sender.end(), '.', '_');
-    handle = std::string(kObject) + "/request/" + sender + "/" + token;
+    handle = kObject;
+    handle.append("/request/").append(sender).append("/").append(token);
     open = true;
     sd_bus_message* call = nullptr;
     Results results;

@@ -18,7 +18,7 @@ constexpr float kMaxGrowth = 1.0f;  // Largest difference from GuidedOptions::gr
 // ratio test alone would accept random matches.
 constexpr uint32_t kFarthest = 270 * 270;
 
-struct Nearest {
+struct NearestCandidate {
   uint32_t best = std::numeric_limits<uint32_t>::max();
   uint32_t second = std::numeric_limits<uint32_t>::max();
   uint32_t position = 0;
@@ -141,8 +141,8 @@ void FeatureGrid::VisitNearLine(const Eigen::Vector3d& line, double band, Visit 
 std::vector<FeatureMatch> MatchGuided(const FeatureGrid& a,
                                       const FeatureGrid& b,
                                       const GuidedOptions& options) {
-  std::vector<Nearest> of_a(a.size());
-  std::vector<Nearest> of_b(b.size());
+  std::vector<NearestCandidate> of_a(a.size());
+  std::vector<NearestCandidate> of_b(b.size());
   for (size_t i = 0; i < a.size(); ++i) {
     Eigen::Vector3d line = options.fundamental * a.point(i).homogeneous();
     const double length = line.head<2>().norm();
@@ -165,7 +165,7 @@ std::vector<FeatureMatch> MatchGuided(const FeatureGrid& a,
   const float squared_ratio = options.ratio * options.ratio;
   std::vector<FeatureMatch> matches;
   for (size_t i = 0; i < a.size(); ++i) {
-    const Nearest& forward = of_a[i];
+    const NearestCandidate& forward = of_a[i];
     if (forward.Distinct(squared_ratio) && of_b[forward.position].position == i &&
         of_b[forward.position].Distinct(squared_ratio)) {
       matches.push_back({a.index(i), b.index(forward.position)});

@@ -2,24 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "shared/core/parallel.h"
+#include "shared/vision/lanes.h"
 
 namespace lararium::vision {
 namespace {
-
-// Eight floats in one vector register, or in two on processors with shorter ones.
-using Lanes = float __attribute__((vector_size(32)));
-constexpr int kLanes = 8;
-
-inline Lanes Load(const float* from) {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof(lanes));
-  return lanes;
-}
-inline void Store(const Lanes& lanes, float* to) { std::memcpy(to, &lanes, sizeof(lanes)); }
 
 // Computes the centre and one side of a kernel whose sum is 1.
 void FillHalfKernel(float sigma, std::vector<float>& kernel) {
@@ -57,14 +46,14 @@ void Convolve(const std::vector<float>& kernel,
   const size_t taps = kernel.size();
   int x = 0;
   for (; x + 2 * kLanes <= width; x += 2 * kLanes) {
-    Lanes left = kernel[0] * Load(before[0] + x);
-    Lanes right = kernel[0] * Load(before[0] + x + kLanes);
+    Lanes left = kernel[0] * LoadLanes(before[0] + x);
+    Lanes right = kernel[0] * LoadLanes(before[0] + x + kLanes);
     for (size_t k = 1; k < taps; ++k) {
-      left += kernel[k] * (Load(before[k] + x) + Load(after[k] + x));
-      right += kernel[k] * (Load(before[k] + x + kLanes) + Load(after[k] + x + kLanes));
+      left += kernel[k] * (LoadLanes(before[k] + x) + LoadLanes(after[k] + x));
+      right += kernel[k] * (LoadLanes(before[k] + x + kLanes) + LoadLanes(after[k] + x + kLanes));
     }
-    Store(left, out + x);
-    Store(right, out + x + kLanes);
+    StoreLanes(left, out + x);
+    StoreLanes(right, out + x + kLanes);
   }
   for (; x < width; ++x) {
     float sum = kernel[0] * before[0][x];

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <utility>
+
+#include "shared/vision/lanes.h"
 
 namespace lararium::vision {
 namespace {
@@ -13,20 +14,8 @@ namespace {
 constexpr int kCells = 4;   // Number of cells along each side.
 constexpr int kAngles = 8;  // Number of orientation bins per cell.
 
-// The orientation bins of a cell in one vector register, or in two on processors with shorter ones.
-using Lanes = float __attribute__((vector_size(4 * kAngles)));
-using Indices = int32_t __attribute__((vector_size(4 * kAngles)));
+static_assert(kAngles == kLanes, "the orientation bins of a cell fill the lanes");
 static_assert(kRowPadding >= kAngles);
-
-inline Lanes Load(const float* from) {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof(lanes));
-  return lanes;
-}
-template <typename Vector, typename T>
-void Store(const Vector& lanes, T* to) {
-  std::memcpy(to, &lanes, sizeof(lanes));
-}
 
 // Clamps to [0, most]; NaN becomes 0.
 inline Lanes Clamped(const Lanes& values, float most) {
@@ -110,20 +99,22 @@ PaddedHistogram Accumulate(const cv::Mat& image,
       // Clamping matters only for rounding errors and for samples beyond the end of the row.
       const Lanes u = Clamped(cosine * dx + sine * dy + kReach, kLastCell);
       const Lanes v = Clamped(-sine * dx + cosine * dy + kReach, kLastCell);
-      const Indices iu = __builtin_convertvector(u, Indices);
-      const Indices iv = __builtin_convertvector(v, Indices);
+      const IntegerLanes iu = __builtin_convertvector(u, IntegerLanes);
+      const IntegerLanes iv = __builtin_convertvector(v, IntegerLanes);
       const Lanes fu = u - __builtin_convertvector(iu, Lanes);
       const Lanes fv = v - __builtin_convertvector(iv, Lanes);
-      const Lanes turned = Load(&memory.gradients.angle[i]) - oriented.angle;
-      const Lanes weight = weight_y * Load(weight_x + i) * Load(&memory.gradients.magnitude[i]);
+      const Lanes turned = LoadLanes(&memory.gradients.angle[i]) - oriented.angle;
+      const Lanes weight =
+          weight_y * LoadLanes(weight_x + i) * LoadLanes(&memory.gradients.magnitude[i]);
       const Lanes below = weight * (1.0f - fv);
       const Lanes above = weight * fv;
-      Store((turned < 0.0f ? turned + kTwoPi : turned) * (kAngles / kTwoPi), &samples.angle_bin[i]);
-      Store(iv * kPaddedCells + iu, &samples.cell[i]);
-      Store(below * (1.0f - fu), &samples.share[0][i]);
-      Store(below * fu, &samples.share[1][i]);
-      Store(above * (1.0f - fu), &samples.share[2][i]);
-      Store(above * fu, &samples.share[3][i]);
+      StoreLanes((turned < 0.0f ? turned + kTwoPi : turned) * (kAngles / kTwoPi),
+                 &samples.angle_bin[i]);
+      StoreLanes(iv * kPaddedCells + iu, &samples.cell[i]);
+      StoreLanes(below * (1.0f - fu), &samples.share[0][i]);
+      StoreLanes(below * fu, &samples.share[1][i]);
+      StoreLanes(above * (1.0f - fu), &samples.share[2][i]);
+      StoreLanes(above * fu, &samples.share[3][i]);
     }
     AddSamples(samples, count, histogram);
   }
