@@ -1,8 +1,6 @@
 #include "editor/jobs/filming.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "editor/text/text.h"
@@ -75,9 +73,7 @@ class Recorder {
   Status Add(const geometry::Frame& frame, FilmMoment& moment) {
     first_time_ = first_time_.value_or(frame.capture_time);
     const double seconds = frame.capture_time - *first_time_;
-    // Keeps the time of the recording where the camera dropped frames.
-    index_ = std::max<int64_t>(index_ + 1, std::llround(seconds * rate_));
-    LARARIUM_RETURN_IF_ERROR(writer_->Write(frame.bgr(even_), index_));
+    LARARIUM_RETURN_IF_ERROR(writer_->Write(frame.bgr(even_), seconds));
     moment.seconds = seconds;
     moment.coverage = guide_.Add(tracker_.Measure(frame.grey, seconds));
     moment.cells = guide_.cells();
@@ -93,20 +89,17 @@ class Recorder {
            const cv::Rect& even,
            std::unique_ptr<capture::VideoWriter> writer)
       : even_(even),
-        rate_(camera.frames_per_second()),
         writer_(std::move(writer)),
         model_(train::TypicalCamera(camera.width(), camera.height())),
         tracker_(model_),
         guide_(train::HalfView(model_)) {}
 
   cv::Rect even_;
-  double rate_;
   std::unique_ptr<capture::VideoWriter> writer_;
   geometry::CameraModel model_;
   train::CornerTracker tracker_;
   train::CoverageGuide guide_;
   std::optional<double> first_time_;
-  int64_t index_ = -1;
 };
 
 }  // namespace

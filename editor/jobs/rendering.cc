@@ -1,7 +1,6 @@
 #include "editor/jobs/rendering.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "editor/jobs/training.h"
@@ -54,7 +53,6 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   show::LockStep lock_step({*source, *poses, *show, statistics});
   show::StagedFrame staged;
   cv::Mat picture;
-  int64_t video_index = -1;
   const double frame_count = static_cast<double>(source->estimated_frame_count());
   while (true) {
     if (progress.Cancelled()) {
@@ -67,10 +65,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
     LARARIUM_RETURN_IF_ERROR(sound.Add(staged.sound));
     LARARIUM_RETURN_IF_ERROR(renderer->Draw(staged, target));
     target.ReadPixels(picture);
-    const auto index =
-        static_cast<int64_t>(std::llround(staged.sound.frame_time * source->frames_per_second()));
-    video_index = std::max(index, video_index + 1);
-    LARARIUM_RETURN_IF_ERROR(writer->Write(picture, video_index));
+    LARARIUM_RETURN_IF_ERROR(writer->Write(picture, staged.sound.frame_time));
     ++report.frames;
     report.tracked += staged.camera.camera_from_stage.has_value() ? 1 : 0;
     progress.Report("rendering", std::min(report.frames / std::max(frame_count, 1.0), 1.0));

@@ -1,8 +1,5 @@
 #include "player/app/recorder.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "shared/image/encode.h"
 #include "shared/vision/foreground/foreground_mask.h"
 
@@ -43,10 +40,7 @@ Status Recorder::Add(const show::StagedFrame& staged, const render::RenderTarget
   LARARIUM_RETURN_IF_ERROR(sound_->Add(staged.sound));
   if (video_ != nullptr) {
     target.ReadPixels(picture_);
-    const auto index =
-        static_cast<int64_t>(std::llround(staged.sound.frame_time * source_->frames_per_second()));
-    video_index_ = std::max(index, video_index_ + 1);
-    return video_->Write(picture_, video_index_);
+    return video_->Write(picture_, staged.sound.frame_time);
   }
   return Status();
 }

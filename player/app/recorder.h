@@ -43,7 +43,6 @@ class Recorder {
   const OutputOptions* options_;
   const capture::FrameSource* source_;
   std::unique_ptr<capture::VideoWriter> video_;
-  int64_t video_index_ = -1;                   // index of the last frame in the video
   std::optional<show::SoundRecording> sound_;  // always set by Create
   cv::Mat picture_;
   std::vector<vision::PoseRecord> poses_;

@@ -1,5 +1,7 @@
 #include "shared/capture/video_writer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr int kSoundChannels = 2;
 constexpr int64_t kSoundBits = 192'000;  // bits per second
+constexpr int kTicksPerSecond = 90'000;  // Whole numbers of them make the usual frame intervals.
 
 struct MuxerDeleter {
   void operator()(AVFormatContext* context) const {
@@ -36,7 +39,8 @@ struct VideoWriter::Encoder {
   LibavPtr<AVPacket> packet;
   LibavPtr<SwsContext> scaler;
   AVStream* stream = nullptr;
-  int64_t next_index = 0;
+  int64_t frame_ticks = 1;  // One frame interval.
+  int64_t last_ticks = -1;  // Time of the last frame; -1: there is none.
   // The sound encoder, if there is sound.
   LibavPtr<AVCodecContext> sound_codec;
   LibavPtr<AVFrame> sound_frame;
@@ -62,8 +66,9 @@ struct VideoWriter::Encoder {
     codec->width = width;
     codec->height = height;
     codec->pix_fmt = AV_PIX_FMT_YUV420P;
-    codec->time_base = av_inv_q(rate);
+    codec->time_base = {1, kTicksPerSecond};
     codec->framerate = rate;
+    frame_ticks = std::llround(kTicksPerSecond / frames_per_second);
     codec->color_range = AVCOL_RANGE_MPEG;
     codec->colorspace = AVCOL_SPC_BT709;
     codec->color_primaries = AVCOL_PRI_BT709;
@@ -169,7 +174,7 @@ struct VideoWriter::Encoder {
         return Problem("a frame cannot be encoded", error);
       }
       if (&to == stream) {
-        packet->duration = 1;
+        packet->duration = frame_ticks;
       }
       av_packet_rescale_ts(packet.get(), encoder.time_base, to.time_base);
       packet->stream_index = to.index;
@@ -250,11 +255,13 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::Create(const std::filesystem::
 
 Status VideoWriter::Write(const cv::Mat& bgr) {
   CHECK(encoder_ != nullptr);
-  return Write(bgr, encoder_->next_index);
+  const Encoder& e = *encoder_;
+  const int64_t ticks = e.last_ticks < 0 ? 0 : e.last_ticks + e.frame_ticks;
+  return Write(bgr, static_cast<double>(ticks) / kTicksPerSecond);
 }
 
-Status VideoWriter::Write(const cv::Mat& bgr, int64_t index) {
-  CHECK(encoder_ != nullptr && index >= encoder_->next_index);
+Status VideoWriter::Write(const cv::Mat& bgr, double seconds) {
+  CHECK(encoder_ != nullptr);
   Encoder& e = *encoder_;
   if (bgr.type() != CV_8UC3 || bgr.cols != e.codec->width || bgr.rows != e.codec->height) {
     return Status::Error(e.file.string(), "a frame is " + std::to_string(bgr.cols) + "x" +
@@ -268,8 +275,8 @@ Status VideoWriter::Write(const cv::Mat& bgr, int64_t index) {
   const uint8_t* planes[] = {bgr.data};
   const int strides[] = {static_cast<int>(bgr.step)};
   sws_scale(e.scaler.get(), planes, strides, 0, bgr.rows, e.picture->data, e.picture->linesize);
-  e.picture->pts = index;
-  e.next_index = index + 1;
+  e.last_ticks = std::max<int64_t>(std::llround(seconds * kTicksPerSecond), e.last_ticks + 1);
+  e.picture->pts = e.last_ticks;
   return e.Encode(*e.codec, e.picture.get(), *e.stream);
 }
 

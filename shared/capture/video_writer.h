@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/mat.hpp>
@@ -17,7 +16,8 @@ class VideoWriter {
  public:
   static constexpr int kSoundRate = 48'000;  // Samples per second of each of the two channels.
 
-  // width and height must be even.
+  // width and height must be even. frames_per_second: the rate in the mean; frames may come at any
+  // times.
   static Result<std::unique_ptr<VideoWriter>> Create(const std::filesystem::path& file,
                                                      int width,
                                                      int height,
@@ -27,9 +27,10 @@ class VideoWriter {
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
 
-  // bgr: CV_8UC3 of the writer's size, sRGB-encoded. It is shown from the time of the video's frame
-  // `index` until the next frame. Indices must increase.
-  Status Write(const cv::Mat& bgr, int64_t index);
+  // bgr: CV_8UC3 of the writer's size, sRGB-encoded. It is shown from a time (seconds from the
+  // beginning of the video) until the next frame. A time that is not later than that of the last
+  // frame counts as one just after it.
+  Status Write(const cv::Mat& bgr, double seconds);
   // Same as above, one frame interval after the last frame.
   Status Write(const cv::Mat& bgr);
   // Appends interleaved samples: left, right, ... The first sample is heard with frame 0. Requires

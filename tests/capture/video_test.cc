@@ -401,23 +401,24 @@ TEST(VideoWriter, AClickIsHeardWithItsFrame) {
   }
 }
 
-TEST(VideoWriter, FramesThatWereLeftOutLeaveTheirTime) {
+TEST(VideoWriter, FramesOfAVariableRateKeepTheirTimes) {
   const test::TemporaryFolder folder;
-  const auto file = folder / "gaps.mp4";
-  const int indices[] = {0, 1, 5, 6, 20};
+  const auto file = folder / "variable.mp4";
+  const double seconds[] = {0.0, 0.0333, 0.05, 0.1667, 0.1701, 0.6667, 2.0};
   auto writer = VideoWriter::Create(file, kWidth, kHeight, 30.0);
   ASSERT_TRUE(writer.ok());
-  for (const int index : indices) {
-    ASSERT_TRUE((*writer)->Write(NumberedImage(index), index).ok());
+  for (size_t i = 0; i < std::size(seconds); ++i) {
+    ASSERT_TRUE((*writer)->Write(NumberedImage(static_cast<int>(i)), seconds[i]).ok());
   }
+  ASSERT_TRUE((*writer)->Write(NumberedImage(7), 1.0).ok()) << "It comes just after the last one.";
   ASSERT_TRUE((*writer)->Finish().ok());
   const auto source = OpenVideo(file);
   ASSERT_TRUE(source.ok()) << source.message();
-  for (const int index : indices) {
+  for (size_t i = 0; i <= std::size(seconds); ++i) {
     const auto frame = (*source)->Next();
     ASSERT_TRUE(frame.ok() && frame->has_value());
-    EXPECT_EQ(ReadNumber((*frame)->grey), index);
-    EXPECT_NEAR((*frame)->capture_time, index / 30.0, 1e-3);
+    EXPECT_EQ(ReadNumber((*frame)->grey), static_cast<int>(i));
+    EXPECT_NEAR((*frame)->capture_time, i < std::size(seconds) ? seconds[i] : 2.0, 1e-4);
   }
 }
 
