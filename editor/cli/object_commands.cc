@@ -19,7 +19,7 @@ CommandResult ListObjects(const ProjectDocument& document) {
   result.json = Json::array();
   for (const ObjectDocument& object : document.objects) {
     result.text += object.name + ": " +
-                   (object.file.empty() ? object.model + ", built in" : object.file) +
+                   (object.file.empty() ? object.model + ", from the library" : object.file) +
                    Text("; at %.3f,%.3f,%.3f, heading %.1f degrees\n", object.position.x(),
                         object.position.y(), object.position.z(), object.heading);
     result.json.push_back(FormatFields(object));

@@ -1,7 +1,6 @@
 #include "editor/cli/stage_options.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <tuple>
 
@@ -9,7 +8,7 @@
 #include "editor/document/occluder_shape.h"
 #include "editor/document/place_edits.h"
 #include "editor/document/project.h"
-#include "editor/import/objects/object_models.h"
+#include "editor/import/objects/object_library.h"
 #include "editor/jobs/occluder_alignment.h"
 
 namespace lararium::editor {
@@ -204,17 +203,29 @@ void CheckOccluder(const OccluderOptions& occluder) {
   }
 }
 
+// The names of the library's objects, as the help shows the values of an option.
+std::string LibraryNames() {
+  std::string names;
+  for (const std::string& name : import::LibraryObjectNames()) {
+    names += (names.empty() ? "{" : ",") + name;
+  }
+  return names.empty() ? names : names + "}";
+}
+
 void AddObject(CLI::App* command, ObjectOptions& options) {
   AddProject(command, options.project);
-  const auto models = import::ObjectModelNames();
   CLI::Option_group* work = command->add_option_group("work", "Before the list");
   work->add_option("--add", options.add, "Add NAME, as the drama calls it");
   work->add_option("--set", options.set, "Change NAME");
   work->add_option("--remove", options.remove, "Remove NAME");
   work->require_option(0, 1);
   CLI::Option* model =
-      command->add_option("--model", options.model, "It is this built-in one")
-          ->check(CLI::IsMember(std::set<std::string>(models.begin(), models.end())));
+      command->add_option("--model", options.model, "It is this one of the library")
+          ->check(
+              [](const std::string& name) {
+                return import::FindLibraryObject(name).status().message();
+              },
+              LibraryNames());
   command
       ->add_option("--file", options.file,
                    "It is this model; how it is used is in NAME.object.json beside it")

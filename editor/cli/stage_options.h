@@ -76,7 +76,7 @@ struct ObjectOptions {
   std::string set = {};     // Name of an object to change.
   std::string remove = {};  // Name of an object to remove.
   // A new object needs one of these two.
-  std::string model = {};              // Name of a built-in model.
+  std::string model = {};              // Name of an object of the library.
   std::filesystem::path file = {};     // Model file, with NAME.object.json beside it.
   std::vector<double> at = {};         // x, y, z in metres; empty: unchanged.
   std::optional<double> heading = {};  // Degrees about +Y.

@@ -16,7 +16,7 @@ void DescribeFields(Fields& fields, ObjectDocument& object) {
   DescribePlainName(fields, "name", object.name);
   const bool has_model = fields.Has("model", object.file.empty());
   const bool has_file = fields.Has("file", !object.file.empty());
-  fields.Require(has_model != has_file, "must have either a built-in model or a file");
+  fields.Require(has_model != has_file, "must have either a model of the library or a file");
   fields.Text(Optional("model", has_model), object.model);
   fields.Text(Optional("file", has_file), object.file);
   DescribeVector(fields, "position", object.position);

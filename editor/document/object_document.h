@@ -13,7 +13,7 @@ namespace lararium::editor {
 // Exactly one of model and file is set.
 struct ObjectDocument {
   std::string name;   // The name that the drama uses.
-  std::string model;  // A built-in model; one of import::ObjectModelNames().
+  std::string model;  // An object of the library (import::FindLibraryObject()).
   std::string file;   // A model that the editor imports. NAME.object.json lies beside it.
   // The pose at the beginning of the drama, stage frame: metres, and degrees about +Y.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();

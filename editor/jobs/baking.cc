@@ -19,7 +19,7 @@
 #include "editor/import/model/model_import.h"
 #include "editor/import/motion/clip_import.h"
 #include "editor/import/objects/object_import.h"
-#include "editor/import/objects/object_models.h"
+#include "editor/import/objects/object_library.h"
 #include "editor/jobs/cast_library_fetch.h"
 #include "editor/jobs/sounds.h"
 #include "shared/bundle/sha256.h"
@@ -423,19 +423,26 @@ Result<std::vector<std::byte>> LitProp(const stage::Prop& prop, const std::strin
   return stage::SerializeProp(lit);
 }
 
-BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
-  const std::filesystem::path file = paths.Resolve(object.file);
+BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
   BakeStep step{"object " + object.name,
                 paths.Prop(object.name),
-                {file},
-                "object file, scenery in one part" + PropTransferSettings(),
+                {},
+                "object file, scenery in one part, emission" + PropTransferSettings(),
                 {}};
   step.cost = kCostOfObject;
-  const std::filesystem::path use = import::UseFileBeside(file);
-  if (use != file && FileExists(use)) {
+  const Result<std::filesystem::path> file = ObjectFile(paths, object);
+  if (!file.ok()) {
+    step.make = [status = file.status()](std::vector<std::string>&) {
+      return Result<std::vector<std::byte>>(status);
+    };
+    return step;
+  }
+  step.sources.push_back(*file);
+  const std::filesystem::path use = import::UseFileBeside(*file);
+  if (use != *file && FileExists(use)) {
     step.sources.push_back(use);
   }
-  step.make = [file, name = object.name](
+  step.make = [file = *file, name = object.name](
                   std::vector<std::string>& warnings) -> Result<std::vector<std::byte>> {
     std::vector<std::string> notes;
     LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop, import::ImportObject(file, notes));
@@ -445,23 +452,6 @@ BakeStep ImportedObjectStep(const ProjectPaths& paths, const ObjectDocument& obj
     return LitProp(prop, file.string());
   };
   return step;
-}
-
-BakeStep ObjectStep(const ProjectPaths& paths, const ObjectDocument& object) {
-  if (!object.file.empty()) {
-    return ImportedObjectStep(paths, object);
-  }
-  return {"object " + object.name,
-          paths.Prop(object.name),
-          {},
-          "object model with lights and sounds " + object.model + PropTransferSettings(),
-          [=](std::vector<std::string>&) -> Result<std::vector<std::byte>> {
-            LARARIUM_ASSIGN_OR_RETURN(const stage::Prop prop,
-                                      import::BuildObjectModel(object.model));
-            return LitProp(prop, object.name);
-          },
-          {},
-          kCostOfObject};
 }
 
 // Synthesising a voice is so fast that the steps for sound and visemes each do it.
@@ -630,6 +620,11 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
   }
   progress.Report("baking", 1.0);
   return report;
+}
+
+Result<std::filesystem::path> ObjectFile(const ProjectPaths& paths, const ObjectDocument& object) {
+  return object.file.empty() ? import::FindLibraryObject(object.model)
+                             : Result<std::filesystem::path>(paths.Resolve(object.file));
 }
 
 std::vector<std::string> ProductWarnings(const std::filesystem::path& product) {

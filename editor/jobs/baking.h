@@ -39,6 +39,10 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
                         Progress& progress,
                         BakeWhat what = BakeWhat::kAll);
 
+// The file that an object is imported from: its own, or that of its model in the library. Fails if
+// the library lacks the model.
+Result<std::filesystem::path> ObjectFile(const ProjectPaths& paths, const ObjectDocument& object);
+
 // The warnings with which a product was made, such as a texture that its model names and that
 // cannot be read. Empty if it was not made.
 std::vector<std::string> ProductWarnings(const std::filesystem::path& product);

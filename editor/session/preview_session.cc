@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/document/file_stamp.h"
+#include "editor/import/objects/object_import.h"
 #include "editor/jobs/baking.h"
 #include "editor/jobs/drawn_occluder.h"
 #include "editor/jobs/filming.h"
@@ -87,8 +88,10 @@ std::string PreviewSession::Key() const {
   }
   for (const ObjectDocument& object : document.objects) {
     // The pose can change without opening the preview again.
+    const Result<std::filesystem::path> file = ObjectFile(paths, object);
     key["objects"].push_back({object.name, object.model, object.file,
-                              object.file.empty() ? "" : FileStamp(paths.Resolve(object.file))});
+                              file.ok() ? FileStamp(*file) : "",
+                              file.ok() ? FileStamp(import::UseFileBeside(*file)) : ""});
   }
   return key.dump();
 }

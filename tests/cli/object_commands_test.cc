@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "editor/import/objects/object_models.h"
+#include "editor/import/objects/object_library.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::editor {
@@ -32,13 +32,14 @@ class ObjectCommands : public testing::Test {
 
   const test::TemporaryFolder folder_;
   const ProjectPaths paths_{folder_ / "tavern.lararium"};
-  const std::string model_{import::ObjectModelNames().front()};
+  const std::string model_ = import::LibraryObjectNames().front();
 };
 
 TEST_F(ObjectCommands, AThingIsAddedPlacedAndRemoved) {
   const auto added = Object({.add = "jug", .model = model_, .at = {1, 0.9, -2}});
   ASSERT_TRUE(added.ok()) << added.message();
-  EXPECT_THAT(added->text, HasSubstr("jug: " + model_ + ", built in; at 1.000,0.900,-2.000"));
+  EXPECT_THAT(added->text,
+              HasSubstr("jug: " + model_ + ", from the library; at 1.000,0.900,-2.000"));
   ASSERT_TRUE(Object({.set = "jug", .heading = 45.0}).ok());
   EXPECT_EQ(Saved().objects[0].position, Eigen::Vector3d(1, 0.9, -2)) << "as it was";
   EXPECT_EQ(Saved().objects[0].heading, 45.0);

@@ -18,6 +18,7 @@ BuiltModel Built() {
   model.human.materials = {{.name = "skin"}};
   model.images = {{"skin.png", {std::byte{1}, std::byte{2}, std::byte{3}}}};
   model.uses = {{.colour = 0}};
+  model.emissions = {{2.0f, 0.5f, 0.0f}};
   model.bones = {{"l_elbow", "LeftForeArm"}};
   model.is_human = true;
   model.bone_table = "l_elbow LeftForeArm";
@@ -40,6 +41,7 @@ TEST(BuiltModel, ComesBackFromAnotherProcessAsItWas) {
   ASSERT_EQ(got->uses.size(), 1u);
   EXPECT_EQ(got->uses[0].colour, 0);
   EXPECT_EQ(got->uses[0].normal, -1);
+  EXPECT_EQ(got->emissions, sent.emissions);
   EXPECT_EQ(got->bones, sent.bones);
   EXPECT_TRUE(got->is_human);
   EXPECT_EQ(got->bone_table, sent.bone_table);
@@ -58,10 +60,14 @@ TEST(BuiltModel, IsRefusedWhereItUsesImagesThatItLacks) {
     EXPECT_EQ(UnpackModel(Packed(model), "a.glb").message(),
               "a.glb: its reader returned invalid data");
   }
-  BuiltModel model = Built();
-  model.uses.clear();  // Fewer than materials.
-  EXPECT_EQ(UnpackModel(Packed(model), "a.glb").message(),
-            "a.glb: its reader returned invalid data");
+  BuiltModel without_uses = Built();
+  without_uses.uses.clear();  // Fewer than materials.
+  BuiltModel without_emissions = Built();
+  without_emissions.emissions.clear();
+  for (const BuiltModel& model : {without_uses, without_emissions}) {
+    EXPECT_EQ(UnpackModel(Packed(model), "a.glb").message(),
+              "a.glb: its reader returned invalid data");
+  }
 }
 
 TEST(BuiltModel, IsRefusedWhereAPieceOfItsFigureIsMissing) {

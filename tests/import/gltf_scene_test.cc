@@ -354,6 +354,7 @@ TEST_F(ReadGltf, TellsWhatIsNotTakenOver) {
   model.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 0}});
   model.json["materials"] = {
       {{"emissiveFactor", {1, 1, 1}},
+       {"emissiveTexture", {{"index", 0}}},
        {"alphaMode", "BLEND"},
        {"extensions", {{"KHR_materials_unlit", Json::object()}, {"KHR_materials_sheen", 0}}}}};
   const auto scene = Read(model);
@@ -361,7 +362,8 @@ TEST_F(ReadGltf, TellsWhatIsNotTakenOver) {
   ASSERT_EQ(notes_.structure.size(), 1u);
   EXPECT_THAT(notes_.structure[0], HasSubstr("points and lines"));
   ASSERT_EQ(notes_.surface.size(), 1u);
-  for (const char* what : {"emission", "half transparency", "unlit", "KHR_materials_sheen"}) {
+  for (const char* what :
+       {"textures of emission", "half transparency", "unlit", "KHR_materials_sheen"}) {
     EXPECT_THAT(notes_.surface[0], HasSubstr(what));
   }
 }

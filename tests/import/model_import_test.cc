@@ -169,6 +169,15 @@ TEST_F(ModelImport, CountsVerticesWhoseColoursAndTextureCoordinatesAreInvalid) {
   EXPECT_EQ(imported->human.meshes[0].albedo[1], glm::vec3(1.0f));
 }
 
+TEST_F(ModelImport, SaysThatPeopleDoNotShine) {
+  test::GlbFigure model = test::MakeGlbFigure(PlainSkeleton());
+  model.json["materials"] = {{{"emissiveFactor", {0, 0.5, 0}}}};
+  model.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const auto imported = ImportPerson(Write("ghost.glb", model));
+  ASSERT_TRUE(imported.ok()) << imported.message();
+  EXPECT_THAT(imported->notes, ::testing::Contains(HasSubstr("emission")));
+}
+
 TEST_F(ModelImport, RefusesImpossibleOptions) {
   ImportOptions options;
   options.metres_per_unit = 0.0f;

@@ -63,6 +63,23 @@ TEST_F(ReadSurfacesTest, TakesColoursForLinearInAGltfAndForSrgbElsewhere) {
   EXPECT_EQ(Read().vertex_colours[0].x, 0.5f);
 }
 
+TEST_F(ReadSurfacesTest, ReadsEmissionThatNoTextureVaries) {
+  const aiColor3D emission(0.5f, 0.0f, -1.0f);
+  const aiString path("glow.png");
+  Add("embers", {0.0f, 0.0f, 0.0f}).AddProperty(&emission, 1, AI_MATKEY_COLOR_EMISSIVE);
+  aiMaterial& varied = Add("lamp", {0.0f, 0.0f, 0.0f});
+  varied.AddProperty(&emission, 1, AI_MATKEY_COLOR_EMISSIVE);
+  varied.AddProperty(&path, AI_MATKEY_TEXTURE_EMISSIVE(0));
+  Use(0);
+  Use(1);
+  const ModelSurfaces surfaces = Read();
+  EXPECT_NEAR(surfaces.emissions.at(0).x, 0.21404f, 1e-4f);
+  EXPECT_EQ(surfaces.emissions[0].z, 0.0f);
+  EXPECT_EQ(surfaces.emissions.at(1), glm::vec3(0.0f));
+  model_.gltf.emplace();
+  EXPECT_EQ(Read().emissions.at(0).x, 0.5f);
+}
+
 TEST_F(ReadSurfacesTest, ReadsOnlyTheMaterialsThatPartsUse) {
   Add("first", {0.1f, 0.1f, 0.1f});
   Add("second", {0.1f, 0.1f, 0.1f});

@@ -9,7 +9,8 @@
 
 #include "editor/import/cast/cast_builder.h"
 #include "editor/import/cast/cast_presets.h"
-#include "editor/import/objects/object_models.h"
+#include "editor/import/objects/object_import.h"
+#include "editor/import/objects/object_library.h"
 #include "shared/human/animator.h"
 #include "shared/human/turns.h"
 #include "shared/stage/stage.h"
@@ -44,7 +45,9 @@ class Watched {
   }
 
   stage::ObjectId Add(const char* model, glm::vec3 at, const char* name = nullptr) {
-    auto object = stage::ObjectModel::Create(*BuildObjectModel(model), model);
+    std::vector<std::string> notes;
+    auto object =
+        stage::ObjectModel::Create(*ImportObject(*FindLibraryObject(model), notes), model);
     EXPECT_TRUE(object.ok());
     return *stage_.AddObject(name == nullptr ? model : name, *object, {at});
   }

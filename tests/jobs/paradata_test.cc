@@ -118,7 +118,7 @@ TEST_F(ParadataTest, CreditsNameAuthorsLicencesLettersVoicesAndSources) {
   const std::string& text = credits->text;
   EXPECT_THAT(text, HasSubstr("A bar\nFilmed by M\n"));
   EXPECT_THAT(text, HasSubstr("Lararium's built-in figure, Apache-2.0 (keeper)"));
-  EXPECT_THAT(text, HasSubstr("(cup)"));
+  EXPECT_THAT(text, HasSubstr("Modelled for Lararium after finds in Pompeii, Apache-2.0 (cup)"));
   EXPECT_THAT(text, HasSubstr("The museum; CC0-1.0 (objects cup)"));
   EXPECT_THAT(text, HasSubstr("B; CC0-1.0 (lines salvete)"));
   EXPECT_THAT(text, HasSubstr("CIL IV 1679 (objects cup)"));

@@ -34,10 +34,10 @@ std::span<const std::byte> TakeBlock(std::span<const std::byte>& bytes) {
 }  // namespace
 
 Result<std::vector<std::byte>> PackModel(const BuiltModel& model) {
-  Json head = {{"bones", model.bones},           {"is_human", model.is_human},
-               {"bone_table", model.bone_table}, {"notes", model.notes},
-               {"images", Json::array()},        {"uses", Json::array()},
-               {"joints", Json::array()},        {"bone_names", model.bone_names}};
+  Json head = {
+      {"bones", model.bones},    {"is_human", model.is_human},     {"bone_table", model.bone_table},
+      {"notes", model.notes},    {"images", Json::array()},        {"uses", Json::array()},
+      {"joints", Json::array()}, {"bone_names", model.bone_names}, {"emissions", Json::array()}};
   for (const NamedBone& named : model.joints) {
     head["joints"].push_back(
         {named.joint, named.bone, static_cast<int>(named.found_by), named.confidence});
@@ -47,6 +47,9 @@ Result<std::vector<std::byte>> PackModel(const BuiltModel& model) {
   }
   for (const TextureUse& use : model.uses) {
     head["uses"].push_back({use.colour, use.normal});
+  }
+  for (const glm::vec3& emission : model.emissions) {
+    head["emissions"].push_back({emission.x, emission.y, emission.z});
   }
   const std::string text = DumpJson(head);
   std::vector<std::byte> bytes;
@@ -88,10 +91,15 @@ Result<BuiltModel> UnpackModel(std::span<const std::byte> bytes, const std::stri
         return Status::Error(where, "its reader returned invalid data");
       }
     }
+    for (const Json& emission : head.at("emissions")) {
+      model.emissions.emplace_back(emission.at(0).get<float>(), emission.at(1).get<float>(),
+                                   emission.at(2).get<float>());
+    }
   } catch (const Json::exception&) {
     return Status::Error(where, "its reader returned invalid data");
   }
-  if (model.uses.size() != model.human.materials.size()) {
+  if (model.uses.size() != model.human.materials.size() ||
+      model.emissions.size() != model.human.materials.size()) {
     return Status::Error(where, "its reader returned invalid data");
   }
   return model;

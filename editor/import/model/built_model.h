@@ -14,10 +14,11 @@
 namespace lararium::import {
 
 struct BuiltModel {
-  human::Human human;              // Has no textures.
-  std::vector<ModelImage> images;  // Input of PrepareTexture.
-  std::vector<TextureUse> uses;    // Indices into `images`, parallel to `human.materials`.
-  BoneNames bones;                 // This and the following fields are those of ImportedHuman.
+  human::Human human;                // Has no textures.
+  std::vector<ModelImage> images;    // Input of PrepareTexture.
+  std::vector<TextureUse> uses;      // Indices into `images`, parallel to `human.materials`.
+  std::vector<glm::vec3> emissions;  // They become ImportedHuman::emissions.
+  BoneNames bones;                   // This and the following fields are those of ImportedHuman.
   bool is_human = false;
   std::string bone_table;
   std::vector<NamedBone> joints;

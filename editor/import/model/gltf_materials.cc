@@ -12,6 +12,7 @@ namespace lararium::import {
 namespace {
 
 constexpr size_t kRepeat = 10497, kNearest = 9728;
+constexpr char kEmissiveStrength[] = "KHR_materials_emissive_strength";
 
 const Json& At(const GltfDocument& document, const char* list, size_t index) {
   return document.json[list][index];
@@ -116,6 +117,7 @@ class MaterialReader {
     }
     AddReflection(source, *material);
     AddAlpha(source, colours.texture != nullptr, *material);
+    AddEmission(source, *material);
     ListWhatIsLeftOut(source);
     return material;
   }
@@ -153,12 +155,23 @@ class MaterialReader {
     }
   }
 
-  void ListWhatIsLeftOut(const Json& source) {
-    std::array<float, 3> emission = {0.0f, 0.0f, 0.0f};
-    ReadNumbers(source, "emissiveFactor", emission);
-    if (emission[0] + emission[1] + emission[2] > 0.0f) {
-      left_out_.insert("emission");
+  void AddEmission(const Json& source, aiMaterial& material) {
+    std::array<float, 3> factor = {0.0f, 0.0f, 0.0f};
+    if (!ReadNumbers(source, "emissiveFactor", factor)) {
+      return;
     }
+    const Json* extension = FindExtension(source, kEmissiveStrength);
+    const float strength =
+        extension == nullptr ? 1.0f : NumberOr(*extension, "emissiveStrength", 1.0f);
+    if (Find(source, "emissiveTexture") != nullptr) {
+      left_out_.insert("textures of emission");
+      return;
+    }
+    const aiColor3D emission(strength * factor[0], strength * factor[1], strength * factor[2]);
+    material.AddProperty(&emission, 1, AI_MATKEY_COLOR_EMISSIVE);
+  }
+
+  void ListWhatIsLeftOut(const Json& source) {
     if (Find(source, "occlusionTexture") != nullptr) {
       left_out_.insert("occlusion textures");
     }
@@ -167,8 +180,10 @@ class MaterialReader {
       return;
     }
     for (const auto& [name, value] : extensions->items()) {
-      left_out_.insert(name == "KHR_materials_unlit" ? "being unlit (it is lit like all people)"
-                                                     : name.substr(0, 64));
+      if (name != kEmissiveStrength) {
+        left_out_.insert(name == "KHR_materials_unlit" ? "being unlit (it is lit like all people)"
+                                                       : name.substr(0, 64));
+      }
     }
   }
 

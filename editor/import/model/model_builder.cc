@@ -39,8 +39,13 @@ Status AddBody(const ModelScene& model,
   human.materials = std::move(surfaces.materials);
   built.images = std::move(surfaces.images);
   built.uses = std::move(surfaces.uses);
+  built.emissions = std::move(surfaces.emissions);
   if (IsRigid(content)) {
     return Status();
+  }
+  if (std::ranges::any_of(built.emissions,
+                          [](const glm::vec3& e) { return e != glm::vec3(0.0f); })) {
+    built.notes.emplace_back("people do not shine: the emission of its materials is left out");
   }
   LARARIUM_ASSIGN_OR_RETURN(ModelMorphs morphs, ReadMorphs(model, parts, skeleton));
   human.face = BuildFace(model, morphs, skeleton, built.notes);

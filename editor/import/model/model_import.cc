@@ -72,6 +72,7 @@ Result<ImportedHuman> Import(const std::filesystem::path& file,
                                                   : Build(file, options, content));
   ImportedHuman imported;
   imported.human = std::move(model.human);
+  imported.emissions = std::move(model.emissions);
   imported.bones = std::move(model.bones);
   imported.is_human = model.is_human;
   imported.bone_table = std::move(model.bone_table);

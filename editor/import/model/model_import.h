@@ -29,10 +29,11 @@ struct ImportOptions {
 
 struct ImportedHuman {
   human::Human human;
-  BoneNames bones;                // The map that was used; SaveBoneNames stores it.
-  bool is_human = false;          // Legs, arms and head were found.
-  std::string bone_table;         // Text for people: joint, bone, how it was found, confidence.
-  std::vector<NamedBone> joints;  // The same data for programs.
+  std::vector<glm::vec3> emissions;  // Linear radiance that each material of a thing emits.
+  BoneNames bones;                   // The map that was used; SaveBoneNames stores it.
+  bool is_human = false;             // Legs, arms and head were found.
+  std::string bone_table;            // Text for people: joint, bone, how it was found, confidence.
+  std::vector<NamedBone> joints;     // The same data for programs.
   std::vector<std::string> bone_names;  // All bones that a map can name.
   std::vector<std::string> notes;       // Guesses, and parts that were left out.
 };

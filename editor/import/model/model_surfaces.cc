@@ -20,6 +20,7 @@ namespace {
 
 constexpr size_t kMaxMaterials = 1000;
 constexpr size_t kMaxImageBytes = size_t{256} << 20;
+constexpr float kMaxEmission = 1e3f;  // A thousand times white.
 
 // Guesses the kind of surface from the name of the material.
 human::Surface SurfaceOf(const std::string& name) {
@@ -62,6 +63,21 @@ glm::vec3 ColourOf(const aiMaterial& material, bool is_linear) {
   glm::vec3 result(colour.r, colour.g, colour.b);
   for (int c = 0; c < 3; ++c) {
     result[c] = std::isfinite(result[c]) ? std::clamp(result[c], 0.0f, 1.0f) : 1.0f;
+    result[c] = is_linear ? result[c] : LinearFromSrgb(result[c]);
+  }
+  return result;
+}
+
+// Emission that a texture varies over the surface is not read.
+glm::vec3 EmissionOf(const aiMaterial& material, bool is_linear) {
+  aiColor3D colour;
+  if (material.Get(AI_MATKEY_COLOR_EMISSIVE, colour) != AI_SUCCESS ||
+      material.GetTextureCount(aiTextureType_EMISSIVE) > 0) {
+    return glm::vec3(0.0f);
+  }
+  glm::vec3 result(colour.r, colour.g, colour.b);
+  for (int c = 0; c < 3; ++c) {
+    result[c] = std::isfinite(result[c]) ? std::clamp(result[c], 0.0f, kMaxEmission) : 0.0f;
     result[c] = is_linear ? result[c] : LinearFromSrgb(result[c]);
   }
   return result;
@@ -131,6 +147,7 @@ class SurfaceReader {
     const glm::vec3 colour = ColourOf(source, model_.gltf.has_value());
     material.colour = textured ? colour : glm::vec3(1.0f);
     read_.vertex_colours.push_back(textured ? glm::vec3(1.0f) : colour);
+    read_.emissions.push_back(EmissionOf(source, model_.gltf.has_value()));
     read_.materials.push_back(material);
     read_.uses.push_back(use);
   }

@@ -19,6 +19,7 @@ struct ModelSurfaces {
   std::vector<human::Material> materials;  // Have no textures.
   std::vector<TextureUse> uses;            // Parallel to `materials`.
   std::vector<glm::vec3> vertex_colours;   // Linear colour of the vertices of each material.
+  std::vector<glm::vec3> emissions;        // Emitted linear radiance of each material.
   std::vector<ModelImage> images;          // Each image occurs once.
   // Index into `materials` for each material of the scene, or Material::kNone.
   std::vector<int16_t> material_of;

@@ -98,7 +98,8 @@ std::vector<bool> NeededJoints(const human::Human& model) {
   return needed;
 }
 
-Result<stage::Prop> FromModel(const human::Human& model, const std::filesystem::path& file) {
+Result<stage::Prop> FromModel(const ImportedHuman& imported, const std::filesystem::path& file) {
+  const human::Human& model = imported.human;
   stage::Prop prop;
   prop.name = file.stem().string();
   prop.credits = model.credits;
@@ -125,8 +126,11 @@ Result<stage::Prop> FromModel(const human::Human& model, const std::filesystem::
   }
   for (const human::SkinnedMesh& mesh : model.meshes) {
     const size_t joint = JointOf(mesh);
-    prop.parts[size_t(part_of[joint])].meshes.push_back(
-        ToPropMesh(mesh, model.skeleton.joint_from_actor[joint]));
+    std::vector<stage::PropMesh>& meshes = prop.parts[size_t(part_of[joint])].meshes;
+    meshes.push_back(ToPropMesh(mesh, model.skeleton.joint_from_actor[joint]));
+    if (mesh.material != human::Material::kNone) {
+      meshes.back().emission = imported.emissions[size_t(mesh.material)];
+    }
   }
   return prop;
 }
@@ -149,7 +153,7 @@ Result<stage::Prop> ImportObject(const std::filesystem::path& file,
   LARARIUM_ASSIGN_OR_RETURN(std::string use, FindUse(file));
   LARARIUM_ASSIGN_OR_RETURN(ImportedHuman model, ImportThing(file, !use.empty()));
   notes = std::move(model.notes);
-  LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, FromModel(model.human, file));
+  LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, FromModel(model, file));
   prop.use = std::move(use);
   LARARIUM_RETURN_IF_ERROR(prop.Validate(file.string()));
   return prop;

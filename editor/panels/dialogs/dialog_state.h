@@ -39,7 +39,7 @@ struct DialogFields {
   std::string intrinsics;
   std::string camera = "0";     // A number, or a recording that is played like a camera.
   std::string preset;           // The preset of a person; empty: none.
-  int model = 0;                // Index of a built-in object.
+  std::string model;            // An object of the library.
   bool images = false;          // The recording is a folder of images.
   bool own_model = false;       // The new occluder is a file instead of a shape.
   editor::OccluderShape shape;  // The shape of the new occluder.

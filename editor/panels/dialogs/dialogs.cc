@@ -12,7 +12,7 @@
 #include "editor/document/document_fields.h"
 #include "editor/document/titles.h"
 #include "editor/import/cast/cast_presets.h"
-#include "editor/import/objects/object_models.h"
+#include "editor/import/objects/object_library.h"
 #include "editor/panels/dialogs/export_panel.h"
 #include "editor/panels/dialogs/key_list.h"
 #include "editor/panels/dialogs/training_report_panel.h"
@@ -353,21 +353,28 @@ void CastDialog(editor::Workspace& workspace,
   }
 }
 
-// The choice of a built-in object.
-void BuiltInObject(DialogFields& fields) {
-  const auto name_of = [](void*, int index, const char** text) {
-    *text = import::ObjectModelNames()[static_cast<size_t>(index)].data();
-    return true;
-  };
-  ImGui::Combo("##model", &fields.model, name_of, nullptr,
-               static_cast<int>(import::ObjectModelNames().size()));
+// The choice of an object of the library; the first one at the beginning.
+void LibraryObject(std::string& model) {
+  if (model.empty()) {
+    const std::vector<std::string> names = import::LibraryObjectNames();
+    model = names.empty() ? "" : names.front();
+  }
+  if (!ImGui::BeginCombo("##model", model.c_str())) {
+    return;
+  }
+  for (const std::string& name : import::LibraryObjectNames()) {
+    if (ImGui::Selectable(name.c_str(), name == model)) {
+      model = name;
+    }
+  }
+  ImGui::EndCombo();
 }
 
-// A built-in object or a model. Without a name it is named after its model.
+// An object of the library or a model. Without a name it is named after its model.
 void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& dialogs) {
   Hint(Tr("A thing that people of the drama use. Where it stands is chosen afterwards."));
   DialogFields& fields = dialogs.fields;
-  const char* const ways[] = {Tr("Built in"), Tr("A model of your own")};
+  const char* const ways[] = {Tr("From the library"), Tr("A model of your own")};
   int way = fields.own_model ? 1 : 0;
   if (Segmented("way", ways, way)) {
     fields.own_model = way == 1;
@@ -380,8 +387,8 @@ void ObjectDialog(editor::Workspace& workspace, Selection& selection, Dialogs& d
       PathField("file", fields.file, workspace.project().paths().folder, FileType::kMesh);
       object.file = DocumentPath(workspace, fields.file);
     } else {
-      BuiltInObject(fields);
-      object.model = import::ObjectModelNames()[static_cast<size_t>(fields.model)];
+      LibraryObject(fields.model);
+      object.model = fields.model;
     }
     EndProperties();
   }

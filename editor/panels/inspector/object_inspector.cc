@@ -20,8 +20,9 @@ void DrawObject(editor::Workspace& workspace,
   editor::ObjectDocument edited = object;
   bool changed = false;
   if (BeginProperties("object")) {
-    PropertyText(Tr("Model"), object.file.empty() ? Text(Tr("%s, built in"), object.model.c_str())
-                                                  : object.file);
+    PropertyText(Tr("Model"), object.file.empty()
+                                  ? Text(Tr("%s, from the library"), object.model.c_str())
+                                  : object.file);
     changed = VectorProperty(workspace, Tr("Position"), edited.position, 0.005, "%.3f m");
     changed |= NumberProperty(workspace, Tr("Heading"), edited.heading, 0.5, -360.0, 360.0,
                               "%.0f\xc2\xb0");
