@@ -141,26 +141,65 @@ std::optional<uint32_t> NumberedCharacter(std::string_view entity) {
   return whole && scalar ? std::optional(value) : std::nullopt;
 }
 
-// Decodes the entity at the beginning of the row and removes it; false if there is none.
+// The character from U+00A0 to U+00FF that HTML gives this name.
+std::optional<uint32_t> NamedLatinCharacter(std::string_view name) {
+  // In order of the characters, each followed by a blank.
+  constexpr std::string_view kNames =
+      "nbsp iexcl cent pound curren yen brvbar sect uml copy ordf laquo not shy reg "
+      "macr deg plusmn sup2 sup3 acute micro para middot cedil sup1 ordm raquo "
+      "frac14 frac12 frac34 iquest Agrave Aacute Acirc Atilde Auml Aring AElig "
+      "Ccedil Egrave Eacute Ecirc Euml Igrave Iacute Icirc Iuml ETH Ntilde Ograve "
+      "Oacute Ocirc Otilde Ouml times Oslash Ugrave Uacute Ucirc Uuml Yacute THORN "
+      "szlig agrave aacute acirc atilde auml aring aelig ccedil egrave eacute ecirc "
+      "euml igrave iacute icirc iuml eth ntilde ograve oacute ocirc otilde ouml "
+      "divide oslash ugrave uacute ucirc uuml yacute thorn yuml ";
+  const std::string word = std::string(name) + " ";
+  const size_t at = kNames.find(word);
+  if (name.empty() || at == std::string_view::npos || (at > 0 && kNames[at - 1] != ' ')) {
+    return std::nullopt;
+  }
+  const auto before = std::count(kNames.begin(), kNames.begin() + static_cast<ptrdiff_t>(at), ' ');
+  return 0xA0 + static_cast<uint32_t>(before);
+}
+
+// The length of "&name;" or "&#39;" at the beginning of the row; 0 if there is none.
+size_t EntityLength(std::string_view row) {
+  constexpr size_t kLongest = 12;
+  if (!row.starts_with('&')) {
+    return 0;
+  }
+  const size_t end =
+      row.substr(0, kLongest)
+          .find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789#", 1);
+  return end != std::string_view::npos && end > 1 && row[end] == ';' ? end + 1 : 0;
+}
+
+// Decodes the entity at the beginning of the row and removes it; false if there is none that is
+// known.
 bool TakeEntity(std::string_view& row, std::string& plain) {
   constexpr std::pair<std::string_view, std::string_view> kEntities[] = {
-      {"amp", "&"},  {"lt", "<"},          {"gt", ">"}, {"quot", "\""},
-      {"apos", "'"}, {"nbsp", "\xC2\xA0"}, {"lrm", ""}, {"rlm", ""}};
-  const size_t end = row.substr(0, 12).find(';');
-  if (!row.starts_with('&') || end == std::string_view::npos) {
+      {"amp", "&"},   {"lt", "<"},     {"gt", ">"},     {"quot", "\""}, {"apos", "'"},
+      {"lrm", ""},    {"rlm", ""},     {"hellip", "…"}, {"ndash", "–"}, {"mdash", "—"},
+      {"lsquo", "‘"}, {"rsquo", "’"},  {"sbquo", "‚"},  {"ldquo", "“"}, {"rdquo", "”"},
+      {"bdquo", "„"}, {"lsaquo", "‹"}, {"rsaquo", "›"}, {"OElig", "Œ"}, {"oelig", "œ"},
+      {"euro", "€"}};
+  const size_t length = EntityLength(row);
+  if (length == 0) {
     return false;
   }
-  const std::string_view name = row.substr(1, end - 1);
+  const std::string_view name = row.substr(1, length - 2);
   const auto known = std::find_if(std::begin(kEntities), std::end(kEntities),
                                   [name](const auto& entity) { return entity.first == name; });
   if (known != std::end(kEntities)) {
     plain += known->second;
-  } else if (const std::optional<uint32_t> character = NumberedCharacter(name)) {
-    AppendCharacter(*character, plain);
+  } else if (const auto numbered = NumberedCharacter(name)) {
+    AppendCharacter(*numbered, plain);
+  } else if (const auto latin = NamedLatinCharacter(name)) {
+    AppendCharacter(*latin, plain);
   } else {
     return false;
   }
-  row.remove_prefix(end + 1);
+  row.remove_prefix(length);
   return true;
 }
 
@@ -174,8 +213,9 @@ size_t TagLength(std::string_view row) {
 }
 
 // Removes tags and decodes entities, and the line breaks and blanks of SubStation Alpha ("\N" and
-// "\h"), which programs leave in other formats.
-std::string PlainRow(std::string_view row) {
+// "\h"), which programs leave in other formats. The first entity that is not known is given back in
+// `unknown`.
+std::string PlainRow(std::string_view row, std::string& unknown) {
   std::string plain;
   while (!row.empty()) {
     if (const size_t tag = TagLength(row)) {
@@ -184,6 +224,7 @@ std::string PlainRow(std::string_view row) {
       plain += row[1] == 'N' ? '\n' : ' ';
       row.remove_prefix(2);
     } else if (!TakeEntity(row, plain)) {
+      unknown = unknown.empty() ? row.substr(0, EntityLength(row)) : unknown;
       plain += row.front();
       row.remove_prefix(1);
     }
@@ -318,9 +359,9 @@ class CaptionReader {
     return (adjacent && alone) || (number && (adjacent || alone)) ? id : timing;
   }
 
-  void Note(size_t row, const std::string& what) {
+  void Note(size_t row, const std::string& what, const char* outcome = "it was left out") {
     if (file_.notes.size() < kMaxNotes) {
-      file_.notes.push_back("line " + std::to_string(row + 1) + ": " + what + "; it was left out");
+      file_.notes.push_back("line " + std::to_string(row + 1) + ": " + what + "; " + outcome);
     } else {
       ++unsaid_;
     }
@@ -398,7 +439,11 @@ class CaptionReader {
         row = EndOfAside(row, end);
         continue;
       }
-      const std::string plain = PlainRow(rows_[row].text);
+      std::string unknown;
+      const std::string plain = PlainRow(rows_[row].text, unknown);
+      if (!unknown.empty()) {
+        Note(row, "\"" + unknown + "\" is not the name of a character", "it is shown as it is");
+      }
       text += (text.empty() || plain.empty() ? "" : "\n") + plain;
     }
     return text;

@@ -86,19 +86,21 @@ void SetEffect(ALuint effect, const EFXEAXREVERBPROPERTIES& p, float db) {
 // Converts to stereo, where both ears get a mono sound, or to mono, where a stereo sound becomes
 // one point.
 void Convert(std::span<const int16_t> samples,
-             int channels,
+             const Clip& clip,
              bool to_stereo,
              std::vector<int16_t>& converted) {
   converted.clear();
   if (to_stereo) {
     for (const int16_t sample : samples) {
-      converted.insert(converted.end(), channels == 1 ? 2 : 1, sample);
+      converted.insert(converted.end(), clip.channels == 1 ? 2 : 1, sample);
     }
     return;
   }
-  for (size_t i = 0; i < samples.size(); i += static_cast<size_t>(channels)) {
-    converted.push_back(channels == 1 ? samples[i]
-                                      : static_cast<int16_t>((samples[i] + samples[i + 1]) / 2));
+  const int sign = clip.has_opposed_channels ? -1 : 1;
+  for (size_t i = 0; i < samples.size(); i += static_cast<size_t>(clip.channels)) {
+    converted.push_back(clip.channels == 1
+                            ? samples[i]
+                            : static_cast<int16_t>((samples[i] + sign * samples[i + 1]) / 2));
   }
 }
 
@@ -107,7 +109,7 @@ void GiveSamples(ALuint buffer,
                  const Clip& clip,
                  bool to_stereo,
                  std::vector<int16_t>& scratch) {
-  Convert(samples, clip.channels, to_stereo, scratch);
+  Convert(samples, clip, to_stereo, scratch);
   alBufferData(buffer, to_stereo ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, scratch.data(),
                static_cast<ALsizei>(scratch.size() * sizeof(int16_t)), clip.rate);
 }

@@ -7,6 +7,32 @@
 namespace lararium::audio {
 namespace {
 
+// Says whether the sum of two channels has far less power than their difference. Long sounds are
+// judged by pieces that are spread over them.
+bool HasOpposedChannels(SoundReader& reader) {
+  constexpr int64_t kPieces = 64;
+  constexpr size_t kPieceFrames = 4096;
+  constexpr double kLeast = 0.1;  // -10 dB
+  if (reader.channels() != 2) {
+    return false;
+  }
+  const auto piece = static_cast<int64_t>(kPieceFrames);
+  const int64_t step = std::max(piece, reader.frames() / kPieces);
+  double sum = 0.0;
+  double difference = 0.0;
+  std::vector<int16_t> samples(2 * kPieceFrames);
+  for (int64_t frame = 0; frame < reader.frames() && reader.Seek(frame); frame += step) {
+    const size_t read = reader.Read(samples);
+    for (size_t i = 0; i < 2 * read; i += 2) {
+      const double left = samples[i];
+      const double right = samples[i + 1];
+      sum += (left + right) * (left + right);
+      difference += (left - right) * (left - right);
+    }
+  }
+  return sum < kLeast * difference;
+}
+
 Status Hold(Clip& clip) {
   LARARIUM_ASSIGN_OR_RETURN(SoundReader reader, SoundReader::Open(clip.data.bytes, clip.name));
   clip.samples.resize(static_cast<size_t>(clip.frames * clip.channels));
@@ -29,12 +55,13 @@ Result<std::shared_ptr<const SoundLibrary>> SoundLibrary::Load(std::vector<Sound
     if (!library->clips_.empty() && library->clips_.back().name == sound.name) {
       return Status::Error(sound.name, "is the name of two sounds", "rename one of them");
     }
-    LARARIUM_ASSIGN_OR_RETURN(const SoundReader reader, SoundReader::Open(sound.bytes, sound.name));
+    LARARIUM_ASSIGN_OR_RETURN(SoundReader reader, SoundReader::Open(sound.bytes, sound.name));
     Clip& clip = library->clips_.emplace_back();
     clip.name = sound.name;
     clip.rate = reader.rate();
     clip.channels = reader.channels();
     clip.frames = reader.frames();
+    clip.has_opposed_channels = HasOpposedChannels(reader);
     clip.data = std::move(sound);
     const auto size = static_cast<size_t>(clip.frames * clip.channels);
     if (clip.seconds() <= kMaxHeldSeconds && samples + size <= kMaxHeldSamples) {

@@ -27,6 +27,9 @@ struct Clip {
   int rate = 0;
   int channels = 1;
   int64_t frames = 0;
+  // The two channels have opposite phase, so that little is left of them in their sum. They must be
+  // subtracted to be mixed to one.
+  bool has_opposed_channels = false;
   std::vector<int16_t> samples;  // Interleaved; empty: `data` is decoded while it plays.
   SoundData data;                // Empty if `samples` are held.
 

@@ -1,11 +1,16 @@
 #pragma once
 
-// Controls how the heap of the GNU C library treats unused memory.
+// Controls how the heap of the GNU C library treats unused memory, and tells whether the system
+// grants more.
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <string_view>
 #include <thread>
 #include <vector>
+
+#include "shared/core/status.h"
 
 namespace lararium {
 
@@ -27,6 +32,11 @@ void KeepPagesSmall();
 // Returns blocks of at least this number of bytes to the system as soon as they are freed. For work
 // that needs much memory once. Small limits cost time if blocks are allocated repeatedly.
 void ReturnBlocksFrom(size_t bytes);
+
+// Returns an error if the process may not use this number of bytes of addresses in addition to its
+// own, because of a limit such as that of `ulimit -v`. Call it before a library that crashes when
+// it gets no memory.
+Status RequireAddressSpace(uint64_t bytes, std::string_view where);
 
 // Returns all free memory to the system. Takes milliseconds.
 void TrimHeap();

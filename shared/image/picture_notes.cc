@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "shared/image/codecs.h"
 
 namespace lararium::image {
 namespace {
 
-// Numbers of a profile, which end where it ends.
+// Numbers of a profile or of a PNG; beyond its end they are zero.
 class Profile {
  public:
   explicit Profile(Bytes bytes) : bytes_(bytes) {}
@@ -105,12 +106,54 @@ std::optional<Profile> FindPlain(Bytes encoded) {
   return Profile(encoded.subspan(at - kSignatureAt));
 }
 
+struct NamedCode {
+  int code;
+  std::string_view name;
+};
+
+// Returns the names of the primaries and of the transfer of a PNG that says them as numbers (chunk
+// cICP of the third edition of PNG, numbers of ITU-T H.273) if its colours clearly differ from
+// those of sRGB; "" if they do not; nullopt if there is no such chunk. It comes before the pixels.
+std::optional<std::string> FindPngCodes(Bytes encoded) {
+  // Primaries of BT.709, and those of which nothing is said; transfers that are shown alike.
+  constexpr std::array kPlainPrimaries = {1, 2};
+  constexpr std::array kPlainTransfers = {1, 2, 6, 13, 14, 15};
+  constexpr std::array<NamedCode, 3> kPrimaries = {{{9, "BT.2020"}, {11, "DCI-P3"}, {12, "P3"}}};
+  constexpr std::array<NamedCode, 3> kTransfers = {{{8, "linear"}, {16, "PQ"}, {18, "HLG"}}};
+  const Profile chunks(encoded);
+  const auto named = [](const auto& names, int code, const char* kind) {
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [code](const NamedCode& name) { return name.code == code; });
+    return found != names.end() ? std::string(found->name)
+                                : std::string(kind) + " " + std::to_string(code);
+  };
+  for (size_t at = 8; at < encoded.size() && !chunks.Says(at + 4, "IDAT");
+       at += size_t{12} + chunks.Number(at)) {
+    if (!chunks.Says(at + 4, "cICP") || chunks.Number(at) != 4) {
+      continue;
+    }
+    const auto primaries = static_cast<int>(chunks.Number(at + 8) >> 24);
+    const auto transfer = static_cast<int>(chunks.Number(at + 8) >> 16 & 0xff);
+    const auto has = [](const auto& codes, int code) {
+      return std::find(codes.begin(), codes.end(), code) != codes.end();
+    };
+    std::string names =
+        has(kPlainPrimaries, primaries) ? "" : named(kPrimaries, primaries, "primaries");
+    if (!has(kPlainTransfers, transfer)) {
+      names += (names.empty() ? "" : " ") + named(kTransfers, transfer, "transfer");
+    }
+    return names;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<std::string> PictureNotes(Bytes encoded) {
   std::vector<std::string> notes;
   std::vector<std::byte> held;
   std::optional<Profile> profile;
+  std::optional<std::string> codes;  // Where a PNG has them, its profile is not valid.
   if (IsTiff(encoded)) {
     const TiffTraits traits = ReadTiffTraits(encoded);
     held = traits.profile;
@@ -119,15 +162,17 @@ std::vector<std::string> PictureNotes(Bytes encoded) {
                       " pages, of which only the first is used: save each as a file of its own");
     }
   } else if (StartsWith(encoded, 1, "PNG")) {
-    held = ReadPngProfile(encoded);
+    codes = FindPngCodes(encoded);
+    held = codes ? held : ReadPngProfile(encoded);
   } else {
     profile = FindPlain(encoded);
   }
   if (!held.empty()) {
     profile = Profile(held);
   }
-  if (profile && profile->Foreign()) {
-    notes.push_back("is in the colours of \"" + profile->Name() +
+  const std::string colours = profile && profile->Foreign() ? profile->Name() : codes.value_or("");
+  if (!colours.empty()) {
+    notes.push_back("is in the colours of \"" + colours +
                     "\", which are taken for those of sRGB: save it in sRGB");
   }
   return notes;

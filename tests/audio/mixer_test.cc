@@ -113,6 +113,32 @@ TEST(Mixer, TurningTheHeadTurnsTheSound) {
   EXPECT_GT(Db(Rms(heard, 0, 0.1, 0.5) / Rms(heard, 1, 0.1, 0.5)), 5.0);
 }
 
+// A sound of two channels. The right one is the left one multiplied by a factor.
+std::vector<std::byte> TwoChannels(double seconds, float factor, test::Coding coding) {
+  std::vector<float> stereo;
+  for (const float sample : test::Noise(seconds)) {
+    stereo.push_back(sample);
+    stereo.push_back(factor * sample);
+  }
+  return Encode(stereo, 2, kRate, coding);
+}
+
+TEST(Mixer, ChannelsOfOppositePhaseDoNotCancelEachOther) {
+  for (const double seconds : {1.0, SoundLibrary::kMaxHeldSeconds + 1.0}) {
+    for (const auto coding : {test::Coding::kWav, test::Coding::kFlac, test::Coding::kVorbis}) {
+      const auto library = test::Library({Sound("alike", TwoChannels(seconds, 1.0f, coding)),
+                                          Sound("opposed", TwoChannels(seconds, -1.0f, coding))});
+      const auto level = [&](int clip) {
+        return Rms(Play(library, SceneOf({MakeVoice(clip, {0, 0, -1})}), 0.5), 0, 0.1, 0.5);
+      };
+      EXPECT_GT(level(0), 0.02);
+      // Vorbis keeps less of a difference of two channels than of their sum.
+      const double tolerance_db = coding == test::Coding::kVorbis ? 3.0 : 0.1;
+      EXPECT_NEAR(Db(level(1) / level(0)), 0.0, tolerance_db) << seconds << " s";
+    }
+  }
+}
+
 TEST(Mixer, HeadLockedStereoIsPlayedAsItIs) {
   std::vector<float> samples = test::Noise(1.0);  // Half a second of two channels.
   const auto library = test::Library({Sound("room", Encode(samples, 2))});

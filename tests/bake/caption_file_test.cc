@@ -158,6 +158,12 @@ TEST(CaptionFile, TagsGoAndEntitiesAreLetters) {
       TextsOf(std::string("1\n") + kA +
               "<font color=\"#f00\"><b>Hic</b></font> &#39;x&#x2019; &quot;a&quot; <3 &amp;lt;\n"),
       ElementsAre("Hic 'x’ \"a\" <3 &lt;"));
+  const CaptionFile named =
+      Read(std::string("1\n") + kA +
+           "&Egrave; cos&igrave;&hellip; &laquo;perch&eacute;&raquo; &nbsp;&yuml; A&B; &e; R&D\n");
+  EXPECT_EQ(named.cues[0].text, "È così… «perché» \u00A0ÿ A&B; &e; R&D");
+  EXPECT_THAT(named.notes,
+              ElementsAre("line 3: \"&B;\" is not the name of a character; it is shown as it is"));
 }
 
 TEST(CaptionFile, OtherEncodingsAreRecognisedAndTold) {

@@ -87,6 +87,7 @@ class Captions(SpeakingCase):
     def test_tags_and_entities(self):
         self.assert_taken(re.sub(r"(?m)(-->.*\n)(.*)$", r'\1<font color="#f00"><i>{\\an8}\2</i></font>', self.srt))
         self.assert_taken(self.srt.replace("è", "&#232;").replace("ù", "&#xF9;"))
+        self.assert_taken(self.srt.replace("è", "&egrave;").replace("ù", "&ugrave;"))
 
     def test_web_captions(self):
         body = self.vtt.split("\n\n", 1)[1]

@@ -74,18 +74,28 @@ std::string Jpeg(const std::string& profile) {
   return plain.substr(0, 2) + "\xff\xe2" + BigEndian(size).substr(2) + content + plain.substr(2);
 }
 
+// Puts a chunk behind the header of a PNG.
+std::string WithChunk(std::string png, const std::string& content) {
+  const uLong checksum =
+      crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size()));
+  constexpr size_t kHeader = 33;
+  return png.insert(kHeader, BigEndian(static_cast<uint32_t>(content.size() - 4)) + content +
+                                 BigEndian(static_cast<uint32_t>(checksum)));
+}
+
 // A PNG with a profile in a chunk after its header.
 std::string Png(const std::string& profile) {
   std::string deflated(compressBound(profile.size()), '\0');
   uLongf size = deflated.size();
   CHECK(compress(reinterpret_cast<Bytef*>(deflated.data()), &size,
                  reinterpret_cast<const Bytef*>(profile.data()), profile.size()) == Z_OK);
-  const std::string content = "iCCP" + std::string("name\0\0", 6) + deflated.substr(0, size);
-  const uLong checksum =
-      crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size()));
-  constexpr size_t kHeader = 33;
-  return Encoded(".png").insert(kHeader, BigEndian(static_cast<uint32_t>(content.size() - 4)) +
-                                             content + BigEndian(static_cast<uint32_t>(checksum)));
+  return WithChunk(Encoded(".png"), "iCCP" + std::string("name\0\0", 6) + deflated.substr(0, size));
+}
+
+// A PNG whose colour space is given by numbers of ITU-T H.273.
+std::string CodedPng(int primaries, int transfer) {
+  return WithChunk(Encoded(".png"), std::string("cICP") + static_cast<char>(primaries) +
+                                        static_cast<char>(transfer) + std::string("\0\1", 2));
 }
 
 std::vector<std::string> NotesOf(const std::string& encoded) {
@@ -105,6 +115,29 @@ TEST(PictureNotes, NameAProfileOfOtherPrimaries) {
               ElementsAre(HasSubstr("in the colours of \"Display P3\"")));
   EXPECT_THAT(NotesOf(Png(Profile("Wide", kDisplayP3))), ElementsAre(HasSubstr("\"Wide\"")));
   EXPECT_THAT(NotesOf(Png(Profile("sRGB", kSrgb))), IsEmpty());
+}
+
+TEST(PictureNotes, NameTheNumberedColourSpaceOfAPng) {
+  const auto colours = [](const std::string& name) {
+    return ElementsAre(HasSubstr("in the colours of \"" + name + "\", which"));
+  };
+  EXPECT_THAT(NotesOf(CodedPng(9, 16)), colours("BT.2020 PQ"));
+  EXPECT_THAT(NotesOf(CodedPng(9, 18)), colours("BT.2020 HLG"));
+  EXPECT_THAT(NotesOf(CodedPng(12, 13)), colours("P3"));
+  EXPECT_THAT(NotesOf(CodedPng(1, 8)), colours("linear"));
+  EXPECT_THAT(NotesOf(CodedPng(4, 4)), colours("primaries 4 transfer 4"));
+  EXPECT_THAT(NotesOf(CodedPng(1, 13)), IsEmpty());
+  const std::string whole = CodedPng(9, 16);
+  for (size_t size = 0; size < whole.size(); ++size) {
+    NotesOf(whole.substr(0, size));
+  }
+}
+
+TEST(PictureNotes, TakeTheNumbersOfAPngBeforeItsProfile) {
+  const std::string wide = Png(Profile("Wide", kDisplayP3));
+  EXPECT_THAT(NotesOf(WithChunk(wide, std::string("cICP\1\15\0\1", 8))), IsEmpty());
+  EXPECT_THAT(NotesOf(WithChunk(wide, std::string("cICP\11\20\0\1", 8))),
+              ElementsAre(HasSubstr("\"BT.2020 PQ\"")));
 }
 
 TEST(PictureNotes, AreTakenOfAProfileThatIsCutShort) {

@@ -144,9 +144,9 @@ TEST(Bml, WhatIsNotSupportedIsToldWithItsPlace) {
         "locomotion 'l': 'the moon' is neither an object nor a position",
         "posture 'p': sitting needs a seat", "posture 'p': poses of parts",
         "faceFacs 'f': action unit 12 is shown as 'joy'", "faceFacs 'f99': there is no expression",
-        "gesture 'loop1': waits for a point", "gesture 'early': would begin before",
-        "gesture 'two': its stroke comes at 2.00 s", "gesture 'bad': start=\"soon\"",
-        "before: is not supported"}) {
+        "gesture 'loop1': waits for a behaviour that waits for it",
+        "gesture 'early': would begin before", "gesture 'two': its stroke comes at 2.00 s",
+        "gesture 'bad': start=\"soon\"", "before: is not supported"}) {
     EXPECT_THAT(imported.warnings, Contains(HasSubstr(warning)));
   }
   EXPECT_DOUBLE_EQ(At(imported, "f"), 2.0);
@@ -187,7 +187,23 @@ TEST(Bml, ABehaviourWithoutATimeIsLeftOut) {
     <gesture id="a" lexeme="wave" start="b:end"/><gesture id="b" lexeme="wave" start="a:end"/>
     <gesture id="c" lexeme="wave" start="1,5"/>)");
   EXPECT_THAT(imported.items, IsEmpty());
-  EXPECT_EQ(imported.warnings.size(), 3u);
+  EXPECT_EQ(imported.warnings.size(), 2u);
+}
+
+TEST(Bml, BehavioursThatWaitForOneAnotherAreToldInOneLine) {
+  const BmlImport imported = Imported(R"(<gesture id="a" lexeme="wave" start="b:end"/>
+<gesture id="b" lexeme="wave" start="a:end"/>
+<gesture id="c" lexeme="wave" start="none:end"/>
+<gesture id="d" lexeme="wave" start="b:end"/>
+<gesture id="e" lexeme="wave" start="d:no_mark"/>)");
+  EXPECT_THAT(imported.items, IsEmpty());
+  EXPECT_THAT(
+      imported.warnings,
+      UnorderedElementsAre(
+          AllOf(HasSubstr("a.xml:2: gesture 'a': waits for a behaviour that waits for it"),
+                HasSubstr("left out as well: gesture 'b' in line 3, gesture 'd' in line 5")),
+          HasSubstr("a.xml:4: gesture 'c': waits for a point that never occurs"),
+          HasSubstr("a.xml:6: gesture 'e': waits for a point that never occurs")));
 }
 
 TEST(Bml, HostileFilesAreRefused) {

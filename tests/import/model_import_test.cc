@@ -120,6 +120,28 @@ TEST_F(ModelImport, TakesSceneryInOnePartAsItsFileShowsIt) {
   EXPECT_GT(height(), before + 300.0f);
 }
 
+TEST_F(ModelImport, TakesAMeshWithBonesInThePoseOfTheirNodes) {
+  test::GlbFigure model = test::MakeGlbFigure(PlainSkeleton());
+  Json& nodes = model.json["nodes"];
+  const size_t moved = model.json["skins"][0]["joints"][0].get<size_t>();
+  const auto positions = [&] {
+    std::vector<std::string> notes;
+    const auto mesh = ImportMesh(Write("statue.glb", model), notes);
+    EXPECT_TRUE(mesh.ok()) << mesh.message();
+    return mesh.ok() ? mesh->positions : std::vector<glm::vec3>();
+  };
+  const std::vector<glm::vec3> before = positions();
+  const auto translation = nodes[moved]["translation"].get<std::vector<float>>();
+  nodes[moved]["translation"] = {translation[0], translation[1] + 0.7f, translation[2]};
+  nodes.back()["translation"] = {0, 50, 0};  // The node of a mesh with a skin does not move it.
+  const std::vector<glm::vec3> after = positions();
+  ASSERT_FALSE(before.empty());
+  ASSERT_EQ(after.size(), before.size());
+  for (size_t i = 0; i < after.size(); ++i) {
+    EXPECT_NEAR(glm::distance(after[i], before[i] + glm::vec3(0.0f, 0.7f, 0.0f)), 0.0f, 1e-5f);
+  }
+}
+
 TEST_F(ModelImport, MakesPartsOfTheNodesOfAnObject) {
   test::GlbFigure model;
   model.json = {{"asset", {{"version", "2.0"}}},

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <iostream>
@@ -76,6 +77,24 @@ TEST(PoorDriver, InEsNeedsFloatsToDrawInto) {
   EXPECT_EXIT(TryWithout(kVariable, kBoth, GraphicsApi::kOpenGlEs30), ::testing::ExitedWithCode(1),
               "neither GL_EXT_color_buffer_float nor");
 }
+
+#ifndef LARARIUM_SANITIZED  // Sanitizers need more addresses than the limit leaves.
+// Exits with 1 and prints the error if a context that gets little memory is refused.
+void TryWithLittleMemory() {
+  constexpr rlim_t kTooLittle = 500'000'000;
+  const rlimit addresses = {kTooLittle, kTooLittle};
+  const bool limited = ::setrlimit(RLIMIT_AS, &addresses) == 0;
+  const auto context = CreateOffscreenContext(std::nullopt);
+  std::cerr << context.status().message();
+  std::exit(limited && !context.ok() ? 1 : 0);  // NOLINT(concurrency-mt-unsafe): the only thread
+}
+
+TEST(PoorDriver, IsNotStartedWithoutMemory) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(TryWithLittleMemory(), ::testing::ExitedWithCode(1),
+              "^graphics: this program may not use 400 MB more memory[^\n]*$");
+}
+#endif
 
 TEST(Window, SaysWhatToDoWithoutADisplay) {
   if (std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr) {

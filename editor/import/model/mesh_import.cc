@@ -27,6 +27,42 @@ struct MergedMesh {
   std::vector<std::string> notes;
 };
 
+// The positions of a mesh in the scene. Bones move it as they are at rest (linear blend skinning);
+// vertices without weights, and meshes without bones, follow the node of the mesh.
+std::vector<glm::dvec3> PositionsInScene(const aiMesh& mesh,
+                                         size_t node,
+                                         const SceneNodes& nodes,
+                                         std::span<const glm::mat4> scene_from_node) {
+  std::vector<glm::dvec3> sums(mesh.mNumVertices, glm::dvec3(0.0));
+  std::vector<double> weights(mesh.mNumVertices, 0.0);
+  const auto add = [&](const glm::dmat4& scene_from_mesh, unsigned vertex, double weight) {
+    sums[vertex] +=
+        weight * glm::dvec3(scene_from_mesh * glm::dvec4(ToGlm(mesh.mVertices[vertex]), 1.0));
+    weights[vertex] += weight;
+  };
+  for (const aiBone* bone : std::span(mesh.mBones, mesh.mNumBones)) {
+    const int found = nodes.Find(bone->mName);
+    if (found == SceneNodes::kNoParent) {
+      continue;
+    }
+    const glm::dmat4 scene_from_mesh = glm::dmat4(scene_from_node[static_cast<size_t>(found)]) *
+                                       glm::dmat4(ToGlm(bone->mOffsetMatrix));
+    for (const aiVertexWeight& weight : std::span(bone->mWeights, bone->mNumWeights)) {
+      if (weight.mVertexId < mesh.mNumVertices && weight.mWeight > 0.0f) {
+        add(scene_from_mesh, weight.mVertexId, static_cast<double>(weight.mWeight));
+      }
+    }
+  }
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+    if (weights[v] > 0.0) {
+      sums[v] /= weights[v];
+    } else {
+      add(glm::dmat4(scene_from_node[node]), v, 1.0);
+    }
+  }
+  return sums;
+}
+
 Result<MergedMesh> Merge(const ModelScene& model) {
   const SceneNodes& nodes = model.nodes;
   std::vector<glm::mat4> scene_from_node(nodes.size());
@@ -41,10 +77,8 @@ Result<MergedMesh> Merge(const ModelScene& model) {
         return Status::Error(
             model.place(), "there are more than " + std::to_string(kMaxMeshVertices) + " vertices");
       }
-      for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-        merged.positions.emplace_back(glm::dmat4(scene_from_node[n]) *
-                                      glm::dvec4(ToGlm(mesh.mVertices[v]), 1.0));
-      }
+      const std::vector<glm::dvec3> positions = PositionsInScene(mesh, n, nodes, scene_from_node);
+      merged.positions.insert(merged.positions.end(), positions.begin(), positions.end());
       for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
         const aiFace& face = mesh.mFaces[f];
         for (unsigned k = 0; face.mNumIndices == 3 && k < 3; ++k) {

@@ -64,8 +64,8 @@ Result<ImportedHuman> ImportThing(const std::filesystem::path& file,
 Result<ImportedHuman> ImportMotion(const std::filesystem::path& file,
                                    const ImportOptions& options = {});
 
-// Imports all meshes of the file as one, transformed by their nodes, in the axes and units of
-// the file. What the reader guessed or left out is added to `notes`.
+// Imports all meshes of the file as one, transformed by their nodes, or by their bones at rest, in
+// the axes and units of the file. What the reader guessed or left out is added to `notes`.
 Result<geometry::TriangleMesh> ImportMesh(const std::filesystem::path& file,
                                           std::vector<std::string>& notes);
 

@@ -243,11 +243,15 @@ class BmlReader {
     return begin < at && at < text_.find("]", begin);
   }
 
-  void Warn(const pugi::xml_node& node, const std::string& what) {
+  // The kind and id of a behaviour.
+  static std::string NameOf(const pugi::xml_node& node) {
     const std::string id = node.attribute("id").as_string();
+    return std::string(LocalName(node)) + (id.empty() ? "" : " '" + id + "'");
+  }
+
+  void Warn(const pugi::xml_node& node, const std::string& what) {
     import_.warnings.push_back(place_ + ":" + std::to_string(LineOf(node.offset_debug())) + ": " +
-                               std::string(LocalName(node)) + (id.empty() ? "" : " '" + id + "'") +
-                               ": " + what);
+                               NameOf(node) + ": " + what);
   }
 
   std::optional<std::string> ActorOf(const pugi::xml_node& block) {
@@ -533,14 +537,41 @@ class BmlReader {
         }
       }
     }
+    const Behaviour* waiting = nullptr;
+    std::string others;
     for (size_t i = first; i < behaviours_.size(); ++i) {
-      Behaviour& behaviour = behaviours_[i];
-      if (!behaviour.start) {
-        Warn(behaviour.node, "waits for a point that never occurs; it was left out");
-      } else {
+      const Behaviour& behaviour = behaviours_[i];
+      if (behaviour.start) {
         CheckOtherPoints(behaviour);
+      } else if (NamesMissingPoint(behaviour)) {
+        Warn(behaviour.node, "waits for a point that never occurs; it was left out");
+      } else if (waiting == nullptr) {
+        waiting = &behaviour;
+      } else {
+        others += (others.empty() ? "; left out as well: " : ", ") + NameOf(behaviour.node) +
+                  " in line " + std::to_string(LineOf(behaviour.node.offset_debug()));
       }
     }
+    if (waiting != nullptr) {
+      Warn(waiting->node,
+           "waits for a behaviour that waits for it, or that was left out; it was left out" +
+               others);
+    }
+  }
+
+  // Whether a behaviour waits for something that the file does not have. Otherwise it waits for
+  // behaviours that have no time themselves.
+  bool NamesMissingPoint(const Behaviour& behaviour) const {
+    return std::any_of(behaviour.wanted.begin(), behaviour.wanted.end(),
+                       [this](const auto& wanted) {
+                         if (!wanted || wanted->behaviour.empty()) {
+                           return false;
+                         }
+                         const auto found = by_id_.find(wanted->behaviour);
+                         return found == by_id_.end() ||
+                                (!behaviours_[found->second].marks.contains(wanted->point) &&
+                                 !PointNamed(wanted->point));
+                       });
   }
 
   // Behaviours are not stretched: only one of several requested points is kept.

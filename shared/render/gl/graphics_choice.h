@@ -11,6 +11,9 @@ namespace lararium::render {
 
 // Checks that the current context supports everything that drawing needs.
 Status CheckDriver();
+// Checks that a driver will get the memory that it needs; Mesa's crash without. Call it before a
+// driver is loaded.
+Status CheckMemory();
 
 // create(api) returns a Result; on success it has made a context current. Without a choice, OpenGL
 // 3.3 is tried first, then OpenGL ES 3.0. The error contains the messages of all attempts.

@@ -6,12 +6,14 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "shared/core/memory.h"
 #include "shared/render/gl/graphics_choice.h"
 
 namespace lararium::render {
@@ -121,7 +123,14 @@ Status CheckDriver() {
   return Status();
 }
 
+Status CheckMemory() {
+  // A show of two people took 370 MB with Mesa's software renderer.
+  constexpr uint64_t kDriverBytes = 400'000'000;
+  return RequireAddressSpace(kDriverBytes, "graphics");
+}
+
 Result<OffscreenContext> CreateOffscreenContext(GraphicsChoice choice) {
+  LARARIUM_RETURN_IF_ERROR(CheckMemory());
   LARARIUM_ASSIGN_OR_RETURN(const EGLDisplay display, OpenDisplay());
   return CreateChosen(choice, [display](GraphicsApi api) -> Result<OffscreenContext> {
     LARARIUM_ASSIGN_OR_RETURN(const EGLContext egl_context, CreateContext(display, api));

@@ -189,6 +189,7 @@ void HintContext(GraphicsApi api) {
 }  // namespace
 
 Result<Window> Window::Create(const WindowOptions& options) {
+  LARARIUM_RETURN_IF_ERROR(CheckMemory());
   const std::shared_ptr<GlfwLibrary> library = GlfwLibrary::Start();
   if (library == nullptr) {
     return LastError("start it on a desktop, or run without a window");
