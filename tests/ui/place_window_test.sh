@@ -1,8 +1,9 @@
 #!/bin/bash
 # What is said of a place and of the project: another recording plays in the camera view, which
 # follows at once, and undo brings back the training's; the place gets reverberation and a fire that
-# is always heard; it is renamed and put first; languages are chosen; a sound is brought in; an
-# object is a model of its own. Looks at the saved project, at its folder and at screenshots.
+# is always heard; it is renamed and put first; languages are chosen; a sound is brought in; one
+# object is of the library, another is a model of its own. Looks at the saved project, at its folder
+# and at screenshots.
 #
 #   place_window_test.sh EDITOR OUTPUT_FOLDER MAKE_ROOM_MAP VIDEO MODEL
 set -u
@@ -121,7 +122,12 @@ press Return
 wait_for 10 test -e "$project/audio/bell.flac" || fail "the sound was not brought in"
 shot project
 
-# An object that is a model of its own.
+# An object of the library, and one that is a model of its own.
+click 207 445
+sleep 2
+shot library
+press Return
+saved '"model":"amphora"[^}]*"name":"amphora"' "$json" "the object of the library was not added"
 click 207 445
 click 612 406
 fill 700 445 "$out/shrine.glb"
@@ -129,4 +135,4 @@ shot object
 press Return
 saved '"file":"[^"]*shrine.glb"[^}]*"name":"shrine"' "$json" "the model was not added"
 quit
-echo "passed; screenshots: $out/sound.png $out/renamed.png $out/project.png $out/object.png"
+echo "passed; screenshots: $out/sound.png $out/renamed.png $out/project.png $out/library.png $out/object.png"
