@@ -24,6 +24,7 @@
 #include "editor/jobs/sounds.h"
 #include "shared/bundle/sha256.h"
 #include "shared/core/file.h"
+#include "shared/core/free_space.h"
 #include "shared/core/json.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/stage/mesh_file.h"

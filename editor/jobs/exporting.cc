@@ -15,6 +15,7 @@
 #include "editor/train/budget.h"
 #include "shared/bundle/signature.h"
 #include "shared/core/file.h"
+#include "shared/core/free_space.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::editor {

@@ -6,7 +6,7 @@
 #include "editor/jobs/training.h"
 #include "shared/capture/frame_source.h"
 #include "shared/capture/video_writer.h"
-#include "shared/core/file.h"
+#include "shared/core/free_space.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/show_renderer.h"

@@ -11,7 +11,7 @@
 #include "editor/jobs/training_report.h"
 #include "editor/train/capture_report.h"
 #include "editor/train/session_merge.h"
-#include "shared/core/file.h"
+#include "shared/core/free_space.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::editor {

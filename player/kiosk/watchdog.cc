@@ -10,9 +10,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -78,7 +80,7 @@ class Child {
     }
     ::close(ends[1]);
     beats_ = ends[0];
-    started_ = last_beat_ = Clock::now();
+    last_beat_ = Clock::now();
     if (process_ < 0) {
       ::close(beats_);
       return false;
@@ -99,6 +101,9 @@ class Child {
     bool any = false;
     for (ssize_t count = 0; (count = ::read(beats_, beats, sizeof(beats))) > 0; any = true) {
       works_long_ = beats[count - 1] == kBeatBeforeLongWork;
+      if (!first_beat_ && std::find(beats, beats + count, kBeat) != beats + count) {
+        first_beat_ = Clock::now();
+      }
     }
     if (any) {
       last_beat_ = Clock::now();
@@ -139,13 +144,14 @@ class Child {
     return SecondsSince(last_beat_) >
            (works_long_ ? options.start_seconds : options.silent_seconds);
   }
-  double age() const { return SecondsSince(started_); }
+  // Seconds since the first beat after the preparation; 0 if there was none.
+  double age() const { return first_beat_ ? SecondsSince(*first_beat_) : 0.0; }
 
  private:
   pid_t process_ = kNone;
   int beats_ = kNone;
   bool works_long_ = true;  // the child has announced long work, or has just started
-  Clock::time_point started_;
+  std::optional<Clock::time_point> first_beat_;
   Clock::time_point last_beat_;
 };
 
@@ -224,7 +230,10 @@ int Supervise(const std::function<int(const ChildStart&, Heartbeat&)>& child,
       Pause(1.0);
       continue;
     }
-    const int code = Watch(process, options, log, ready);
+    WatchdogOptions patient = options;
+    patient.silent_seconds = std::min(std::ldexp(options.silent_seconds, start.failed_starts),
+                                      std::max(options.silent_seconds, options.start_seconds));
+    const int code = Watch(process, patient, log, ready);
     if (g_end_asked != 0 || code == 0 || code == kUsageError) {
       TellSystemd("STOPPING=1");
       return code;

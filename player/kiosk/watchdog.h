@@ -29,10 +29,12 @@ class Heartbeat {
 
 struct WatchdogOptions {
   double start_seconds = 20.0;  // limit until the first beat, and for long work
-  double silent_seconds = 1.0;  // a child without a beat for this time counts as hanging
-  double grace_seconds = 1.0;   // time that a child has to end after it was asked
-  // A child that ran for less than this has failed at its start. The next one starts after a pause,
-  // which grows each time.
+  // A child without a beat for this time counts as hanging. The time doubles with each consecutive
+  // child that failed at its start, up to start_seconds: the machine may be slow or busy.
+  double silent_seconds = 1.0;
+  double grace_seconds = 1.0;  // time that a child has to end after it was asked
+  // A child that ran for less than this after its first beat has failed at its start. The next one
+  // starts after a pause, which grows each time.
   double stable_seconds = 10.0;
   double first_pause_seconds = 0.0;
   double longest_pause_seconds = 10.0;

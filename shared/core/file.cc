@@ -9,8 +9,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "shared/core/free_space.h"
-
 namespace lararium {
 namespace {
 
@@ -243,10 +241,6 @@ Status FileReplacement::Commit() {
     ::fsync(directory.get());
   }
   return Status();
-}
-
-Status RequireSpace(const std::filesystem::path& folder, uint64_t bytes) {
-  return RequireSpace(folder, bytes, FreeSpaceOf);
 }
 
 Status WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> content) {

@@ -17,11 +17,6 @@ namespace lararium {
 // Whether there is a file or a folder. One that cannot be looked at counts as missing.
 bool FileExists(const std::filesystem::path& path);
 
-// Returns an error if a file system has less room than `bytes` for files in a folder, which need
-// not exist yet. Call it before long work, whose result would be lost. The default is enough for
-// what one job writes.
-Status RequireSpace(const std::filesystem::path& folder, uint64_t bytes = 64'000'000);
-
 // Default size limit of ReadBytes and ReadText.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 30;
 

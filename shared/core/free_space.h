@@ -16,9 +16,11 @@ namespace lararium {
 using FreeSpace = std::function<std::optional<uint64_t>(const std::filesystem::path& folder)>;
 std::optional<uint64_t> FreeSpaceOf(const std::filesystem::path& folder);
 
-// Like RequireSpace() in shared/core/file.h, by the free space that is given.
+// Returns an error if a file system has less room than `bytes` for files in a folder, which need
+// not exist yet. Call it before long work, whose result would be lost. The default is enough for
+// what one job writes.
 Status RequireSpace(const std::filesystem::path& folder,
-                    uint64_t bytes,
-                    const FreeSpace& free_space);
+                    uint64_t bytes = 64'000'000,
+                    const FreeSpace& free_space = FreeSpaceOf);
 
 }  // namespace lararium

@@ -90,61 +90,76 @@ class Profile {
   Bytes bytes_;
 };
 
+// The offset of a text near the beginning of a file.
+std::optional<size_t> FindNear(Bytes encoded, std::string_view text) {
+  constexpr size_t kNear = 1 << 20;
+  const Bytes near = encoded.first(std::min(encoded.size(), kNear));
+  const auto found = std::search(near.begin(), near.end(), text.begin(), text.end(),
+                                 [](std::byte b, char c) { return static_cast<char>(b) == c; });
+  return found == near.end() ? std::nullopt
+                             : std::optional(static_cast<size_t>(found - near.begin()));
+}
+
 // Finds a profile by its signature. JPEG, WebP and HEIC hold it near their beginning as it is; a
 // JPEG cuts one of more than 64 kB, whose name and primaries come first.
 std::optional<Profile> FindPlain(Bytes encoded) {
-  constexpr size_t kNear = 1 << 20;
   constexpr size_t kSignatureAt = 36;
-  constexpr std::string_view kSignature = "acsp";
-  const Bytes near = encoded.first(std::min(encoded.size(), kNear));
-  const auto found = std::search(near.begin(), near.end(), kSignature.begin(), kSignature.end(),
-                                 [](std::byte b, char c) { return static_cast<char>(b) == c; });
-  const auto at = static_cast<size_t>(found - near.begin());
-  if (found == near.end() || at < kSignatureAt) {
-    return std::nullopt;
-  }
-  return Profile(encoded.subspan(at - kSignatureAt));
+  const std::optional<size_t> at = FindNear(encoded, "acsp");
+  return at && *at >= kSignatureAt ? std::optional(Profile(encoded.subspan(*at - kSignatureAt)))
+                                   : std::nullopt;
 }
 
 struct NamedCode {
-  int code;
+  uint32_t code;
   std::string_view name;
 };
 
-// Returns the names of the primaries and of the transfer of a PNG that says them as numbers (chunk
-// cICP of the third edition of PNG, numbers of ITU-T H.273) if its colours clearly differ from
-// those of sRGB; "" if they do not; nullopt if there is no such chunk. It comes before the pixels.
-std::optional<std::string> FindPngCodes(Bytes encoded) {
-  // Primaries of BT.709, and those of which nothing is said; transfers that are shown alike.
-  constexpr std::array kPlainPrimaries = {1, 2};
-  constexpr std::array kPlainTransfers = {1, 2, 6, 13, 14, 15};
+// Names primaries and a transfer that are given by numbers of ITU-T H.273; "" if their colours do
+// not clearly differ from those of sRGB.
+std::string ForeignColours(uint32_t primaries, uint32_t transfer) {
+  // Primaries of BT.709, those of which nothing is said, and a reserved number. The transfers are
+  // shown alike.
+  constexpr std::array<uint32_t, 3> kPlainPrimaries = {0, 1, 2};
+  constexpr std::array<uint32_t, 7> kPlainTransfers = {0, 1, 2, 6, 13, 14, 15};
   constexpr std::array<NamedCode, 3> kPrimaries = {{{9, "BT.2020"}, {11, "DCI-P3"}, {12, "P3"}}};
   constexpr std::array<NamedCode, 3> kTransfers = {{{8, "linear"}, {16, "PQ"}, {18, "HLG"}}};
-  const Profile chunks(encoded);
-  const auto named = [](const auto& names, int code, const char* kind) {
-    const auto found = std::find_if(names.begin(), names.end(),
+  std::string names;
+  const auto add = [&names](uint32_t code, const auto& plain, const auto& named, const char* kind) {
+    if (std::find(plain.begin(), plain.end(), code) != plain.end()) {
+      return;
+    }
+    const auto found = std::find_if(named.begin(), named.end(),
                                     [code](const NamedCode& name) { return name.code == code; });
-    return found != names.end() ? std::string(found->name)
-                                : std::string(kind) + " " + std::to_string(code);
+    names += names.empty() ? "" : " ";
+    names += found != named.end() ? std::string(found->name)
+                                  : std::string(kind) + " " + std::to_string(code);
   };
+  add(primaries, kPlainPrimaries, kPrimaries, "primaries");
+  add(transfer, kPlainTransfers, kTransfers, "transfer");
+  return names;
+}
+
+// Returns the foreign colours of a PNG that gives its colours by numbers (chunk cICP of the third
+// edition of PNG); nullopt if there is no such chunk. It comes before the pixels.
+std::optional<std::string> FindPngColours(Bytes encoded) {
+  const Profile chunks(encoded);
   for (size_t at = 8; at < encoded.size() && !chunks.Says(at + 4, "IDAT");
        at += size_t{12} + chunks.Number(at)) {
-    if (!chunks.Says(at + 4, "cICP") || chunks.Number(at) != 4) {
-      continue;
+    if (chunks.Says(at + 4, "cICP") && chunks.Number(at) == 4) {
+      const uint32_t codes = chunks.Number(at + 8);
+      return ForeignColours(codes >> 24, codes >> 16 & 0xff);
     }
-    const auto primaries = static_cast<int>(chunks.Number(at + 8) >> 24);
-    const auto transfer = static_cast<int>(chunks.Number(at + 8) >> 16 & 0xff);
-    const auto has = [](const auto& codes, int code) {
-      return std::find(codes.begin(), codes.end(), code) != codes.end();
-    };
-    std::string names =
-        has(kPlainPrimaries, primaries) ? "" : named(kPrimaries, primaries, "primaries");
-    if (!has(kPlainTransfers, transfer)) {
-      names += (names.empty() ? "" : " ") + named(kTransfers, transfer, "transfer");
-    }
-    return names;
   }
   return std::nullopt;
+}
+
+// Returns the foreign colours of a HEIC or AVIF file that gives its colours by numbers (box "colr"
+// of ISO/IEC 14496-12, kind "nclx").
+std::string FindHeifColours(Bytes encoded) {
+  constexpr std::string_view kBox = "colrnclx";
+  const std::optional<size_t> at = FindNear(encoded, kBox);
+  const uint32_t codes = at ? Profile(encoded).Number(*at + kBox.size()) : 0;
+  return at ? ForeignColours(codes >> 16, codes & 0xffff) : "";
 }
 
 }  // namespace
@@ -153,7 +168,7 @@ std::vector<std::string> PictureNotes(Bytes encoded) {
   std::vector<std::string> notes;
   std::vector<std::byte> held;
   std::optional<Profile> profile;
-  std::optional<std::string> codes;  // Where a PNG has them, its profile is not valid.
+  std::string colours;
   if (IsTiff(encoded)) {
     const TiffTraits traits = ReadTiffTraits(encoded);
     held = traits.profile;
@@ -162,15 +177,19 @@ std::vector<std::string> PictureNotes(Bytes encoded) {
                       " pages, of which only the first is used: save each as a file of its own");
     }
   } else if (StartsWith(encoded, 1, "PNG")) {
-    codes = FindPngCodes(encoded);
-    held = codes ? held : ReadPngProfile(encoded);
+    const std::optional<std::string> found = FindPngColours(encoded);
+    colours = found.value_or("");
+    held = found ? held : ReadPngProfile(encoded);  // The numbers are valid instead of a profile.
   } else {
     profile = FindPlain(encoded);
+    colours = profile || !IsHeif(encoded) ? "" : FindHeifColours(encoded);
   }
   if (!held.empty()) {
     profile = Profile(held);
   }
-  const std::string colours = profile && profile->Foreign() ? profile->Name() : codes.value_or("");
+  if (profile && profile->Foreign()) {
+    colours = profile->Name();
+  }
   if (!colours.empty()) {
     notes.push_back("is in the colours of \"" + colours +
                     "\", which are taken for those of sRGB: save it in sRGB");

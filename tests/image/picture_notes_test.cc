@@ -133,6 +133,16 @@ TEST(PictureNotes, NameTheNumberedColourSpaceOfAPng) {
   }
 }
 
+TEST(PictureNotes, NameTheNumberedColourSpaceOfHeicAndAvif) {
+  const auto notes = [](const std::string& box) {
+    return NotesOf(BigEndian(20) + "ftypavif" + std::string(8, '\0') + BigEndian(19) + box);
+  };
+  EXPECT_THAT(notes(std::string("colrnclx\0\11\0\20\0\11\200", 15)),
+              ElementsAre(HasSubstr("\"BT.2020 PQ\"")));
+  EXPECT_THAT(notes(std::string("colrnclx\0\1\0\15\0\6\200", 15)), IsEmpty());
+  EXPECT_THAT(notes("colrnclx"), IsEmpty());
+}
+
 TEST(PictureNotes, TakeTheNumbersOfAPngBeforeItsProfile) {
   const std::string wide = Png(Profile("Wide", kDisplayP3));
   EXPECT_THAT(NotesOf(WithChunk(wide, std::string("cICP\1\15\0\1", 8))), IsEmpty());

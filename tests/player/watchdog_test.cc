@@ -31,10 +31,11 @@ class WatchdogTest : public ::testing::Test {
  protected:
   // Runs Supervise in a process of its own. The output of the children is in said().
   int Run(const std::function<int(const ChildStart&, Heartbeat&)>& child,
-          double end_after_seconds = 0.0) {
+          double end_after_seconds = 0.0,
+          const WatchdogOptions& options = Quick()) {
     const pid_t process = ::fork();
     if (process == 0) {
-      std::_Exit(Supervise(child, Quick(), *MakeSilentLog()));
+      std::_Exit(Supervise(child, options, *MakeSilentLog()));
     }
     if (end_after_seconds > 0.0) {
       std::this_thread::sleep_for(std::chrono::duration<double>(end_after_seconds));
@@ -102,6 +103,22 @@ TEST_F(WatchdogTest, AShowThatHangsIsReplacedWithinItsTime) {
   EXPECT_EQ(code, 0);
   EXPECT_EQ(said(), "child\nchild\n");
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(6));
+}
+
+TEST_F(WatchdogTest, AShowThatIsSlowGetsMoreTimeAfterItFailed) {
+  WatchdogOptions options = Quick();
+  options.start_seconds = 4.0;
+  options.stable_seconds = 0.9;
+  const auto child = [this](const ChildStart& start, Heartbeat& heartbeat) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));  // The time of a preparation.
+    heartbeat.Beat();
+    std::this_thread::sleep_for(std::chrono::milliseconds(900));  // More than silent_seconds.
+    heartbeat.Beat();
+    Say(std::to_string(start.failed_starts));
+    return 0;
+  };
+  EXPECT_EQ(Run(child, 0.0, options), 0);
+  EXPECT_EQ(said(), "1\n");
 }
 
 TEST_F(WatchdogTest, WhoSaysThatWorkIsLongHasTheTimeOfAStart) {
