@@ -35,7 +35,7 @@ class ReadSurfacesTest : public ::testing::Test {
     parts_.emplace_back().mesh = &meshes_.back();
   }
 
-  ModelSurfaces Read() { return ReadSurfaces(model_, parts_, notes_); }
+  ModelSurfaces Read() { return ReadSurfaces(model_, parts_, true, notes_); }
 
   static constexpr size_t kMost = 8;
   aiScene scene_;

@@ -50,6 +50,14 @@ class ObjectImport : public ::testing::Test {
   std::vector<std::string> notes_;
 };
 
+TEST_F(ObjectImport, NamesOfMaterialsMakeNoSkin) {
+  lamp_.json["materials"][1]["name"] = "Surface of the lamp's head";
+  const auto prop = Import();
+  ASSERT_TRUE(prop.ok()) << prop.message();
+  ASSERT_EQ(prop->materials.size(), 2u);
+  EXPECT_EQ(prop->materials[1].surface, human::Surface::kPlain);
+}
+
 TEST_F(ObjectImport, TakesTheSurfaceOfEachPart) {
   const auto prop = Import();
   ASSERT_TRUE(prop.ok()) << prop.message();

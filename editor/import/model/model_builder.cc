@@ -34,7 +34,7 @@ Status AddBody(const ModelScene& model,
                BuiltModel& built) {
   human::Human& human = built.human;
   built.notes.insert(built.notes.end(), model.notes.surface.begin(), model.notes.surface.end());
-  ModelSurfaces surfaces = ReadSurfaces(model, parts, built.notes);
+  ModelSurfaces surfaces = ReadSurfaces(model, parts, !IsRigid(content), built.notes);
   human.meshes = BuildMeshes(parts, skeleton, surfaces, built.notes);
   human.materials = std::move(surfaces.materials);
   built.images = std::move(surfaces.images);

@@ -22,8 +22,8 @@ constexpr size_t kMaxMaterials = 1000;
 constexpr size_t kMaxImageBytes = size_t{256} << 20;
 constexpr float kMaxEmission = 1e3f;  // A thousand times white.
 
-// Guesses the kind of surface from the name of the material.
-human::Surface SurfaceOf(const std::string& name) {
+// Guesses the kind of surface from the name of the material. The head of a thing is not of skin.
+human::Surface SurfaceOf(const std::string& name, bool of_person) {
   struct Word {
     const char* text;
     human::Surface surface;
@@ -39,7 +39,8 @@ human::Surface SurfaceOf(const std::string& name) {
                              {"toga", human::Surface::kCloth}};
   const std::string lower = LowerCase(name);
   for (const Word& word : kWords) {
-    if (lower.find(word.text) != std::string::npos) {
+    if ((of_person || word.surface == human::Surface::kCloth) &&
+        lower.find(word.text) != std::string::npos) {
       return word.surface;
     }
   }
@@ -99,8 +100,8 @@ void SetAlpha(const aiMaterial& source, bool textured, human::Material& material
 
 class SurfaceReader {
  public:
-  SurfaceReader(const ModelScene& model, std::vector<std::string>& notes)
-      : model_(model), notes_(notes) {}
+  SurfaceReader(const ModelScene& model, bool of_person, std::vector<std::string>& notes)
+      : model_(model), of_person_(of_person), notes_(notes) {}
 
   ModelSurfaces Read(std::span<const Part> parts) {
     const aiScene& scene = *model_.scene;
@@ -126,7 +127,7 @@ class SurfaceReader {
   void AddMaterial(const aiMaterial& source) {
     human::Material material;
     material.name = source.GetName().C_Str();
-    material.surface = SurfaceOf(material.name);
+    material.surface = SurfaceOf(material.name, of_person_);
     int two_sided = 0;
     material.two_sided = source.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS && two_sided != 0;
     float roughness = material.roughness;
@@ -220,6 +221,7 @@ class SurfaceReader {
   }
 
   const ModelScene& model_;
+  bool of_person_;
   std::vector<std::string>& notes_;
   std::map<std::string, int> image_of_uri_;
   ModelSurfaces read_;
@@ -229,8 +231,9 @@ class SurfaceReader {
 
 ModelSurfaces ReadSurfaces(const ModelScene& model,
                            std::span<const Part> parts,
+                           bool of_person,
                            std::vector<std::string>& notes) {
-  return SurfaceReader(model, notes).Read(parts);
+  return SurfaceReader(model, of_person, notes).Read(parts);
 }
 
 }  // namespace lararium::import

@@ -29,6 +29,7 @@ struct ModelSurfaces {
 // cannot be used are listed in `notes` and left out.
 ModelSurfaces ReadSurfaces(const ModelScene& model,
                            std::span<const Part> parts,
+                           bool of_person,
                            std::vector<std::string>& notes);
 
 }  // namespace lararium::import
