@@ -43,14 +43,16 @@ start_clean() {
   pid=0
 }
 
-# install_editor FOLDER: uses the editor as it is when it is installed there, with share/ beside its
-# bin/ and without the checkout's cast library.
+# install_editor FOLDER: uses the editor as it is when it is installed there, with share/ and the library of
+# objects and sounds beside its bin/ and without the checkout's cast library.
 install_editor() {
   local built
   built=$(dirname "$editor")
   mkdir -p "$1/bin" "$1/share"
   cp "$editor" "$1/bin/"
   cp -r "$built/../share/." "$1/share/"
+  mkdir -p "$1/share/lararium"
+  cp -r "$(dirname "$0")/../../scenes/library" "$1/share/lararium/"
   unset LARARIUM_CAST_LIBRARY
   export HOME=$out/home XDG_DATA_HOME=$out/data
   mkdir -p "$HOME"
