@@ -143,12 +143,12 @@ wait_for 200 test -e "$project/cast/ada.thumbnail.png" || fail "no thumbnail of 
 press ctrl+shift+Tab
 press ctrl+Tab
 for ((n = 0; n < 8; ++n)); do press Up; done
-sleep 3
 # The portrait alone, above what says that it is still being built: until it is it does not turn.
 portrait() {
   import -window root -crop 300x190+1114+120 +repage "$out/$1.png"
 }
-portrait front
+drawn() { portrait front && [ "$(convert "$out/front.png" -format %k info:)" -gt 1000 ]; }
+wait_for 60 drawn || fail "the portrait is not drawn"
 for ((n = 0; n < 4; ++n)); do press Right; done
 turned() { portrait side && [ "$(difference front side)" -gt 3000 ]; }
 wait_for 20 turned || fail "the portrait does not turn by keys"
