@@ -8,14 +8,17 @@ function(lararium_library room)
 endfunction()
 
 # lararium_tuned(ROOM OPTIONS ... SOURCES ...)
-# Sources of a room that are compiled with further options. They make a target of their own, because a unity
-# build leaves out a source that has options of its own.
+# Sources of a room that are compiled as the room is, with further options. They make a target of their own,
+# because a unity build leaves out a source that has options of its own.
 function(lararium_tuned room)
   cmake_parse_arguments(arg "" "" "OPTIONS;SOURCES" ${ARGN})
   add_library(lararium_${room}_tuned OBJECT ${arg_SOURCES})
   get_target_property(libraries lararium_${room} LINK_LIBRARIES)
   target_link_libraries(lararium_${room}_tuned PRIVATE ${libraries})
-  target_compile_options(lararium_${room}_tuned PRIVATE ${arg_OPTIONS})
+  target_compile_definitions(lararium_${room}_tuned PRIVATE
+    $<TARGET_PROPERTY:lararium_${room},COMPILE_DEFINITIONS>)
+  target_compile_options(lararium_${room}_tuned PRIVATE
+    $<TARGET_PROPERTY:lararium_${room},COMPILE_OPTIONS> ${arg_OPTIONS})
   target_sources(lararium_${room} PRIVATE $<TARGET_OBJECTS:lararium_${room}_tuned>)
 endfunction()
 
