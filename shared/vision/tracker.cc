@@ -23,10 +23,10 @@ namespace {
 using geometry::CameraModel;
 using geometry::Rigid3;
 
-constexpr double kDarkMean = 8.0;   // Darker images (mean grey level 0..255) are not tracked.
-constexpr int64_t kLongestGap = 8;  // Longest gap between frames over which motion is predicted.
-constexpr double kLeapPx = 30.0;    // The view changed if it moves more than this per frame.
-constexpr double kFewAgree = 0.5;   // Share of agreeing patches below which many do not agree.
+constexpr double kDarkMean = 8.0;    // Darker images (mean grey level 0..255) are not tracked.
+constexpr double kLongestGap = 8.0;  // Frame times over which motion is predicted at most.
+constexpr double kLeapPx = 30.0;     // The view changed if it moves more than this per frame.
+constexpr double kFewAgree = 0.5;    // Share of agreeing patches below which many do not agree.
 constexpr float kLeastUnconfirmed = 0.97f;  // Confidence of a pose that no patches confirm.
 constexpr double kTwoMeaningsPx = 3.0;      // Poses farther apart than this contradict each other.
 
@@ -77,6 +77,7 @@ class Tracker final : public PoseSource {
   TrackedFrame Track(const geometry::Frame& frame) override {
     TrackedFrame tracked;
     tracked.frame = frame;
+    now_ = clock_.Time(frame);
     if (!frame.grey.empty()) {
       camera_.SetSize(frame.grey.cols, frame.grey.rows);
     }
@@ -153,7 +154,7 @@ class Tracker final : public PoseSource {
     pyramid_.level(pyramid_.levels() - 1).copyTo(small_before_);
     if (tracked.camera_from_map) {
       const Rigid3& pose = *tracked.camera_from_map;
-      motion_.Add(static_cast<double>(tracked.frame.index), pose);
+      motion_.Add(now_, pose);
       if (anchored) {
         patch_trackers_[map_]->Merge(pyramid_, tracked.camera, pose, relocalizer_.points(map_),
                                      pose);
@@ -163,12 +164,13 @@ class Tracker final : public PoseSource {
   }
 
   bool Follow(TrackedFrame& tracked) {
-    const auto index = static_cast<double>(tracked.frame.index);
-    if (!motion_.has_pose() || index <= motion_.last_time() ||
-        index > motion_.last_time() + kLongestGap) {
+    if (!motion_.has_pose()) {
       return false;
     }
-    const double frames = index - motion_.last_time();
+    const double frames = now_ - motion_.last_time();
+    if (frames <= 0.0 || frames > kLongestGap) {
+      return false;
+    }
     const Rigid3 before = motion_.last_pose();
     const Rigid3 motion = motion_.Motion(frames);
     std::array<Rigid3, 2> predictions = {motion * before};
@@ -365,7 +367,7 @@ class Tracker final : public PoseSource {
         motion_.Correct(followed.camera_from_map);
       } else {
         motion_.Forget();
-        motion_.Add(static_cast<double>(tracked.frame.index), followed.camera_from_map);
+        motion_.Add(now_, followed.camera_from_map);
       }
       map_ = located.map;
       Report(followed, tracked);
@@ -388,6 +390,8 @@ class Tracker final : public PoseSource {
   std::vector<std::unique_ptr<PatchTracker>> patch_trackers_;  // [maps]
   ImagePyramid pyramid_;
   cv::Mat small_before_;
+  FrameClock clock_;
+  double now_ = 0.0;  // The time of the frame, in frame times.
   MotionModel motion_;
   GainEstimator gain_;
   std::array<float, 3> last_gain_ = {1.0f, 1.0f, 1.0f};

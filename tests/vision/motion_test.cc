@@ -1,9 +1,15 @@
 // Tests the prediction of the camera's motion and its estimation from small images.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
+#include <span>
+#include <vector>
 
 #include "shared/vision/motion_model.h"
 #include "shared/vision/rotation_estimator.h"
@@ -13,6 +19,65 @@ namespace {
 
 using geometry::CameraModel;
 using geometry::Rigid3;
+
+geometry::Frame FrameAt(int64_t index, double seconds) {
+  geometry::Frame frame;
+  frame.index = index;
+  frame.capture_time = seconds;
+  return frame;
+}
+
+// The times of frames that were taken at some seconds, in frame times.
+std::vector<double> FrameTimes(std::span<const double> seconds) {
+  FrameClock clock;
+  std::vector<double> times;
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    times.push_back(clock.Time(FrameAt(static_cast<int64_t>(i), seconds[i])));
+  }
+  return times;
+}
+
+TEST(FrameClock, CountsDroppedFramesOfAVariableRate) {
+  // The second, third and sixth interval are longer by two frames, one, and a quarter.
+  const std::array<double, 7> counts = {0.0, 1.0, 4.0, 6.0, 7.0, 8.0, 9.25};
+  std::array<double, 7> seconds{};
+  std::transform(counts.begin(), counts.end(), seconds.begin(),
+                 [](double count) { return 5.0 + count / 30.0; });
+  const std::vector<double> times = FrameTimes(seconds);
+  for (size_t i = 1; i < counts.size(); ++i) {
+    EXPECT_NEAR(times[i] - times[0], counts[i], 1e-9) << i;
+  }
+}
+
+TEST(FrameClock, IgnoresRoundedTimes) {
+  std::array<double, 60> seconds{};
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    seconds[i] = std::floor(1000.0 * static_cast<double>(i) / 30.0) / 1000.0;
+  }
+  const std::vector<double> times = FrameTimes(seconds);
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    EXPECT_EQ(times[i], static_cast<double>(i));
+  }
+}
+
+TEST(FrameClock, KeepsItsUnitWhenTheRateChanges) {
+  std::vector<double> seconds = {0.0};
+  for (int i = 0; i < 90; ++i) {
+    seconds.push_back(seconds.back() + (i < 30 ? 1.0 / 30.0 : 1.0 / 24.0));
+  }
+  const std::vector<double> times = FrameTimes(seconds);
+  EXPECT_NEAR(times[30] - times[0], 30.0, 1e-9);
+  EXPECT_NEAR(times[90] - times[30], 60.0 * 30.0 / 24.0, 1e-9);
+}
+
+TEST(FrameClock, CountsFramesWhoseTimesDoNotAscend) {
+  EXPECT_THAT(FrameTimes(std::vector<double>{0.0, 0.0, 0.0}), testing::ElementsAre(0.0, 1.0, 2.0));
+  FrameClock clock;
+  clock.Time(FrameAt(7, 0.2));
+  const double before = clock.Time(FrameAt(8, 0.3));
+  EXPECT_EQ(clock.Time(FrameAt(2, 0.0)), before) << "the film was set back";
+  EXPECT_EQ(clock.Time(FrameAt(3, 0.1)), before + 1.0);
+}
 
 TEST(MotionModel, GoesOnAsBefore) {
   const Rigid3 step{geometry::RotationFromVector({0.02, 0.05, -0.01}), {0.1, 0.0, -0.05}};
