@@ -38,7 +38,7 @@ Result<cv::Mat> DecodePng(Bytes encoded, Channels channels, const std::string& w
 Result<cv::Mat> DecodeTiff(Bytes encoded, Channels channels, const std::string& where);
 // Decodes HEIC and AVIF, turned as the file says.
 Result<cv::Mat> DecodeHeif(Bytes encoded, Channels channels, const std::string& where);
-// Decodes BMP, WebP and JPEG XL.
+// Decodes BMP, WebP and JPEG XL, and the files of Photoshop, DirectDraw and Targa.
 Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& where);
 
 bool IsTiff(Bytes encoded);

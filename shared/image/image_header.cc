@@ -84,6 +84,32 @@ std::optional<ImageHeader> ReadWebp(Bytes bytes) {
   return std::nullopt;
 }
 
+// A Targa file starts without a name of its format (Truevision TGA 2.0), so every field of the
+// header has to make sense.
+std::optional<ImageHeader> ReadTga(Bytes bytes) {
+  constexpr size_t kHeader = 18;
+  if (bytes.size() < kHeader) {
+    return std::nullopt;
+  }
+  const auto number = [&](size_t at, size_t size) { return LittleEndian(bytes.subspan(at, size)); };
+  const uint32_t has_palette = number(1, 1);
+  const uint32_t type = number(2, 1);
+  const uint32_t kind = type & ~8u;  // Eight more: in runs of equal pixels.
+  const uint32_t palette_size = number(5, 2);
+  const uint32_t depth = number(16, 1);
+  const ImageHeader header{ImageHeader::Format::kTga, number(12, 2), number(14, 2)};
+  const bool palette_fits = has_palette == 1   ? palette_size > 0
+                            : has_palette == 0 ? palette_size == 0 && kind != 1
+                                               : false;
+  const bool depth_fits = kind == 2 ? depth == 15 || depth == 16 || depth == 24 || depth == 32
+                                    : depth == 8 || (kind == 3 && depth == 16);
+  const bool plain = (number(17, 1) & 0xc0u) == 0;  // The rows are not interleaved.
+  return kind >= 1 && kind <= 3 && (type & ~0x0bu) == 0 && palette_fits && depth_fits && plain &&
+                 header.width > 0 && header.height > 0
+             ? std::optional(header)
+             : std::nullopt;
+}
+
 std::optional<ImageHeader> Header(ImageHeader::Format format, std::optional<cv::Size> size) {
   return size ? std::optional(ImageHeader{format, static_cast<uint32_t>(size->width),
                                           static_cast<uint32_t>(size->height)})
@@ -105,13 +131,21 @@ std::optional<ImageHeader> ReadImageHeader(Bytes encoded) {
   if (StartsWith(encoded, 0, "RIFF") && StartsWith(encoded, 8, "WEBP")) {
     return ReadWebp(encoded);
   }
+  if (StartsWith(encoded, 0, "8BPS") && encoded.size() >= 26) {
+    return ImageHeader{ImageHeader::Format::kPsd, BigEndian(encoded.subspan(18, 4)),
+                       BigEndian(encoded.subspan(14, 4))};
+  }
+  if (StartsWith(encoded, 0, "DDS ") && encoded.size() >= 20) {
+    return ImageHeader{ImageHeader::Format::kDds, LittleEndian(encoded.subspan(16, 4)),
+                       LittleEndian(encoded.subspan(12, 4))};
+  }
   if (IsTiff(encoded)) {
     return Header(ImageHeader::Format::kTiff, ReadTiffSize(encoded));
   }
   if (IsHeif(encoded)) {
     return Header(ImageHeader::Format::kHeif, ReadHeifSize(encoded));
   }
-  return std::nullopt;
+  return ReadTga(encoded);
 }
 
 }  // namespace lararium::image

@@ -6,31 +6,67 @@
 #include <optional>
 
 #include "shared/image/codecs.h"
+#include "shared/image/image_header.h"
 #include "shared/image/libav.h"
 
 namespace lararium::image {
 namespace {
 
 std::optional<AVCodecID> CodecOf(Bytes encoded) {
-  if (StartsWith(encoded, 0, "BM")) {
-    return AV_CODEC_ID_BMP;
-  }
-  if (StartsWith(encoded, 0, "RIFF") && StartsWith(encoded, 8, "WEBP")) {
-    return AV_CODEC_ID_WEBP;
-  }
   // A bare codestream, or a container (ISO/IEC 18181-2).
   using std::literals::string_view_literals::operator""sv;
   if (StartsWith(encoded, 0, "\xff\x0a"sv) ||
       StartsWith(encoded, 0, "\0\0\0\x0cJXL \r\n\x87\n"sv)) {
     return AV_CODEC_ID_JPEGXL;
   }
-  return std::nullopt;
+  const std::optional<ImageHeader> header = ReadImageHeader(encoded);
+  if (!header) {
+    return std::nullopt;
+  }
+  switch (header->format) {
+    case ImageHeader::Format::kBmp:
+      return AV_CODEC_ID_BMP;
+    case ImageHeader::Format::kWebp:
+      return AV_CODEC_ID_WEBP;
+    case ImageHeader::Format::kPsd:
+      return AV_CODEC_ID_PSD;
+    case ImageHeader::Format::kDds:
+      return AV_CODEC_ID_DDS;
+    case ImageHeader::Format::kTga:
+      return AV_CODEC_ID_TARGA;
+    default:
+      return std::nullopt;
+  }
+}
+
+// Returns how many bytes a Targa file has up to its last pixel; more than there are if it is cut
+// short within its runs of pixels.
+uint64_t TgaSize(const ImageHeader& header, Bytes encoded) {
+  const auto number = [&](size_t at) { return static_cast<uint64_t>(encoded[at]); };
+  constexpr uint64_t kRuns = 8;  // Added to the type of an image in runs.
+  const uint64_t bytes_per_pixel = (number(16) + 7) / 8;
+  const uint64_t palette = (number(5) + 256 * number(6)) * ((number(7) + 7) / 8);
+  uint64_t at = 18 + number(0) + palette;
+  uint64_t pixels = uint64_t{header.width} * header.height;
+  if ((number(2) & kRuns) == 0) {
+    return at + pixels * bytes_per_pixel;
+  }
+  while (pixels > 0 && at < encoded.size()) {
+    const uint64_t run = number(at);
+    const uint64_t count = (run & 0x7f) + 1;
+    at += 1 + bytes_per_pixel * (run >= 0x80 ? 1 : count);
+    pixels -= std::min(pixels, count);
+  }
+  return at + pixels;
 }
 
 // Returns the size of the whole file that the file declares; zero if the format does not state it.
-// libav skews a BMP that is a little too short, and invents the rest of a WebP.
+// libav skews a BMP that is a little too short, and invents the rest of a WebP and of a run.
 uint64_t ClaimedSize(AVCodecID id, Bytes encoded) {
-  if (id == AV_CODEC_ID_JPEGXL) {
+  if (id == AV_CODEC_ID_TARGA) {
+    return TgaSize(*ReadImageHeader(encoded), encoded);
+  }
+  if (id != AV_CODEC_ID_BMP && id != AV_CODEC_ID_WEBP) {
     return 0;
   }
   const size_t at = id == AV_CODEC_ID_BMP ? 2 : 4;

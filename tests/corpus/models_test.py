@@ -89,7 +89,7 @@ class Models(corpus.Case):
         figure.write_glb(self.folder / "a.glb")
         said = self.person("a.glb")
         self.assertIn("warning: ada: people do not shine: the emission of its materials is left out", said)
-        self.assertIn("texture 'image 0': is in a format of graphics cards", said)
+        self.assertIn("texture 'image 0': is a KTX file for graphics cards", said)
         self.assertIn("emission", self.editor("bake", "p.lararium"))
         self.assertIn("emission", self.editor("bake", "p.lararium"))
         self.assertIn('"warnings": [', self.editor("bake", "p.lararium", "--json"))

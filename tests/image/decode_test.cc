@@ -54,6 +54,66 @@ std::vector<std::byte> Encoded(const cv::Mat& image,
   return {encoded.begin(), encoded.end()};
 }
 
+void Append(std::vector<uint8_t>& bytes, std::initializer_list<int> values) {
+  for (const int value : values) {
+    bytes.push_back(static_cast<uint8_t>(value));
+  }
+}
+
+std::vector<std::byte> Bytes(const std::vector<uint8_t>& bytes) {
+  const auto encoded = std::as_bytes(std::span(bytes));
+  return {encoded.begin(), encoded.end()};
+}
+
+// A BGR or BGRA picture as a Targa file, the top row first; in_runs: each pixel is a run of one.
+std::vector<std::byte> Tga(const cv::Mat& image, bool in_runs) {
+  const int channels = image.channels();
+  std::vector<uint8_t> bytes;
+  Append(bytes, {0, 0, in_runs ? 10 : 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, image.cols, 0, image.rows, 0,
+                 8 * channels, channels == 4 ? 0x28 : 0x20});
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      if (in_runs) {
+        bytes.push_back(0x80);
+      }
+      const uint8_t* pixel = image.ptr(y) + channels * x;
+      bytes.insert(bytes.end(), pixel, pixel + channels);
+    }
+  }
+  return Bytes(bytes);
+}
+
+// A BGR picture as an image of Photoshop without layers: planes of red, green and blue.
+std::vector<std::byte> Psd(const cv::Mat& image) {
+  std::vector<uint8_t> bytes = {'8', 'B', 'P', 'S'};
+  Append(bytes,
+         {0, 1, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, image.rows, 0, 0, 0, image.cols, 0, 8, 0, 3});
+  Append(bytes, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});  // No palette, resources, layers; raw.
+  for (int channel = 2; channel >= 0; --channel) {
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        bytes.push_back(image.at<cv::Vec3b>(y, x)[channel]);
+      }
+    }
+  }
+  return Bytes(bytes);
+}
+
+// A BGRA picture as an uncompressed image of DirectDraw.
+std::vector<std::byte> Dds(const cv::Mat& image) {
+  std::vector<uint8_t> bytes = {'D', 'D', 'S', ' '};
+  Append(bytes, {124, 0, 0, 0, 0x0f, 0x10, 0, 0, image.rows, 0, 0, 0, image.cols, 0, 0, 0});
+  Append(bytes, {4 * image.cols, 0, 0, 0});
+  bytes.resize(76);
+  Append(bytes, {32, 0, 0, 0, 0x41, 0, 0, 0, 0, 0, 0, 0, 32, 0, 0, 0});  // RGB with alpha.
+  Append(bytes, {0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0, 0, 0, 0, 0, 255, 0, 0x10, 0, 0});
+  bytes.resize(128);
+  for (int y = 0; y < image.rows; ++y) {
+    bytes.insert(bytes.end(), image.ptr(y), image.ptr(y) + 4 * image.cols);
+  }
+  return Bytes(bytes);
+}
+
 cv::Mat Reference(const std::vector<std::byte>& encoded, int flags) {
   const cv::Mat bytes(1, static_cast<int>(encoded.size()), CV_8U,
                       const_cast<std::byte*>(encoded.data()));
@@ -116,6 +176,48 @@ TEST(DecodeImage, GivesThePixelsThatOpenCvGives) {
   }
 }
 
+TEST(DecodeImage, ReadsTheFilesInWhichModelsKeepTextures) {
+  const cv::Mat opaque = Picture(CV_8UC3);
+  const cv::Mat transparent = Picture(CV_8UC4);
+  const auto expect = [](const std::vector<std::byte>& encoded, Channels channels,
+                         const cv::Mat& picture) {
+    const auto decoded = DecodeImage(encoded, channels, "p");
+    ASSERT_TRUE(decoded.ok()) << decoded.message();
+    EXPECT_EQ(Difference(*decoded, picture), 0.0);
+    for (size_t size = 0; size < encoded.size(); ++size) {
+      const auto cut = DecodeImage(std::span(encoded.data(), size), channels, "cut");
+      EXPECT_FALSE(cut.ok()) << size << " of " << encoded.size();
+    }
+  };
+  for (const bool in_runs : {false, true}) {
+    SCOPED_TRACE(in_runs ? "Targa in runs" : "Targa");
+    expect(Tga(opaque, in_runs), Channels::kBgr, opaque);
+    expect(Tga(transparent, in_runs), Channels::kBgra, transparent);
+  }
+  SCOPED_TRACE("DirectDraw, Photoshop");
+  expect(Dds(transparent), Channels::kBgra, transparent);
+  expect(Psd(opaque), Channels::kBgr, opaque);
+}
+
+TEST(DecodeImage, ReadsABlockOfCompressedPixels) {
+  std::vector<uint8_t> bytes = {'D', 'D', 'S', ' '};
+  Append(bytes, {124, 0, 0, 0, 0x07, 0x10, 8, 0, 4, 0, 0, 0, 4, 0, 0, 0, 8, 0, 0, 0});
+  bytes.resize(76);
+  Append(bytes, {32, 0, 0, 0, 4, 0, 0, 0, 'D', 'X', 'T', '1'});
+  bytes.resize(108);
+  Append(bytes, {0, 0x10, 0, 0});
+  bytes.resize(128);
+  // Red and blue as 5, 6 and 5 bits; rows choose the first, the second, and the two between them.
+  Append(bytes, {0x00, 0xf8, 0x1f, 0x00, 0x00, 0x55, 0xaa, 0xff});
+  const auto decoded = DecodeImage(Bytes(bytes), Channels::kBgr, "p");
+  ASSERT_TRUE(decoded.ok()) << decoded.message();
+  ASSERT_EQ(decoded->size(), cv::Size(4, 4));
+  EXPECT_EQ(decoded->at<cv::Vec3b>(0, 1), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(decoded->at<cv::Vec3b>(1, 2), cv::Vec3b(255, 0, 0));
+  EXPECT_EQ(decoded->at<cv::Vec3b>(2, 3), cv::Vec3b(85, 0, 170));
+  EXPECT_EQ(decoded->at<cv::Vec3b>(3, 0), cv::Vec3b(170, 0, 85));
+}
+
 TEST(DecodeImage, KeepsAlphaAndGivesTheWholeOfItWhereThereIsNone) {
   const cv::Mat image = Picture(CV_8UC4);
   const auto decoded = DecodeImage(Encoded(image, ".png"), Channels::kBgra, "p");
@@ -150,8 +252,13 @@ TEST(DecodeImage, NeverGivesAPartOfAPicture) {
 
 TEST(DecodeImage, SurvivesBytesThatChanged) {
   Random random(7);
+  std::vector<std::vector<std::byte>> pictures = {Tga(Picture(CV_8UC3), false),
+                                                  Tga(Picture(CV_8UC3), true),
+                                                  Dds(Picture(CV_8UC4)), Psd(Picture(CV_8UC3))};
   for (const char* ending : {".png", ".jpg", ".bmp", ".tif", ".webp"}) {
-    const auto whole = Encoded(Picture(CV_8UC3), ending);
+    pictures.push_back(Encoded(Picture(CV_8UC3), ending));
+  }
+  for (const std::vector<std::byte>& whole : pictures) {
     for (int trial = 0; trial < 300; ++trial) {
       auto bytes = whole;
       for (int flips = 0; flips < 4; ++flips) {

@@ -54,6 +54,16 @@ std::string LossyWebp() { return Webp("VP8 ", {0, 0, 0, 0x9d, 1, 0x2a, 0x80, 0x4
 std::string LosslessWebp() { return Webp("VP8L", {0x2f, 0x7f, 0xc2, 0x77, 0, 0, 0, 0, 0, 0}); }
 std::string ExtendedWebp() { return Webp("VP8X", {0, 0, 0, 0, 0x7f, 2, 0, 0xdf, 1, 0}); }
 
+std::string Psd() {
+  return "8BPS" + Text({0, 1, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 1, 0xe0, 0, 0, 2, 0x80, 0, 8, 0, 3});
+}
+std::string Dds() {
+  return "DDS " + Text({124, 0, 0, 0, 7, 0x10, 0, 0, 0xe0, 1, 0, 0, 0x80, 2, 0, 0});
+}
+std::string Tga() {
+  return Text({0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x80, 2, 0xe0, 1, 24, 0x20});
+}
+
 TEST(ImageHeader, TellsFormatAndSize) {
   EXPECT_EQ(Read(Png()), (ImageHeader{Format::kPng, 640, 480}));
   EXPECT_EQ(Read(Jpeg()), (ImageHeader{Format::kJpeg, 640, 480}));
@@ -62,12 +72,15 @@ TEST(ImageHeader, TellsFormatAndSize) {
   EXPECT_EQ(Read(LossyWebp()), (ImageHeader{Format::kWebp, 640, 480})) << "two bits are a scale";
   EXPECT_EQ(Read(LosslessWebp()), (ImageHeader{Format::kWebp, 640, 480}));
   EXPECT_EQ(Read(ExtendedWebp()), (ImageHeader{Format::kWebp, 640, 480}));
+  EXPECT_EQ(Read(Psd()), (ImageHeader{Format::kPsd, 640, 480}));
+  EXPECT_EQ(Read(Dds()), (ImageHeader{Format::kDds, 640, 480}));
+  EXPECT_EQ(Read(Tga()), (ImageHeader{Format::kTga, 640, 480}));
   EXPECT_EQ(Read(Bmp(-480)), (ImageHeader{Format::kBmp, 640, 480})) << "the top row first";
 }
 
 TEST(ImageHeader, KnowsNothingOfWhatIsCutShort) {
-  for (const std::string& whole :
-       {Png(), Jpeg(), Bmp(480), LossyWebp(), LosslessWebp(), ExtendedWebp()}) {
+  for (const std::string& whole : {Png(), Jpeg(), Bmp(480), LossyWebp(), LosslessWebp(),
+                                   ExtendedWebp(), Psd(), Dds(), Tga()}) {
     for (size_t size = 0; size < whole.size(); ++size) {
       EXPECT_FALSE(Read(whole.substr(0, size)).has_value()) << size;
     }

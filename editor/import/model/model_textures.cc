@@ -91,9 +91,10 @@ Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
     const std::string_view head(reinterpret_cast<const char*>(encoded.data()),
                                 std::min<size_t>(encoded.size(), 4));
     return Status::Error(at,
-                         head == "\xABKTX" || head == "DDS "
-                             ? "is in a format of graphics cards (KTX or DDS), which is not read"
-                             : "is neither PNG, JPEG, WebP, AVIF, TIFF nor BMP, or is damaged",
+                         head == "\xABKTX"
+                             ? "is a KTX file for graphics cards, which is not read"
+                             : "is neither PNG, JPEG, WebP, AVIF, TIFF, BMP, PSD, DDS nor TGA, or "
+                               "is damaged",
                          "convert it to PNG");
   }
   if (size->width == 0 || size->height == 0 || size->width > 65'535 || size->height > 65'535 ||
