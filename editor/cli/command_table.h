@@ -52,6 +52,8 @@ void AddShowCommands(CommandTable& table);   // Rendering, export and checks.
 
 // Options that several subcommands share.
 void AddProject(CLI::App* command, std::filesystem::path& project);
+// Makes an option refuse text that is not UTF-8, as a terminal with another encoding gives it.
+CLI::Option* RequireUtf8(CLI::Option* option);
 // Adds an optional text that may be empty; CLI11 would treat an empty value as missing.
 CLI::Option* AddText(CLI::App* command,
                      const std::string& name,

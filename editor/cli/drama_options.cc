@@ -112,9 +112,9 @@ void AddLines(CLI::App* command, LinesOptions& in) {
       ->needs(import);
   AddText(command, "--speaker", in.speaker, "The person of the cast who says it; \"\": no speaker");
   AddText(command, "--notes", in.notes, "For speakers and translators");
-  command
-      ->add_option("--text", in.texts,
-                   "LANGUAGE=TEXT: what is said; LANGUAGE= where it has none. May be repeated")
+  RequireUtf8(command->add_option(
+                  "--text", in.texts,
+                  "LANGUAGE=TEXT: what is said; LANGUAGE= where it has none. May be repeated"))
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }

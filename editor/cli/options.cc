@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "editor/cli/command_table.h"
+#include "shared/core/utf8.h"
 
 namespace lararium::editor {
 
@@ -10,12 +11,18 @@ void AddProject(CLI::App* command, std::filesystem::path& project) {
   command->add_option("PROJECT", project, "The project's folder")->required();
 }
 
+CLI::Option* RequireUtf8(CLI::Option* option) {
+  return option->check([](const std::string& text) -> std::string {
+    return IsUtf8(text) ? "" : "the text is not UTF-8; set the terminal's encoding to UTF-8";
+  });
+}
+
 CLI::Option* AddText(CLI::App* command,
                      const std::string& name,
                      std::optional<std::string>& text,
                      const std::string& description) {
-  return command->add_option_function<std::string>(
-      name, [&](const std::string& given) { text = given; }, description);
+  return RequireUtf8(command->add_option_function<std::string>(
+      name, [&](const std::string& given) { text = given; }, description));
 }
 
 void AddIntrinsics(CLI::App* command, std::vector<double>& intrinsics) {

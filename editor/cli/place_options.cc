@@ -11,7 +11,7 @@ namespace {
 
 void AddNew(CLI::App* command, NewOptions& create) {
   AddProject(command, create.project);
-  command->add_option("--title", create.title, "Title; the folder's name otherwise");
+  RequireUtf8(command->add_option("--title", create.title, "Title; the folder's name otherwise"));
 }
 
 void AddProjectItself(CLI::App* command, ProjectOptions& options) {

@@ -63,6 +63,18 @@ TEST(EditorOptions, TrainTakesARecordingItsCameraAndWhatTheMapMayWeigh) {
   EXPECT_FALSE(train.add);
 }
 
+TEST(EditorOptions, TextInAnotherEncodingIsRefused) {
+  const std::string latin1 =
+      "Gr\xf6\xdf"
+      "e";
+  EXPECT_THAT(Refusal({"new", "p", "--title", latin1}),
+              HasSubstr("--title: the text is not UTF-8"));
+  EXPECT_THAT(Refusal({"project", "p", "--credits", latin1}), HasSubstr("is not UTF-8"));
+  EXPECT_THAT(Refusal({"lines", "p", "--set", "a", "--text", "de=" + latin1}),
+              HasSubstr("is not UTF-8"));
+  EXPECT_EQ(Parsed<NewOptions>({"new", "p", "--title", "Gr\u00f6\u00dfe"}).title, "Größe");
+}
+
 TEST(EditorOptions, TrainAddNeedsARecording) {
   EXPECT_THAT(Refusal({"train", "p", "--add"}), HasSubstr("needs the recording to add"));
   const test::TemporaryFolder folder;
