@@ -16,7 +16,8 @@ declare -A commands=(
   [demo]='time ./demo'
   [check]='time ./check'
   [packages]='scripts/install_packages.sh package && { command -v npm > /dev/null || scripts/install_packages.sh cast; } &&
-    scripts/fetch_cast_library.sh && cmake --preset release && cmake --build --preset release --target package')
+    scripts/fetch_cast_library.sh && cmake --preset release &&
+    cmake --build --preset release --target lararium-editor lararium-player && (cd build/release && cpack)')
 suite=${suites[${1:-}]:-}
 command=${2:-check}
 if [[ -z $suite || $# -gt 2 || -z ${commands[$command]:-} ]]; then
