@@ -7,6 +7,8 @@
 #include "shared/core/plain_text.h"
 #include "shared/core/utf8.h"
 
+template class nlohmann::basic_json<>;
+
 namespace lararium {
 namespace {
 

@@ -15,6 +15,9 @@
 #include "shared/core/json_fwd.h"
 #include "shared/core/status.h"
 
+// Compiled once, in json.cc.
+extern template class nlohmann::basic_json<>;
+
 namespace lararium {
 
 // where: the name of the text in error messages, normally its file.

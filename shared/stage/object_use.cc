@@ -20,7 +20,7 @@ constexpr double kMaxLength = 100.0;         // Limit of all lengths of an objec
 constexpr double kMaxDegrees = 720.0;        // Limit of angles.
 constexpr double kMaxActionSeconds = 600.0;  // Limit of the duration of an action.
 constexpr size_t kMaxNameBytes = 64;
-constexpr size_t kMaxTextBytes = 1 << 20;
+constexpr size_t kMaxUseBytes = 1 << 20;
 constexpr size_t kMaxOutline = 12;
 constexpr double kMinGainDb = -60.0;
 constexpr double kMaxGainDb = 12.0;
@@ -503,7 +503,7 @@ int ObjectUse::FindGrip(std::string_view name) const { return FindByName(grips, 
 Result<ObjectUse> ParseObjectUse(std::string_view text,
                                  const Prop& prop,
                                  const std::string& where) {
-  if (text.size() > kMaxTextBytes) {
+  if (text.size() > kMaxUseBytes) {
     return Status::Error(where, "is longer than 1 MiB");
   }
   ObjectUse use;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMaxVisemeSeconds = 3600.0;
 constexpr size_t kMaxKeys = 100'000;
-constexpr size_t kMaxTextBytes = size_t{16} << 20;
+constexpr size_t kMaxVisemeBytes = size_t{16} << 20;
 
 // Seconds and strengths are written to a tenth of a thousandth, so that the file is easy to read.
 void DescribeRounded(Fields& fields, const FieldKey& key, float& value, double max) {
@@ -48,7 +48,7 @@ void DescribeTrack(Fields& fields, human::VisemeTrack& track) {
 }  // namespace
 
 Result<human::VisemeTrack> ParseVisemes(std::string_view text, const std::string& where) {
-  if (text.size() > kMaxTextBytes) {
+  if (text.size() > kMaxVisemeBytes) {
     return Status::Error(where, "is longer than 16 MiB");
   }
   LARARIUM_ASSIGN_OR_RETURN(

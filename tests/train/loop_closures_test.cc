@@ -6,12 +6,12 @@ namespace lararium::train {
 namespace {
 
 constexpr uint32_t kImages = 30;
-constexpr int kPoints = 40;    // Points of one image.
-constexpr double kStep = 0.2;  // Metres from image to image.
+constexpr int kImagePoints = 40;  // Points of one image.
+constexpr double kStep = 0.2;     // Metres from image to image.
 constexpr double kDepth = 3.0;
 constexpr uint32_t kNeighbours = 2;
 
-geometry::CameraModel Camera() {
+geometry::CameraModel FilmCamera() {
   geometry::CameraModel camera;
   camera.width = 640;
   camera.height = 480;
@@ -22,8 +22,8 @@ geometry::CameraModel Camera() {
 }
 
 // A camera that walks along a wall. Each image sees the points before it, and the next two images
-// see them too. Feature f of image i is point (i, f) for f < kPoints, then come those of the images
-// before it.
+// see them too. Feature f of image i is point (i, f) for f < kImagePoints, then come those of the
+// images before it.
 struct Walk {
   Reconstruction chain;
   std::vector<VerifiedPair> pairs;
@@ -32,27 +32,27 @@ struct Walk {
 Walk WalkAlongTheWall(const std::vector<VerifiedPair>& far) {
   std::vector<std::vector<Eigen::Vector2d>> pixels(kImages);
   std::vector<uint32_t> counts;
-  Walk walk{Reconstruction(Camera(), {}, {}), {}};
+  Walk walk{Reconstruction(FilmCamera(), {}, {}), {}};
   const auto centre = [](uint32_t image) { return Eigen::Vector3d(kStep * image, 0.0, 0.0); };
   const auto point = [&](uint32_t image, int f) {
     return Eigen::Vector3d(centre(image) + Eigen::Vector3d(0.05 * (f % 8), 0.1 * (f / 8), kDepth));
   };
   for (uint32_t image = 0; image < kImages; ++image) {
     for (uint32_t back = 0; back <= std::min(image, kNeighbours); ++back) {
-      for (int f = 0; f < kPoints; ++f) {
-        pixels[image].push_back(*Camera().Project(point(image - back, f) - centre(image)));
+      for (int f = 0; f < kImagePoints; ++f) {
+        pixels[image].push_back(*FilmCamera().Project(point(image - back, f) - centre(image)));
       }
       if (back > 0) {
         VerifiedPair& pair = walk.pairs.emplace_back();
         pair.images = {image - back, image};
-        for (uint32_t f = 0; f < kPoints; ++f) {
-          pair.matches.push_back({f, back * kPoints + f});
+        for (uint32_t f = 0; f < kImagePoints; ++f) {
+          pair.matches.push_back({f, back * kImagePoints + f});
         }
       }
     }
     counts.push_back(static_cast<uint32_t>(pixels[image].size()));
   }
-  walk.chain = Reconstruction(Camera(), std::move(pixels), BuildTracks(counts, walk.pairs));
+  walk.chain = Reconstruction(FilmCamera(), std::move(pixels), BuildTracks(counts, walk.pairs));
   for (uint32_t image = 0; image < kImages; ++image) {
     walk.chain.Locate(image, {Eigen::Quaterniond::Identity(), -centre(image)});
   }
@@ -66,7 +66,7 @@ Walk WalkAlongTheWall(const std::vector<VerifiedPair>& far) {
 VerifiedPair Matching(uint32_t a, uint32_t b, uint32_t first_in_b) {
   VerifiedPair pair;
   pair.images = {a, b};
-  for (uint32_t f = 0; f < kPoints; ++f) {
+  for (uint32_t f = 0; f < kImagePoints; ++f) {
     pair.matches.push_back({f, first_in_b + f});
   }
   return pair;

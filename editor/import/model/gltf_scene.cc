@@ -22,7 +22,6 @@
 namespace lararium::import {
 namespace {
 
-constexpr size_t kMaxVertices = 2'000'000;
 constexpr size_t kMaxCurveKeys = 20'000'000;
 constexpr size_t kMaxInstances = 10'000;  // Most instances of one node.
 constexpr size_t kNone = SIZE_MAX;
@@ -350,7 +349,8 @@ class SceneReader {
     }
     vertices_ += accessors_.Count(attributes["POSITION"].get<size_t>());
     if (vertices_ > kMaxVertices) {
-      return accessors_.Problem(primitive.where, "there are more than 2000000 vertices");
+      return accessors_.Problem(
+          primitive.where, "there are more than " + std::to_string(kMaxVertices) + " vertices");
     }
     LARARIUM_RETURN_IF_ERROR(ReadDraco(primitive));
     LARARIUM_ASSIGN_OR_RETURN(primitive.positions, Attribute(primitive, "POSITION", 3));

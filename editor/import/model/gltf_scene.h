@@ -14,6 +14,9 @@
 
 namespace lararium::import {
 
+// Most vertices of a model, in all its parts.
+inline constexpr size_t kMaxVertices = 2'000'000;
+
 // What was guessed or is not taken over: of nodes, meshes and clips, and of materials.
 struct GltfNotes {
   std::vector<std::string> structure, surface;

@@ -12,8 +12,6 @@
 namespace lararium::import {
 namespace {
 
-constexpr size_t kMaxVertices = 2'000'000;
-
 // Keeps the four largest influences in descending order. Returns the weight that is lost.
 float Insert(Influence influence, Influences& influences) {
   for (Influence& slot : influences) {

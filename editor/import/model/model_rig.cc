@@ -3,8 +3,6 @@
 namespace lararium::import {
 namespace {
 
-constexpr int kNone = SceneNodes::kNoParent;
-
 void AddMovedNodes(const aiScene& scene, const SceneNodes& nodes, std::set<int>& bones) {
   for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
     const aiAnimation& animation = *scene.mAnimations[i];
@@ -12,10 +10,10 @@ void AddMovedNodes(const aiScene& scene, const SceneNodes& nodes, std::set<int>&
       bones.insert(nodes.Find(animation.mChannels[c]->mNodeName));
     }
   }
-  bones.erase(kNone);
+  bones.erase(SceneNodes::kNoParent);
   // The end nodes of hands and feet give the direction of these bones.
   for (size_t n = 0; n < nodes.size(); ++n) {
-    if (nodes.parents[n] != kNone && bones.contains(nodes.parents[n])) {
+    if (nodes.parents[n] != SceneNodes::kNoParent && bones.contains(nodes.parents[n])) {
       bones.insert(static_cast<int>(n));
     }
   }
@@ -39,7 +37,7 @@ std::set<int> BoneNodes(const ModelScene& model, const BindPose& bind, Content c
       }
     }
   }
-  bones.erase(kNone);
+  bones.erase(SceneNodes::kNoParent);
   return bones;
 }
 
@@ -47,7 +45,7 @@ std::set<int> BoneNodes(const ModelScene& model, const BindPose& bind, Content c
 std::vector<bool> Candidates(const SceneNodes& nodes, const std::set<int>& bones) {
   std::vector<bool> candidate(nodes.size(), bones.empty());
   for (int node : bones) {
-    for (; node != kNone && !candidate[static_cast<size_t>(node)];
+    for (; node != SceneNodes::kNoParent && !candidate[static_cast<size_t>(node)];
          node = nodes.parents[static_cast<size_t>(node)]) {
       candidate[static_cast<size_t>(node)] = true;
     }
@@ -62,7 +60,8 @@ std::vector<int> ListBones(const SceneNodes& nodes, const BindPose& bind, ModelR
   std::vector<int> bone_of_node(nodes.size(), Rig::kNoParent);
   for (size_t n = 0; n < nodes.size(); ++n) {
     const int parent = nodes.parents[n];
-    const int above = parent == kNone ? Rig::kNoParent : bone_of_node[static_cast<size_t>(parent)];
+    const int above = parent == SceneNodes::kNoParent ? Rig::kNoParent
+                                                      : bone_of_node[static_cast<size_t>(parent)];
     bone_of_node[n] = above;
     if (candidate[n] && !nodes.IsPivot(n)) {
       bone_of_node[n] = static_cast<int>(result.bones.size());
@@ -83,7 +82,8 @@ GivenBones VrmBones(const ModelScene& model,
   given.found_by = FoundBy::kFile;
   for (const auto& [joint, gltf_node] : model.vrm->bones) {
     const int node = model.nodes.FindGltf(gltf_node);
-    const int bone = node == kNone ? Rig::kNoParent : bone_of_node[static_cast<size_t>(node)];
+    const int bone =
+        node == SceneNodes::kNoParent ? Rig::kNoParent : bone_of_node[static_cast<size_t>(node)];
     if (bone != Rig::kNoParent && node_of_bone[static_cast<size_t>(bone)] == node) {
       given.bones[joint] = bone;
     }

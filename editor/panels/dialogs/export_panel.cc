@@ -55,7 +55,7 @@ void DrawContentsTable(const editor::BundleSummary& contents, bool written) {
   ImGui::EndTable();
 }
 
-void DrawWarnings(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
+void DrawExportWarnings(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& actions) {
   if (const int unbaked = dialogs.fields.contents->unbaked(); unbaked > 0) {
     DimText(TrCount("%d thing is baked first; that takes a while.",
                     "%d things are baked first; that takes a while.", unbaked));
@@ -149,7 +149,7 @@ void DrawBefore(editor::Workspace& workspace, Dialogs& dialogs, EditorActions& a
   }
   Heading(Tr("What goes in"));
   DrawContentsTable(*fields.contents, false);
-  DrawWarnings(workspace, dialogs, actions);
+  DrawExportWarnings(workspace, dialogs, actions);
   if (fields.exporting && !workspace.jobs().export_problem().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, Colours().error);
     ImGui::TextWrapped("%s", workspace.jobs().export_problem().c_str());

@@ -206,7 +206,7 @@ constexpr std::array<RowSwitch, 3> kRowSwitches = {{
 constexpr const char* kMore = "\xe2\x80\xa6";
 constexpr float kMoreGap = 2.0f;
 
-float WidthOf(const RowSwitch& entry) {
+float SwitchWidth(const RowSwitch& entry) {
   const float more =
       entry.key == KeyAction::kOnion ? WidestButton(std::array{kMore}, 0.0f) + Px(kMoreGap) : 0.0f;
   return WidestButton(std::array{Tr(entry.label)}, 0.0f) + more + ImGui::GetStyle().ItemSpacing.x;
@@ -217,8 +217,8 @@ std::span<const RowSwitch> SwitchesThatFit(float width) {
   constexpr float kSlider = 150.0f;
   size_t first = kRowSwitches.size();
   float left = width - Px(kSlider);
-  while (first > 0 && left >= WidthOf(kRowSwitches[first - 1])) {
-    left -= WidthOf(kRowSwitches[--first]);
+  while (first > 0 && left >= SwitchWidth(kRowSwitches[first - 1])) {
+    left -= SwitchWidth(kRowSwitches[--first]);
   }
   return std::span(kRowSwitches).subspan(first);
 }
@@ -362,7 +362,7 @@ void DrawTransport(editor::Workspace& workspace, ViewOptions& options, OnionSett
   const std::span<const RowSwitch> switches = SwitchesThatFit(ImGui::GetContentRegionAvail().x);
   float width = 0.0f;
   for (const RowSwitch& entry : switches) {
-    width += WidthOf(entry);
+    width += SwitchWidth(entry);
   }
   if (recording && recording->live) {
     DrawLive(workspace, width);
@@ -377,7 +377,7 @@ void DrawTransport(editor::Workspace& workspace, ViewOptions& options, OnionSett
     if (entry.key == KeyAction::kOnion) {
       OnionMoreButton(onion);
     }
-    x += WidthOf(entry);
+    x += SwitchWidth(entry);
   }
   DrawOnionMore(onion);
 }
