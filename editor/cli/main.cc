@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
     return ReportFailure(log.status(), line.json);
   }
   if (::isatty(STDERR_FILENO) == 1) {
-    (*log)->set_level(spdlog::level::warn);  // The progress bar shows the rest.
+    (*log)->SetLevel(Log::Level::kWarning);  // The progress bar shows the rest.
   }
   const Result<CommandResult> result = Run(line, **log);
   if (!result.ok()) {

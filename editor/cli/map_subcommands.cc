@@ -63,7 +63,7 @@ Status FilmWith(const std::string& camera,
                 Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenFilmCamera(camera));
   for (const std::string& note : source->Notes()) {
-    log.warn("{}", note);
+    log.Warn("{}", note);
   }
   const auto next = [&](const FilmMoment& moment) {
     const std::string fault = FaultText(moment.coverage.fault, false);
@@ -318,7 +318,7 @@ Result<CommandResult> RunTrain(const TrainCommandOptions& options, Progress& pro
     if (const auto camera = MeasureCamera(paths, *place, progress); camera.ok()) {
       place->camera = *camera;
     } else {
-      log.warn("{}", camera.message());
+      log.Warn("{}", camera.message());
     }
   }
   LARARIUM_RETURN_IF_ERROR(SaveProject(paths, document));

@@ -397,13 +397,13 @@ class Importer {
                           " images have other names in the model, such as " + example);
     }
     if (turned > 0) {
-      log_.warn(
+      log_.Warn(
           "{} images are to be shown turned (EXIF data), but the model is of their stored pixels: "
           "turn the pixels (mogrify -auto-orient) and make the model again",
           turned);
     }
     if (!all_known) {
-      log_.warn(
+      log_.Warn(
           "{}: not all images of the model are found again when the folder is opened; to train the "
           "place from them again, put all into the folder itself, or all into subfolders",
           folder_.string());
@@ -609,7 +609,7 @@ class Importer {
       }
     }
     const size_t found = reconstruction.PointCount();
-    log_.info("{} of the model's {} points were found again in its images", found,
+    log_.Info("{} of the model's {} points were found again in its images", found,
               model_.points.size());
     if (found < kMinPoints) {
       return Status::Error(kImport,

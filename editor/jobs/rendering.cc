@@ -22,7 +22,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   size_t told = 0;
   const auto tell = [&] {
     for (const std::vector<std::string> notes = source->Notes(); told < notes.size(); ++told) {
-      log.warn("{}", notes[told]);
+      log.Warn("{}", notes[told]);
     }
   };
   tell();

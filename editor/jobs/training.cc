@@ -140,7 +140,7 @@ Result<train::TrainReport> TrainPlace(const ProjectPaths& paths,
                             train::Train(*source, OptionsFor(first, options), progress, log));
   LARARIUM_RETURN_IF_ERROR(KeepPickedFrames(place, 0, result.report, *source, result.database));
   for (const SessionDocument& session : place.added) {
-    log.info("adding {}", session.source.path);
+    log.Info("adding {}", session.source.path);
     LARARIUM_ASSIGN_OR_RETURN(
         train::TrainResult merged,
         MergeSession(paths, place, result.database, session, options, progress, log));

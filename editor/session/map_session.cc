@@ -45,7 +45,7 @@ MapSession::~MapSession() {
   if (unsaved_ && FileStamp(unsaved_->file) == unsaved_->stamp) {
     const Status status = vision::SaveSceneDatabase(unsaved_->file, *unsaved_->database);
     if (!status.ok()) {
-      log_.error("{}", status.message());
+      log_.Error("{}", status.message());
     }
   }
 }

@@ -216,7 +216,7 @@ void Preview::Worker::PlaySound(bool on) {
     Result<std::unique_ptr<audio::Mixer>> mixer = audio::Mixer::Create(show_->sounds(), {});
     mute_ = !mixer.ok();
     if (mute_) {
-      log_->warn("{}; the preview is silent", mixer.message());
+      log_->Warn("{}; the preview is silent", mixer.message());
       return;
     }
     sound_ = std::make_unique<audio::SoundPlayer>(

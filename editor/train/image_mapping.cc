@@ -119,7 +119,7 @@ void WarnOfGaps(std::span<const TrainingImage> images,
             ? "too few features; film textured objects in good light, without motion blur"
         : any_linked ? "their matches fix no pose; film this part again, more slowly"
                      : "they do not overlap with the rest of the map; move more slowly between";
-    log.warn("no pose for {} to {}: {}", images[begin].name, images[end - 1].name, reason);
+    log.Warn("no pose for {} to {}: {}", images[begin].name, images[end - 1].name, reason);
     begin = end;
   }
 }
@@ -200,7 +200,7 @@ std::vector<VerifiedPair> WithoutLookalikes(std::span<const TrainingImage> image
   LoopClosures closures =
       JudgeLoopClosures(verified.pairs, *verified.film_gap, *chain->reconstruction);
   if (closures.lookalikes > 0) {
-    log.info("{} of {} image pairs look alike, but show different parts of the place",
+    log.Info("{} of {} image pairs look alike, but show different parts of the place",
              closures.lookalikes, verified.pairs.size());
   }
   return std::move(closures.pairs);
@@ -238,10 +238,10 @@ Result<VerifiedPairs> MatchImages(std::span<TrainingImage> images,
   }
   for (const TrainingCamera& camera : verified.cameras) {
     if (!camera.given) {
-      log.info("starting with a focal length of {:.0f} pixels", camera.model.fx);
+      log.Info("starting with a focal length of {:.0f} pixels", camera.model.fx);
     }
   }
-  log.info("{} of {} image pairs show the same objects", verified.pairs.size(), candidates.size());
+  log.Info("{} of {} image pairs show the same objects", verified.pairs.size(), candidates.size());
   if (verified.pairs.empty()) {
     return Status::Error(kTraining,
                          "no two images show the same objects (" + images.front().name + " to " +

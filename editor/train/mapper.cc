@@ -229,7 +229,7 @@ class Mapper {
     FilterAll(options_.triangulation);
     last_global_ = 2;
     const size_t points = reconstruction_.PointCount();
-    log_.debug("mapping from images {} and {}: {} points", anchors_[0], anchors_[1], points);
+    log_.Debug("mapping from images {} and {}: {} points", anchors_[0], anchors_[1], points);
     return points >= options_.min_initial_points;
   }
 
@@ -316,7 +316,7 @@ class Mapper {
     const bool taken = deviation.cx_px > 0.0 && deviation.cx_px < kMaxDeviation * side &&
                        deviation.cy_px > 0.0 && deviation.cy_px < kMaxDeviation * side &&
                        std::hypot(after.cx - before.cx, after.cy - before.cy) < kMaxShift * side;
-    log_.info("principal point off the centre by {:.1f} +- {:.1f}, {:.1f} +- {:.1f} pixels: {}",
+    log_.Info("principal point off the centre by {:.1f} +- {:.1f}, {:.1f} +- {:.1f} pixels: {}",
               after.cx - before.cx, deviation.cx_px, after.cy - before.cy, deviation.cy_px,
               taken ? "taken" : "not taken");
     if (!taken) {
@@ -404,7 +404,7 @@ class Mapper {
           cameras[index].model = TurnedModel(known, cameras[index]);
         }
       }
-      log_.info("{} images of one size were taken by {} cameras", images.size(), sets.size());
+      log_.Info("{} images of one size were taken by {} cameras", images.size(), sets.size());
     }
     reconstruction_.SetCameras(std::move(cameras), std::move(camera_of_image));
     AdjustAll(reconstruction_, anchors_, bundle);
@@ -492,7 +492,7 @@ class Mapper {
     ExtendBy(image);
     AdjustAround(image);
     FilterAround(image);
-    log_.debug("located image {}: {} of {} points, {} in the map", image, resection->inliers.size(),
+    log_.Debug("located image {}: {} of {} points, {} in the map", image, resection->inliers.size(),
                points.size(), reconstruction_.PointCount());
     return true;
   }
@@ -525,7 +525,7 @@ class Mapper {
       return;
     }
     resection = std::move(found->resection);
-    log_.debug("image {}: focal length {:.0f} instead of {:.0f} pixels", image, found->camera.fx,
+    log_.Debug("image {}: focal length {:.0f} instead of {:.0f} pixels", image, found->camera.fx,
                before.fx);
     if (seen) {
       reconstruction_.GiveOwnCamera(image, found->camera);

@@ -54,7 +54,7 @@ Result<std::optional<CameraModel>> RecogniseCamera(const vision::SceneDatabase& 
   const std::optional<CameraModel> none;
   const Result<CameraModel> camera = map.camera.ForImages(source.width(), source.height());
   if (!camera.ok() || source.Cameras().size() != 1) {
-    log.info("the images have another shape than the map's; their intrinsics are estimated");
+    log.Info("the images have another shape than the map's; their intrinsics are estimated");
     return none;
   }
   vision::LocalizerOptions locating;
@@ -98,13 +98,13 @@ Result<std::optional<CameraModel>> RecogniseCamera(const vision::SceneDatabase& 
     }
   }
   if (evidence.log_ratios.size() < kLeastFound) {
-    log.info(
+    log.Info(
         "too few images were found in the map to tell whether its camera took them; their "
         "intrinsics are estimated");
     return none;
   }
   const bool same = evidence.SameCamera();
-  log.info("in the map, the images have {:.4f} +- {:.4f} times the focal length of its camera: {}",
+  log.Info("in the map, the images have {:.4f} +- {:.4f} times the focal length of its camera: {}",
            std::exp(evidence.Mean()), evidence.Deviation(),
            same ? "it took them" : "another camera took them, whose intrinsics are estimated");
   return same ? std::optional(*camera) : none;

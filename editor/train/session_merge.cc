@@ -272,7 +272,7 @@ class Merger {
     const std::vector<LocatedKeyframe> located = LocateKeyframes();
     const std::vector<LocatedKeyframe> agreeing = LargestAgreement(located, depth, options_.seed);
     report_.located = static_cast<int>(agreeing.size());
-    log_.info("{} of {} images of the session were found in the map, {} of them agree",
+    log_.Info("{} of {} images of the session were found in the map, {} of them agree",
               located.size(), features_.size(), agreeing.size());
     if (agreeing.size() < kLeastLocated) {
       return NotFound(agreeing.size(), features_.size());
@@ -434,7 +434,7 @@ class Merger {
     }
     poses.insert(poses.end(), poses_.begin(), poses_.end());
     if (!AdjustSession(cameras_, AllObservations(), MapKeyframes(), poses, points_)) {
-      log_.warn("the joint adjustment found no solution");
+      log_.Warn("the joint adjustment found no solution");
       return;
     }
     std::copy(poses.begin() + static_cast<ptrdiff_t>(MapKeyframes()), poses.end(), poses_.begin());
@@ -729,7 +729,7 @@ Result<MergedMap> MergeSession(const SceneDatabase& map,
   budget.max_points = options.max_points;
   budget.seed = options.seed;
   merged.database = Prune(merged.database, budget);
-  log.info("the session sees {} points of the map and adds {}", merged.report.shared_points,
+  log.Info("the session sees {} points of the map and adds {}", merged.report.shared_points,
            merged.report.added_points);
   return merged;
 }

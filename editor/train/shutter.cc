@@ -89,7 +89,7 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
   const double longest = shutter.readout.cwiseAbs().maxCoeff();
   const bool rolls = adjusted && longest > kLeast && longest < kMost &&
                      longest > kSignificant * shutter.deviation.maxCoeff();
-  log.info("readout time along x {:.3f} +- {:.3f}, along y {:.3f} +- {:.3f} of the frame time: {}",
+  log.Info("readout time along x {:.3f} +- {:.3f}, along y {:.3f} +- {:.3f} of the frame time: {}",
            shutter.readout.x(), shutter.deviation.x(), shutter.readout.y(), shutter.deviation.y(),
            rolls ? "a rolling shutter" : "not taken");
   if (!rolls) {

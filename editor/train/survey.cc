@@ -27,7 +27,7 @@ class FrameReader {
       if (frame.ok() || failures == kMaxFailures) {
         return frame;
       }
-      log_.warn("{}", frame.message());
+      log_.Warn("{}", frame.message());
     }
   }
 

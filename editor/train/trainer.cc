@@ -55,7 +55,7 @@ class Trainer {
     const Status status = step();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     report_.seconds.emplace_back(name, seconds.count());
-    log_.info("{}: {:.1f} s", name, seconds.count());
+    log_.Info("{}: {:.1f} s", name, seconds.count());
     if (status.ok() && progress_.Cancelled()) {
       return Status::Error(kTraining, "cancelled");
     }
@@ -66,7 +66,7 @@ class Trainer {
     Result<Survey> survey = SurveySource(source_, options_.max_keyframes, progress_, log_);
     report_.notes = source_.Notes();
     for (const std::string& note : report_.notes) {
-      log_.warn("{}", note);
+      log_.Warn("{}", note);
     }
     LARARIUM_ASSIGN_OR_RETURN(survey_, std::move(survey));
     report_.frames = static_cast<int>(survey_.frames.size());

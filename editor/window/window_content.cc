@@ -34,7 +34,7 @@ std::filesystem::path SizesFile() { return StateFolder() / "window.json"; }
 Settings RestoreSettings(Log& log) {
   Result<Settings> settings = LoadSettings(SettingsFile());
   if (!settings.ok()) {
-    log.warn("{}", settings.message());
+    log.Warn("{}", settings.message());
     settings = Settings();
   }
   LoadTexts(TextFolder(), settings->language);
@@ -44,7 +44,7 @@ Settings RestoreSettings(Log& log) {
 WindowSizes RestoreWindowSizes(Log& log) {
   const Result<WindowSizes> sizes = LoadWindowSizes(SizesFile());
   if (!sizes.ok()) {
-    log.warn("{}", sizes.message());
+    log.Warn("{}", sizes.message());
     return WindowSizes();
   }
   return *sizes;
@@ -52,7 +52,7 @@ WindowSizes RestoreWindowSizes(Log& log) {
 
 void KeepWindowSizes(const WindowSizes& sizes, Log& log) {
   if (const Status status = SaveWindowSizes(SizesFile(), sizes); !status.ok()) {
-    log.warn("{}", status.message());
+    log.Warn("{}", status.message());
   }
 }
 
@@ -100,7 +100,7 @@ void WindowContent::Enter(std::unique_ptr<Workspace> workspace) {
                               workspace_->project().document().title,
                               std::chrono::duration_cast<std::chrono::seconds>(now).count()};
   if (const Status status = recent_.NoteOpened(project); !status.ok()) {
-    log_.warn("{}", status.message());  // Not fatal.
+    log_.Warn("{}", status.message());  // Not fatal.
   }
   panels::FileChooser::Current().SetRecent(recent_.entries());
 }
@@ -130,7 +130,7 @@ void WindowContent::KeepPicture() {
     const PreviewPicture& picture = *workspace_->preview().picture();
     const Status status = SaveProjectPicture(workspace_->project().paths().folder, picture.bgr);
     if (!status.ok()) {
-      log_.warn("{}", status.message());
+      log_.Warn("{}", status.message());
     }
   }
 }
@@ -322,7 +322,7 @@ Status WindowContent::Show() {
   }
   if (settings_ != before) {
     if (const Status status = SaveSettings(SettingsFile(), settings_); !status.ok()) {
-      log_.warn("{}", status.message());
+      log_.Warn("{}", status.message());
     }
   }
   return Status();

@@ -49,7 +49,7 @@ GLFWwindow* OpenBlackWindow(int number) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   std::signal(SIGINT, SIG_IGN);
   if (OpenBlackWindow(monitor) == nullptr) {
-    log.warn("monitor {}: cannot be covered; while the show is begun again the desktop is seen",
+    log.Warn("monitor {}: cannot be covered; while the show is begun again the desktop is seen",
              monitor);
     std::_Exit(1);
   }

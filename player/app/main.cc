@@ -21,7 +21,7 @@ using namespace lararium::player;  // NOLINT
 
 int Report(const Status& status, Log& log) {
   if (!status.ok()) {
-    log.error("{}", status.message());
+    log.Error("{}", status.message());
   }
   return status.ok() ? 0 : 1;
 }

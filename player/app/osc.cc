@@ -204,7 +204,7 @@ std::vector<std::string> OscListener::Take() {
 
 void OscListener::Refuse(const Status& status) {
   if (refused_++ % 100 == 0) {
-    log_.warn("{}; {} refused so far", status.message(), refused_);
+    log_.Warn("{}; {} refused so far", status.message(), refused_);
   }
 }
 

@@ -15,7 +15,7 @@ void TakeSignal(int /*signal*/) { RequestEnd(); }
 
 void WarnOf(const Status& status, Log& log) {
   if (!status.ok()) {
-    log.warn("{}", status.message());
+    log.Warn("{}", status.message());
   }
 }
 
@@ -35,7 +35,7 @@ Status Play(const PlayOptions& options,
   }
   const bool sandbox = options.sandbox && options.display.mode != Display::kOpenXr;
   if (options.sandbox && !sandbox) {
-    log.info("no sandbox: the headset's runtime needs the system");
+    log.Info("no sandbox: the headset's runtime needs the system");
   }
   ShowSession session(options, started, log, start, heartbeat, staff_link);
   if (sandbox) {

@@ -35,7 +35,7 @@ bool QualityControl::AfterFrame(double time, std::optional<double> work_ms, Log&
   if (controller_->level() == before) {
     return false;
   }
-  log.info("quality {} instead of {}: {}", controller_->level(), before,
+  log.Info("quality {} instead of {}: {}", controller_->level(), before,
            show::Name(controller_->steps().back().reason));
   return true;
 }

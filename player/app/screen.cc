@@ -46,7 +46,7 @@ void Screen::CheckSize(const render::RenderTarget& panel, Log& log) const {
   }
   const render::Window::Size size = window_->framebuffer_size();
   if (size.width != panel.width() || size.height != panel.height()) {
-    log.warn(
+    log.Warn(
         "the monitor has {}x{} pixels, the headset's panel {}x{}: the picture is scaled, and "
         "does not fit the lenses",
         size.width, size.height, panel.width(), panel.height());

@@ -182,7 +182,7 @@ Result<CameraChoice> ShowSession::ChooseCamera(const show::ShowContent& content)
   LARARIUM_ASSIGN_OR_RETURN(
       const CameraChoice choice,
       player::ChooseCamera(options_.camera, trained, source_->width(), source_->height()));
-  log_.info("camera intrinsics from {}", choice.origin);
+  log_.Info("camera intrinsics from {}", choice.origin);
   return choice;
 }
 
@@ -216,7 +216,7 @@ Status ShowSession::PrepareDrawing(const show::ShowContent& content, const Pictu
   }
   statistics_.gpu = render::GraphicsDeviceName();
   statistics_.graphics = render::Name(render::CurrentGraphicsApi());
-  log_.info("drawn with {} by {}", statistics_.graphics, statistics_.gpu);
+  log_.Info("drawn with {} by {}", statistics_.graphics, statistics_.gpu);
   return Status();
 }
 
@@ -231,7 +231,7 @@ void ShowSession::OpenSound() {
   mixing.hrtf = listening == Listening::kHeadphones;
   Result<std::unique_ptr<audio::Mixer>> mixer = audio::Mixer::Create(show_->sounds(), mixing);
   if (!mixer.ok()) {
-    log_.warn("{}; the show goes on in silence", mixer.message());
+    log_.Warn("{}; the show goes on in silence", mixer.message());
     return;
   }
   sound_ = std::make_unique<audio::SoundPlayer>(
@@ -304,7 +304,7 @@ Status ShowSession::ServeOpenXr() {
   if (OpenXrHeadset* headset = output_->openxr()) {
     LARARIUM_ASSIGN_OR_RETURN(const bool more, headset->Frame());
     if (!more) {
-      log_.info("the headset's runtime ended the session");
+      log_.Info("the headset's runtime ended the session");
       RequestEnd();
     }
     for (const std::string& button : headset->TakeButtons()) {
@@ -396,7 +396,7 @@ Status ShowSession::ChangeLanguages() {
   Result<std::unique_ptr<show::Show>> next = maker_.TakeOther();
   const show::LanguageChoice& languages = maker_.languages();
   if (!next.ok()) {
-    log_.warn("{}; the languages stay", next.message());
+    log_.Warn("{}; the languages stay", next.message());
     controls_->KeepLanguages(languages, Now());
     return Status();
   }
@@ -407,7 +407,7 @@ Status ShowSession::ChangeLanguages() {
   controls_->SetShow(*show_);
   show_->detail().SetQuality(quality_.quality());
   OpenSound();
-  log_.info("language '{}', captions '{}'", languages.spoken, languages.captions);
+  log_.Info("language '{}', captions '{}'", languages.spoken, languages.captions);
   return output_->renderer().SetTexts(show_->content());
 }
 
@@ -453,7 +453,7 @@ Status ShowSession::RunRealtime() {
 void ShowSession::TellNotes(size_t first) {
   const std::vector<std::string> notes = source_->Notes();
   for (size_t i = first; i < notes.size(); ++i) {
-    log_.warn("{}", notes[i]);
+    log_.Warn("{}", notes[i]);
   }
 }
 
@@ -475,7 +475,7 @@ Status ShowSession::Run() {
     LARARIUM_RETURN_IF_ERROR(
         WriteFileAtomically(options_.output.visitor_log, show_->drama().visitor_log().Write()));
   }
-  log_.info("{} frames shown, {:.1f} % tracked", drawn_frames_,
+  log_.Info("{} frames shown, {:.1f} % tracked", drawn_frames_,
             100.0 * statistics_.tracking.tracked_fraction());
   return controls_->restarts()
              ? Status::Error("staff page", "the staff asked to restart the player")

@@ -171,7 +171,7 @@ Result<SequenceReport> BenchmarkRun::Sequence(const BenchmarkSequence& sequence)
       poses.push_back(vision::MakePoseRecord(name, tracked));
     }
   }
-  log_.info("{}: {} frames", sequence.name, answers.size());
+  log_.Info("{}: {} frames", sequence.name, answers.size());
   LARARIUM_RETURN_IF_ERROR(SavePoses(sequence, poses));
   return SequenceReport{sequence.name, Evaluate(sequence, answers, Landmarks(maps_))};
 }
@@ -235,7 +235,7 @@ Result<ForeignReport> BenchmarkRun::Foreign(const std::filesystem::path& path,
   report.name = std::filesystem::absolute(path / "x").lexically_normal().parent_path().filename();
   LARARIUM_RETURN_IF_ERROR(ShowForeign(path, report));
   LARARIUM_RETURN_IF_ERROR(CutToForeign(path, home, report));
-  log_.info("{}: {} images of another place", report.name, report.frames);
+  log_.Info("{}: {} images of another place", report.name, report.frames);
   return report;
 }
 

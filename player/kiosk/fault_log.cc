@@ -24,17 +24,17 @@ std::string_view Explained(TrackReason reason) {
 
 void FaultLog::CameraChanged(bool connected, const std::string& why) {
   if (connected) {
-    log_.info("the camera is back");
+    log_.Info("the camera is back");
   } else {
-    log_.warn("{}; waiting for it", why);
+    log_.Warn("{}; waiting for it", why);
   }
 }
 
 void FaultLog::ClockChanged(bool steady, double leap) {
   if (steady) {
-    log_.info("the camera's clock is steady again");
+    log_.Info("the camera's clock is steady again");
   } else {
-    log_.warn("the camera's clock leapt by {:.1f} s; the computer's stands in", leap);
+    log_.Warn("the camera's clock leapt by {:.1f} s; the computer's stands in", leap);
   }
 }
 
@@ -44,12 +44,12 @@ void FaultLog::AfterFrame(const vision::TrackedFrame& tracked) {
     lost_since_ = lost_since_.value_or(time);
     if (!told_ && time - *lost_since_ >= kTellAfter) {
       told_ = true;
-      log_.info("the place is not found: {}", Explained(tracked.reason));
+      log_.Info("the place is not found: {}", Explained(tracked.reason));
     }
     return;
   }
   if (told_) {
-    log_.info("the place is found after {:.1f} s", time - *lost_since_);
+    log_.Info("the place is found after {:.1f} s", time - *lost_since_);
   }
   lost_since_.reset();
   told_ = false;

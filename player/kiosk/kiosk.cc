@@ -27,7 +27,7 @@ Kiosk::Kiosk(std::filesystem::path folder, const ChildStart& start, Log& log)
   if (state.ok()) {
     state_ = *state;
   } else {
-    log_.warn("{}; the kiosk starts with a new state", state.message());
+    log_.Warn("{}; the kiosk starts with a new state", state.message());
   }
   statistics_ = LoadVisitStatistics(folder, log);
   counter_ = VisitCounter(start.number > 0 && state_.seconds > 0.0);
@@ -50,10 +50,10 @@ void Kiosk::Write(const std::filesystem::path& folder) {
   while (const std::optional<KioskState> next = to_write_.Take({})) {
     const Status status = SaveKioskState(folder, *next);
     if (!status.ok() && !told) {
-      log_.warn("{}; after a failure the show will begin at its beginning", status.message());
+      log_.Warn("{}; after a failure the show will begin at its beginning", status.message());
     }
     if (status.ok() && told) {
-      log_.info("where the show is can be kept again");
+      log_.Info("where the show is can be kept again");
     }
     told = !status.ok();
     SaveStatistics(folder, statistics_told);
@@ -65,9 +65,9 @@ void Kiosk::SaveStatistics(const std::filesystem::path& folder, bool& told) {
   if (const std::optional<VisitStatistics> statistics = statistics_to_write_.TryTake()) {
     const Status status = SaveVisitStatistics(folder, *statistics);
     if (!status.ok() && !told) {
-      log_.warn("{}; what is counted is not kept", status.message());
+      log_.Warn("{}; what is counted is not kept", status.message());
     } else if (status.ok() && told) {
-      log_.info("what is counted can be kept again");
+      log_.Info("what is counted can be kept again");
     }
     told = !status.ok();
   }
@@ -83,7 +83,7 @@ void Kiosk::Remember(double now) {
 }
 
 void Kiosk::Welcome(double now, show::Show& show) {
-  log_.info("a visitor came: the show begins");
+  log_.Info("a visitor came: the show begins");
   visit_.Begin(now);
   new_visitor_ = true;
   show.input().RestartAt(0.0);
@@ -106,13 +106,13 @@ void Kiosk::AfterFrame(double now, const show::StagedFrame& staged, show::Show& 
       Welcome(now, show);
       break;
     case VisitorWatch::Event::kLeft:
-      log_.info("the visitor left");
+      log_.Info("the visitor left");
       break;
     case VisitorWatch::Event::kNone:
       break;
   }
   if (visit_.Update(now, watch_.noticed())) {
-    log_.info("the visit is over");
+    log_.Info("the visit is over");
     watch_.Leave();
   }
   Count(now, staged);

@@ -1,5 +1,7 @@
 #include "player/kiosk/recent_warnings.h"
 
+#include <spdlog/logger.h>
+
 #include <string_view>
 
 namespace lararium::player {
@@ -26,14 +28,14 @@ std::vector<RecentWarnings::Entry> RecentWarnings::Entries() {
 }
 
 std::shared_ptr<RecentWarnings> RecentWarnings::Of(Log& log) {
-  for (const spdlog::sink_ptr& known : log.sinks()) {
+  for (const spdlog::sink_ptr& known : log.logger().sinks()) {
     if (auto sink = std::dynamic_pointer_cast<RecentWarnings>(known)) {
       return sink;
     }
   }
   auto sink = std::make_shared<RecentWarnings>();
   sink->set_level(spdlog::level::warn);
-  log.sinks().push_back(sink);
+  log.logger().sinks().push_back(sink);
   return sink;
 }
 

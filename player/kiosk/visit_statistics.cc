@@ -67,7 +67,7 @@ void SetAside(const std::filesystem::path& path, const Status& why, Log& log) {
   const std::filesystem::path aside = path.string() + ".damaged";
   std::error_code error;
   std::filesystem::rename(path, aside, error);
-  log.warn("{}; the statistics start again from zero, the old file is {}", why.message(),
+  log.Warn("{}; the statistics start again from zero, the old file is {}", why.message(),
            error ? "lost" : aside.string());
 }
 

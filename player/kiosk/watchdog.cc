@@ -172,7 +172,7 @@ int Watch(Child& child, const WatchdogOptions& options, Log& log, bool& ready) {
       return 0;
     }
     if (child.Hangs(options)) {
-      log.error("the show hangs; it is begun again");
+      log.Error("the show hangs; it is begun again");
       // No grace time: a child that hangs cannot save anything more.
       child.End(0.0);
       return 128 + SIGKILL;
@@ -226,7 +226,7 @@ int Supervise(const std::function<int(const ChildStart&, Heartbeat&)>& child,
   while (true) {
     Child process;
     if (!process.Start(child, start)) {
-      log.error("no process can be started; trying again");
+      log.Error("no process can be started; trying again");
       Pause(1.0);
       continue;
     }
@@ -243,7 +243,7 @@ int Supervise(const std::function<int(const ChildStart&, Heartbeat&)>& child,
     pause = start.failed_starts <= 1
                 ? options.first_pause_seconds
                 : std::min(std::max(2.0 * pause, 0.25), options.longest_pause_seconds);
-    log.error("the show ended with {}; it is begun again{}", code,
+    log.Error("the show ended with {}; it is begun again{}", code,
               pause > 0.0 ? " in " + std::to_string(pause) + " s" : "");
     ++start.number;
     Pause(pause);

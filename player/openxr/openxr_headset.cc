@@ -154,7 +154,7 @@ Status Session::CreateInstance(const std::string& title) {
   auto properties = Typed<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
   xrGetInstanceProperties(instance_, &properties);
   runtime_ = properties.runtimeName;
-  log_.info("OpenXR runtime {}", runtime_);
+  log_.Info("OpenXR runtime {}", runtime_);
   return Status();
 }
 
@@ -508,7 +508,7 @@ Status Session::End() {
       return Status();
     }
   }
-  log_.warn("{}: the runtime did not end the session in time", kOpenXrPlace);
+  log_.Warn("{}: the runtime did not end the session in time", kOpenXrPlace);
   return Status();
 }
 

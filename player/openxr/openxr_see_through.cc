@@ -60,16 +60,16 @@ Status OpenXrSeeThrough::Begin(XrInstance instance,
   };
   if (offers(XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND)) {
     blend_mode_ = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-    log.info("what is real is shown by the headset, people are blended over it");
+    log.Info("what is real is shown by the headset, people are blended over it");
     return Status();
   }
   if (SystemPasses(instance, system)) {
-    log.info("what is real is shown by the headset, below people (XR_FB_passthrough)");
+    log.Info("what is real is shown by the headset, below people (XR_FB_passthrough)");
     return BeginPassthrough(instance, session);
   }
   if (offers(XR_ENVIRONMENT_BLEND_MODE_ADDITIVE)) {
     blend_mode_ = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
-    log.warn("the headset can only add light: people are seen through, and cast no shadows");
+    log.Warn("the headset can only add light: people are seen through, and cast no shadows");
     return Status();
   }
   return Status::Error(kOpenXrPlace, "the headset cannot show the real world itself",

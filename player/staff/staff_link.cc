@@ -60,7 +60,7 @@ void StaffLink::Run(const std::stop_token& stop) {
     }
   }
   if (!open) {
-    log_.warn("the staff page ended; the show goes on without it");
+    log_.Warn("the staff page ended; the show goes on without it");
   }
 }
 
@@ -70,10 +70,10 @@ void StaffLink::Receive(bool& open) {
     if (message->kind == StaffMessage::kPictureWanted) {
       wanted_until_.store(Now() + kWantedSeconds, std::memory_order_relaxed);
     } else if (message->kind == StaffMessage::kNote) {
-      log_.warn("staff page: {}", OneLine(message->content));
+      log_.Warn("staff page: {}", OneLine(message->content));
     } else if (message->kind == StaffMessage::kCommand) {
       if (Result<StaffCommand> command = ParseStaffCommand(message->content); command.ok()) {
-        log_.info("staff page: {}", OneLine(message->content));
+        log_.Info("staff page: {}", OneLine(message->content));
         AddCommand(*std::move(command));
       }
     }

@@ -157,7 +157,7 @@ Result<std::unique_ptr<StaffPage>> StaffPage::Start(const StaffPageOptions& opti
     return Status::Error("staff page", "cannot start a process for it");
   }
   for (const std::string& url : StaffPageUrls(address)) {
-    log.info("staff page: {} ({})", url, pin ? "with the PIN" : "it only shows");
+    log.Info("staff page: {} ({})", url, pin ? "with the PIN" : "it only shows");
   }
   return page;
 }

@@ -71,14 +71,14 @@ void SoundPlayer::Open() {
   if (opened.ok()) {
     out_ = std::move(*opened);
     told_silent_ = false;
-    log_.info("sound goes to {}", out_->name());
+    log_.Info("sound goes to {}", out_->name());
     return;
   }
   if (out_ == nullptr) {
     out_ = std::move(*CreateAudioOut(AudioOutKind::kNone));
   }
   if (!told_silent_) {
-    log_.warn("{}; the show goes on in silence", opened.message());
+    log_.Warn("{}; the show goes on in silence", opened.message());
     told_silent_ = true;
   }
 }
@@ -115,7 +115,7 @@ void SoundPlayer::Run(const std::stop_token& stop) {
       ApplyVolume(block);
     }
     if (const Status status = out_->Write(block); !status.ok()) {
-      log_.warn("{}; the show goes on in silence", status.message());
+      log_.Warn("{}; the show goes on in silence", status.message());
       told_silent_ = true;
       silent_ = true;
       asked_ = now;

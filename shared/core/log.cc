@@ -1,6 +1,8 @@
 #include "shared/core/log.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <spdlog/logger.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/null_sink.h>
@@ -26,7 +28,7 @@ class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
   FileSink& operator=(const FileSink&) = delete;
 
   // Sets the log that this sink belongs to.
-  void SetLog(const Log* log) { log_ = log; }
+  void SetLog(const spdlog::logger* log) { log_ = log; }
 
  protected:
   void sink_it_(const spdlog::details::log_msg& message) override {
@@ -74,7 +76,7 @@ class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
 
   int descriptor_;
   std::string name_;
-  const Log* log_ = nullptr;
+  const spdlog::logger* log_ = nullptr;
   int64_t lost_ = 0;   // Lines lost since the file was full.
   bool torn_ = false;  // True if the last line is incomplete.
 };
@@ -91,17 +93,48 @@ Result<std::shared_ptr<FileSink>> OpenFile(const std::filesystem::path& file) {
   return std::make_shared<FileSink>(descriptor, file.string());
 }
 
+spdlog::level::level_enum LevelOf(Log::Level level) {
+  switch (level) {
+    case Log::Level::kDebug:
+      return spdlog::level::debug;
+    case Log::Level::kInfo:
+      return spdlog::level::info;
+    case Log::Level::kWarning:
+      return spdlog::level::warn;
+    case Log::Level::kError:
+      return spdlog::level::err;
+  }
+  return spdlog::level::err;
+}
+
 }  // namespace
+
+Log::Log(std::string name, spdlog::sink_ptr sink)
+    : logger_(std::make_unique<spdlog::logger>(std::move(name), std::move(sink))) {}
+
+Log::~Log() = default;
+
+void Log::SetLevel(Level level) { logger_->set_level(LevelOf(level)); }
+
+void Log::Write(Level level, std::string_view text) {
+  logger_->log(LevelOf(level), spdlog::string_view_t(text.data(), text.size()));
+}
+
+void Log::Write(Level level, fmt::string_view format, fmt::format_args values) {
+  if (logger_->should_log(LevelOf(level))) {
+    Write(level, fmt::vformat(format, values));
+  }
+}
 
 Result<std::shared_ptr<Log>> MakeLog(const std::filesystem::path& file) {
   auto log =
       std::make_shared<Log>("lararium", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-  log->set_pattern("%^%l%$ %v");
+  log->logger().set_pattern("%^%l%$ %v");
   if (!file.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<FileSink> sink, OpenFile(file));
-    sink->SetLog(log.get());
+    sink->SetLog(&log->logger());
     sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
-    log->sinks().push_back(sink);
+    log->logger().sinks().push_back(sink);
   }
   return log;
 }

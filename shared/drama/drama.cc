@@ -150,7 +150,7 @@ class LuaDrama : public Drama {
         LARARIUM_RETURN_IF_ERROR(Begin());
       } else if (!GoTo(*moment)) {
         // Should not happen. Plays everything again.
-        log_.warn("{}: seeking plays the drama again from its beginning", place_);
+        log_.Warn("{}: seeking plays the drama again from its beginning", place_);
         LARARIUM_RETURN_IF_ERROR(Begin());
       }
     }
@@ -346,7 +346,7 @@ class LuaDrama : public Drama {
   void Report(int64_t tick, const LuaError& error) {
     const bool is_new = errors_.Add({TimeOf(tick), error.message, error.traceback});
     if (is_new && tick > played_until_) {
-      log_.error("{}\n{}", error.message, error.traceback);
+      log_.Error("{}\n{}", error.message, error.traceback);
     }
   }
 

@@ -58,7 +58,7 @@ std::optional<LodStreamer::Person> LodStreamer::Take() {
   Result<Person> person = reading_.get();
   if (!person.ok()) {
     finest_[reading_cast_] = 0.0f;
-    log_.warn("{}", person.message());
+    log_.Warn("{}", person.message());
     return std::nullopt;
   }
   const human::Human& human = *person->figure.human;

@@ -27,7 +27,7 @@ Result<std::unique_ptr<Show>> Show::Create(ShowContent content,
   show->ReleaseSoundData();
   LARARIUM_RETURN_IF_ERROR(show->sound_->Teach(show->stage_.sounds()));
   if (const Status status = show->PrepareFloor(); !status.ok()) {
-    log.warn("{}", status.message());
+    log.Warn("{}", status.message());
   }
   LARARIUM_ASSIGN_OR_RETURN(show->drama_,
                             drama::Drama::Create(show->content_.drama, show->content_.drama_file,

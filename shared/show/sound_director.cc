@@ -74,7 +74,7 @@ Result<SoundDirector> SoundDirector::Create(const ShowContent& content, Log& log
 int SoundDirector::ClipOf(const std::string& name, const std::string& who, Log& log) const {
   const int clip = name.empty() ? -1 : library_->Find(name);
   if (!name.empty() && clip < 0) {
-    log.warn("{}: there is no sound '{}'; it is silent", who, name);
+    log.Warn("{}: there is no sound '{}'; it is silent", who, name);
   }
   return clip;
 }

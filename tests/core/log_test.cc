@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <spdlog/logger.h>
 #include <spdlog/sinks/base_sink.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -59,15 +60,15 @@ TEST(Log, AFullDiskIsToldOnceAndTheFileGoesOnWhenThereIsRoomAgain) {
   const std::filesystem::path path = folder / "new/log.txt";
   const std::shared_ptr<Log> log = MakeLog(path).value();
   const auto ear = std::make_shared<Ear>();
-  log->sinks().push_back(ear);
-  log->info("before");
+  log->logger().sinks().push_back(ear);
+  log->Info("before");
   {
     const SmallFiles small(std::filesystem::file_size(path) + 10);
     for (int i = 0; i < 5; ++i) {
-      log->info("lost {}", i);
+      log->Info("lost {}", i);
     }
   }
-  log->info("after");
+  log->Info("after");
   ASSERT_EQ(ear->lines.size(), 9u);
   EXPECT_NE(ear->lines[1].find("the log cannot be written"), std::string::npos) << ear->lines[1];
   EXPECT_NE(ear->lines[7].find("is written again, without 5 lines"), std::string::npos)

@@ -9,6 +9,7 @@
 // fails if one of these numbers is too small, or if memory grew.
 
 #include <fcntl.h>
+#include <spdlog/logger.h>
 #include <spdlog/sinks/base_sink.h>
 #include <unistd.h>
 
@@ -607,7 +608,7 @@ void Inject(const Schedule& schedule,
   }
   if (now == Fault::kNone) {
     judge.End();
-    log.info("{}", judge.end_text());
+    log.Info("{}", judge.end_text());
     return;
   }
   judge.Begin();
@@ -618,7 +619,7 @@ void Inject(const Schedule& schedule,
   } else if (now == Fault::kScriptError) {
     show.input().PressKey(kErrorKey);
   }
-  log.info("soak: {}", KindOf(now).name);
+  log.Info("soak: {}", KindOf(now).name);
 }
 
 // Medians of memory over one minute, after warming up and at the end. The median ignores memory
@@ -690,7 +691,7 @@ Result<bool> Soak(const Options& options) {
   const Disk disk;
   LARARIUM_ASSIGN_OR_RETURN(const std::shared_ptr<Log> log, MakeLog(disk.log()));
   const auto ear = std::make_shared<LogEar>();
-  log->sinks().push_back(ear);
+  log->logger().sinks().push_back(ear);
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Load(options.show));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<capture::FrameSource> video,
                             capture::OpenVideo(options.video));

@@ -142,9 +142,9 @@ TEST_F(StaffPageTest, ShowsWhatThePlayerSays) {
   state.tracked_minute = 0.25;
   state.visitor = true;
   state.restarts = 3;
-  log_->error("the camera\nis gone");
+  log_->Error("the camera\nis gone");
   Player().Tell(state);
-  log_->warn("\"quoted\" \xff");
+  log_->Warn("\"quoted\" \xff");
   ASSERT_TRUE(Soon([&] { return State()["player"]["title"] == "Vetutius"; }));
   Player().Tell(state);
   ASSERT_TRUE(Soon([&] { return State()["player"]["warnings"].size() == 2; }));

@@ -46,12 +46,12 @@ TEST(RecentWarnings, KeepsTheLastAndCountsWhatIsSaidAgain) {
   const auto log = MakeSilentLog();
   const auto recent = RecentWarnings::Of(*log);
   EXPECT_EQ(RecentWarnings::Of(*log), recent);
-  log->info("nothing to worry about");
+  log->Info("nothing to worry about");
   for (int i = 0; i < 20; ++i) {
-    log->warn("warning {}", i);
+    log->Warn("warning {}", i);
   }
-  log->error("bad\nsecond line");
-  log->error("bad");
+  log->Error("bad\nsecond line");
+  log->Error("bad");
   const auto entries = recent->Entries();
   ASSERT_EQ(entries.size(), RecentWarnings::kMostEntries);
   EXPECT_EQ(entries.front().text, "warning 9");
@@ -67,7 +67,7 @@ TEST(RecentWarnings, CutsLongOnesBetweenCharacters) {
   for (int i = 0; i < 300; ++i) {
     text += "\xc3\xa9";
   }
-  log->warn("{}", text);
+  log->Warn("{}", text);
   EXPECT_EQ(recent->Entries().front().text, text.substr(0, 239));
 }
 

@@ -159,14 +159,14 @@ TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::ParseHuman(whole, "here", finest));
     return MakeDrawnPerson(std::move(human), textures);
   };
-  Log log("test");
+  const std::shared_ptr<Log> silent = MakeSilentLog();
   const auto create = [&](float finest) {
     ShowContent content = test::SmallContent();
     content.places[0].stage.probes.emplace_back().light.sky[0] = glm::vec3(1.0f);
     content.cast = {MakeCastMember(*human::ParseHuman(whole, "here", finest), finest, textures)};
     content.cast[0].name = "one";
     content.finer = finest > 0.0f ? read : ReadPerson();
-    return Show::Create(std::move(content), {}, log);
+    return Show::Create(std::move(content), {}, *silent);
   };
   auto coarse = create(1.0f);
   auto fine = create(0.0f);

@@ -51,7 +51,7 @@ class Director : public testing::Test {
   }
 
   std::ostringstream text_;
-  spdlog::logger log_;
+  Log log_;
   ShowContent content_;
 };
 
