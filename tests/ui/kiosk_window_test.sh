@@ -87,7 +87,8 @@ end_kiosk
 # A visit of half a minute, whose visitor turns the sound down.
 rm -rf "$out/kiosk"
 begin_kiosk --visit-minutes 0.5
-xdotool windowfocus "$(xdotool search --name '^Test$' | tail -1)" sleep 0.5
+# A window can have the focus once it is mapped.
+xdotool search --sync --onlyvisible --name '^Test$' windowfocus sleep 0.5
 press Next
 quieter() { grep -q '"volume": 0.9' "$state"; }
 wait_for 10 quieter || fail "nothing is turned down"
