@@ -116,13 +116,9 @@ Log::~Log() = default;
 
 void Log::SetLevel(Level level) { logger_->set_level(LevelOf(level)); }
 
-void Log::Write(Level level, std::string_view text) {
-  logger_->log(LevelOf(level), spdlog::string_view_t(text.data(), text.size()));
-}
-
 void Log::Write(Level level, fmt::string_view format, fmt::format_args values) {
   if (logger_->should_log(LevelOf(level))) {
-    Write(level, fmt::vformat(format, values));
+    logger_->log(LevelOf(level), fmt::vformat(format, values));
   }
 }
 

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "shared/core/status.h"
 
@@ -30,26 +29,22 @@ class Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  // Write a line, from any thread. With values, the text is a format of fmt.
-  void Debug(std::string_view text) { Write(Level::kDebug, text); }
-  void Info(std::string_view text) { Write(Level::kInfo, text); }
-  void Warn(std::string_view text) { Write(Level::kWarning, text); }
-  void Error(std::string_view text) { Write(Level::kError, text); }
-  template <typename Value, typename... Values>
-  void Debug(fmt::format_string<Value, Values...> text, Value&& value, Values&&... values) {
-    Write(Level::kDebug, text, fmt::make_format_args(value, values...));
+  // Write a line, from any thread. The text is a format of fmt.
+  template <typename... Values>
+  void Debug(fmt::format_string<Values...> text, Values&&... values) {
+    Write(Level::kDebug, text, fmt::make_format_args(values...));
   }
-  template <typename Value, typename... Values>
-  void Info(fmt::format_string<Value, Values...> text, Value&& value, Values&&... values) {
-    Write(Level::kInfo, text, fmt::make_format_args(value, values...));
+  template <typename... Values>
+  void Info(fmt::format_string<Values...> text, Values&&... values) {
+    Write(Level::kInfo, text, fmt::make_format_args(values...));
   }
-  template <typename Value, typename... Values>
-  void Warn(fmt::format_string<Value, Values...> text, Value&& value, Values&&... values) {
-    Write(Level::kWarning, text, fmt::make_format_args(value, values...));
+  template <typename... Values>
+  void Warn(fmt::format_string<Values...> text, Values&&... values) {
+    Write(Level::kWarning, text, fmt::make_format_args(values...));
   }
-  template <typename Value, typename... Values>
-  void Error(fmt::format_string<Value, Values...> text, Value&& value, Values&&... values) {
-    Write(Level::kError, text, fmt::make_format_args(value, values...));
+  template <typename... Values>
+  void Error(fmt::format_string<Values...> text, Values&&... values) {
+    Write(Level::kError, text, fmt::make_format_args(values...));
   }
 
   // Leaves out less important lines from now on.
@@ -58,7 +53,6 @@ class Log {
   spdlog::logger& logger() { return *logger_; }
 
  private:
-  void Write(Level level, std::string_view text);
   void Write(Level level, fmt::string_view format, fmt::format_args values);
 
   std::unique_ptr<spdlog::logger> logger_;

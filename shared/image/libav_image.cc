@@ -12,14 +12,13 @@
 namespace lararium::image {
 namespace {
 
-std::optional<AVCodecID> CodecOf(Bytes encoded) {
+std::optional<AVCodecID> CodecOf(const std::optional<ImageHeader>& header, Bytes encoded) {
   // A bare codestream, or a container (ISO/IEC 18181-2).
   using std::literals::string_view_literals::operator""sv;
   if (StartsWith(encoded, 0, "\xff\x0a"sv) ||
       StartsWith(encoded, 0, "\0\0\0\x0cJXL \r\n\x87\n"sv)) {
     return AV_CODEC_ID_JPEGXL;
   }
-  const std::optional<ImageHeader> header = ReadImageHeader(encoded);
   if (!header) {
     return std::nullopt;
   }
@@ -62,9 +61,9 @@ uint64_t TgaSize(const ImageHeader& header, Bytes encoded) {
 
 // Returns the size of the whole file that the file declares; zero if the format does not state it.
 // libav skews a BMP that is a little too short, and invents the rest of a WebP and of a run.
-uint64_t ClaimedSize(AVCodecID id, Bytes encoded) {
+uint64_t ClaimedSize(AVCodecID id, const std::optional<ImageHeader>& header, Bytes encoded) {
   if (id == AV_CODEC_ID_TARGA) {
-    return TgaSize(*ReadImageHeader(encoded), encoded);
+    return TgaSize(*header, encoded);
   }
   if (id != AV_CODEC_ID_BMP && id != AV_CODEC_ID_WEBP) {
     return 0;
@@ -134,12 +133,13 @@ Result<cv::Mat> ToMat(const AVFrame& frame, Channels channels, const std::string
 }  // namespace
 
 Result<cv::Mat> DecodeByLibav(Bytes encoded, Channels channels, const std::string& where) {
-  const std::optional<AVCodecID> codec = CodecOf(encoded);
+  const std::optional<ImageHeader> header = ReadImageHeader(encoded);
+  const std::optional<AVCodecID> codec = CodecOf(header, encoded);
   if (!codec) {
     return Status::Error(where, "cannot be read as an image",
                          "give a PNG, JPEG, TIFF, WebP, HEIC, AVIF, JPEG XL or BMP file");
   }
-  if (ClaimedSize(*codec, encoded) > encoded.size()) {
+  if (ClaimedSize(*codec, header, encoded) > encoded.size()) {
     return Damaged(where, "shorter than its header says");
   }
   LARARIUM_ASSIGN_OR_RETURN(const LibavPtr<AVFrame> frame, DecodeFrame(*codec, encoded, where));

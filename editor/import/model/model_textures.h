@@ -32,9 +32,9 @@ struct TextureUse {
 // not found.
 std::filesystem::path FindReferenced(const std::filesystem::path& model, std::string_view uri);
 
-// Decodes an image (PNG, JPEG or BMP), scales it down to kMaxTextureSide and encodes it as
-// JPEG, or as PNG if a part is transparent. Errors name `where`. Refuses images of more than 67
-// million pixels before decoding.
+// Decodes an image, scales it down to kMaxTextureSide and encodes it as JPEG, or as PNG if a part
+// is transparent. Errors name `where`. Refuses images of more than 67 million pixels before
+// decoding.
 Result<human::Texture> PrepareTexture(const std::vector<std::byte>& encoded,
                                       const std::string& name,
                                       const std::string& where);
