@@ -1,5 +1,6 @@
 #include "editor/bake/transfer_solver.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,38 +18,43 @@ constexpr int kMaxCount = light::kShCount;
 constexpr float kNear = 2e-4f;  // Metres by which a ray starts away from its surface.
 constexpr size_t kSitesPerJob = 64;
 
-// A hit of a ray from a site: the corners of the triangle, as sites, and their weights.
-struct Meeting {
-  std::array<uint32_t, 3> corners = {};
-  std::array<float, 3> weights = {};
-};
-
 class Solver {
  public:
   Solver(const TransferSites& sites, const RayScene& rays, const TransferSolving& solving)
       : sites_(sites),
         rays_(rays),
         solving_(solving),
-        result_{std::vector<TransferVector>(sites.size()), std::vector<float>(sites.size())},
-        meetings_(solving.bounces > 0 ? sites.size() : 0) {}
+        count_(solving.count),
+        arrived_(3 * solving.count, static_cast<Eigen::Index>(sites.size())),
+        inside_(sites.size()),
+        seen_(solving.bounces > 0 ? sites.size() : 0) {}
 
   SolvedTransfer Run() {
     ForSites([this](size_t site) { GatherDirect(site); });
-    std::vector<TransferVector> arriving = result_.vectors;
+    Eigen::MatrixXf arriving = arrived_;
     for (int bounce = 0; bounce < solving_.bounces; ++bounce) {
-      std::vector<TransferVector> next(arriving.size());
-      ForSites([&](size_t site) { next[site] = GatherReflected(site, arriving); });
-      ForSites([&](size_t site) {
-        for (size_t i = 0; i < next[site].size(); ++i) {
-          result_.vectors[site][i] += next[site][i];
-        }
-      });
+      ForSites([&](size_t site) { Reflect(site, arriving); });
+      Eigen::MatrixXf next(arriving.rows(), arriving.cols());
+      ForSites([&](size_t site) { GatherReflected(site, arriving, next); });
+      arrived_ += next;
       arriving = std::move(next);
     }
-    return std::move(result_);
+    SolvedTransfer solved{std::vector<TransferVector>(sites_.size()), std::move(inside_)};
+    ForSites([&](size_t site) {
+      for (int channel = 0; channel < 3; ++channel) {
+        float* to = &solved.vectors[site][static_cast<size_t>(channel) * kMaxCount];
+        Eigen::Map<Eigen::VectorXf>(to, count_) = Channel(arrived_, site, channel);
+      }
+    });
+    return solved;
   }
 
  private:
+  // The coefficients of one channel at a site.
+  Eigen::Map<Eigen::VectorXf> Channel(Eigen::MatrixXf& light, size_t site, int channel) const {
+    return {&light(channel * count_, static_cast<Eigen::Index>(site)), count_};
+  }
+
   template <typename Body>
   void ForSites(const Body& body) const {
     const size_t jobs = (sites_.positions.size() + kSitesPerJob - 1) / kSitesPerJob;
@@ -73,7 +79,7 @@ class Solver {
       const glm::vec3 direction = AroundNormal(
           normal, CosineDirection(SobolPoint(static_cast<uint32_t>(ray), mask_x, mask_y)));
       if (const auto hit = rays_.Trace(sites_.positions[site], direction, kNear)) {
-        Meet(site, direction, *hit);
+        Meet(site, direction, *hit, static_cast<float>(random.Uniform()));
         continue;
       }
       light::EvaluateShBasis(direction, used);
@@ -83,63 +89,51 @@ class Solver {
     }
     // The density of the directions is cosine / pi.
     const float each = std::numbers::pi_v<float> / static_cast<float>(solving_.rays);
-    for (size_t i = 0; i < used.size(); ++i) {
-      for (size_t channel = 0; channel < 3; ++channel) {
-        result_.vectors[site][channel * kMaxCount + i] = each * sum[i];
-      }
+    for (int channel = 0; channel < 3; ++channel) {
+      Channel(arrived_, site, channel) = each * Eigen::Map<Eigen::VectorXf>(sum.data(), count_);
     }
   }
 
-  // Stores a hit of a ray from a site for the interreflections.
-  void Meet(size_t site, const glm::vec3& direction, const RayHit& hit) {
+  // Notes for the interreflections that a ray from a site met a surface: one corner of the triangle
+  // stands for the point, chosen by a random number with its barycentric weight as probability.
+  void Meet(size_t site, const glm::vec3& direction, const RayHit& hit, float random) {
     const bool behind = glm::dot(hit.face, direction) > 0.0f;
     const size_t first = behind ? sites_.first_back[hit.mesh] : sites_.first[hit.mesh];
     if (first == TransferSites::kNone) {
-      result_.inside[site] += 1.0f / static_cast<float>(solving_.rays);
-      return;
+      inside_[site] += 1.0f / static_cast<float>(solving_.rays);
+    } else if (solving_.bounces > 0) {
+      const glm::vec3& weights = hit.barycentric;
+      const size_t corner = random < weights.x ? 0 : random < weights.x + weights.y ? 1 : 2;
+      seen_[site].push_back(static_cast<uint32_t>(
+          first + sites_.meshes[hit.mesh].indices[3 * hit.triangle + corner]));
     }
-    if (solving_.bounces == 0) {
-      return;
-    }
-    Meeting meeting;
-    const SurfaceMesh& mesh = sites_.meshes[hit.mesh];
-    for (size_t corner = 0; corner < 3; ++corner) {
-      meeting.corners[corner] =
-          static_cast<uint32_t>(first + mesh.indices[3 * hit.triangle + corner]);
-      meeting.weights[corner] = hit.barycentric[static_cast<int>(corner)];
-    }
-    meetings_[site].push_back(meeting);
   }
 
-  // Light reflected from the surfaces that the rays of a site hit, given the light arriving
-  // there.
-  TransferVector GatherReflected(size_t site, const std::vector<TransferVector>& arriving) const {
-    TransferVector sum = {};
-    const auto count = static_cast<size_t>(solving_.count);
-    for (const Meeting& meeting : meetings_[site]) {
-      for (size_t corner = 0; corner < 3; ++corner) {
-        const uint32_t other = meeting.corners[corner];
-        for (size_t channel = 0; channel < 3; ++channel) {
-          // Radiance is albedo / pi and the density cosine / pi, so pi cancels.
-          const float share = meeting.weights[corner] *
-                              sites_.albedo[other][static_cast<int>(channel)] /
-                              static_cast<float>(solving_.rays);
-          const float* from = &arriving[other][channel * kMaxCount];
-          float* to = &sum[channel * kMaxCount];
-          for (size_t i = 0; i < count; ++i) {
-            to[i] += share * from[i];
-          }
-        }
-      }
+  // Turns the light that arrives at a site into what each ray that meets it carries. Radiance is
+  // albedo / pi and the density cosine / pi, so pi cancels.
+  void Reflect(size_t site, Eigen::MatrixXf& light) const {
+    for (int channel = 0; channel < 3; ++channel) {
+      Channel(light, site, channel) *=
+          sites_.albedo[site][channel] / static_cast<float>(solving_.rays);
     }
-    return sum;
+  }
+
+  void GatherReflected(size_t site, const Eigen::MatrixXf& carried, Eigen::MatrixXf& light) const {
+    auto sum = light.col(static_cast<Eigen::Index>(site));
+    sum.setZero();
+    for (const uint32_t other : seen_[site]) {
+      sum += carried.col(other);
+    }
   }
 
   const TransferSites& sites_;
   const RayScene& rays_;
   const TransferSolving& solving_;
-  SolvedTransfer result_;
-  std::vector<std::vector<Meeting>> meetings_;
+  int count_;
+  // The light at each site, one column each: the coefficients of the channels in turn.
+  Eigen::MatrixXf arrived_;
+  std::vector<float> inside_;                // SolvedTransfer::inside.
+  std::vector<std::vector<uint32_t>> seen_;  // The sites that the rays of each site met.
 };
 
 }  // namespace

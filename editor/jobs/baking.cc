@@ -478,14 +478,19 @@ void AddSpeechSteps(const SpokenLine& spoken, std::vector<BakeStep>& steps) {
                    }});
 }
 
+bool WithPlace(BakeWhat what) { return what == BakeWhat::kAll || what == BakeWhat::kAllButPeople; }
+
 Status AddPeople(const ProjectPaths& paths,
                  const ProjectDocument& document,
                  const Progress& progress,
+                 BakeWhat what,
                  std::vector<BakeStep>& steps) {
   for (const CastDocument& member : document.cast) {
     LARARIUM_ASSIGN_OR_RETURN(BakeStep step, HumanStep(paths, member, progress));
     steps.push_back(std::move(step));
-    steps.push_back(TransferStep(paths, member, progress));
+    if (what != BakeWhat::kUnlitPeople) {
+      steps.push_back(TransferStep(paths, member, progress));
+    }
   }
   return Status();
 }
@@ -496,8 +501,8 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
                                     BakeWhat what,
                                     std::span<const SpokenLine> spoken) {
   std::vector<BakeStep> steps;
-  if (what == BakeWhat::kPeople) {
-    LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, steps));
+  if (!WithPlace(what)) {
+    LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, what, steps));
     return steps;
   }
   for (const PlaceDocument& place : document.places) {
@@ -512,7 +517,7 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
     }
   }
   if (what == BakeWhat::kAll) {
-    LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, steps));
+    LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, what, steps));
   }
   for (const ObjectDocument& object : document.objects) {
     steps.push_back(ObjectStep(paths, object));
@@ -595,7 +600,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
   BakeReport report;
   ProjectLines lines;
   std::vector<SpokenLine> spoken;
-  if (what != BakeWhat::kPeople) {
+  if (WithPlace(what)) {
     LARARIUM_ASSIGN_OR_RETURN(lines, LoadProjectLines(paths, document));
     LARARIUM_ASSIGN_OR_RETURN(spoken, SpokenLines(paths, document, lines));
     const LineNotes notes = CheckLineFiles(paths, lines, spoken);

@@ -30,7 +30,8 @@ struct BakeReport {
   std::vector<std::string> warnings;   // Warnings of all products, made now or before.
 };
 
-enum class BakeWhat { kAll, kAllButPeople, kPeople };
+// kUnlitPeople: without their light transfer, which takes most of the time.
+enum class BakeWhat { kAll, kAllButPeople, kPeople, kUnlitPeople };
 
 // Generates products that are missing or stale. Stops at the first failure; products that were
 // finished before stay. A probe that cannot be read gives a warning, and uniform light replaces it.

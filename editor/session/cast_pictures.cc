@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <stop_token>
 #include <utility>
 
@@ -22,16 +23,18 @@ namespace {
 constexpr std::chrono::seconds kKept(20);
 constexpr std::chrono::seconds kKeptForLists(2);
 
-// Cancels baking when the thread is asked to stop.
-class UntilStopped : public Progress {
+// Cancels baking when the thread is asked to stop, or something more urgent waits.
+class UntilUrged : public Progress {
  public:
-  explicit UntilStopped(std::stop_token stop) : stop_(std::move(stop)) {}
+  UntilUrged(std::stop_token stop, std::function<bool()> urgent)
+      : stop_(std::move(stop)), urgent_(std::move(urgent)) {}
 
   void Report(std::string_view, double) override {}
-  bool Cancelled() const override { return stop_.stop_requested(); }
+  bool Cancelled() const override { return stop_.stop_requested() || urgent_(); }
 
  private:
   std::stop_token stop_;
+  std::function<bool()> urgent_;
 };
 
 }  // namespace
@@ -44,8 +47,12 @@ class CastPictures::Painter {
     std::shared_ptr<const CastPortrait> portrait;
   };
 
-  Painter(std::shared_ptr<std::mutex> baking, std::stop_token stop)
-      : baking_(std::move(baking)), progress_(std::move(stop)) {}
+  Painter(std::shared_ptr<std::mutex> baking,
+          const std::stop_token& stop,
+          std::function<bool()> picture_waits)
+      : baking_(std::move(baking)),
+        until_stopped_(stop, [] { return false; }),
+        until_picture_waits_(stop, std::move(picture_waits)) {}
 
   lararium::Result<Result> Paint(const ProjectPaths& paths,
                                  const Order& order,
@@ -53,9 +60,16 @@ class CastPictures::Painter {
     if (!order.object.empty()) {
       return PaintObject(paths.Prop(order.object));
     }
+    if (order.light) {
+      std::vector<std::string> told;  // When the person was baked without light.
+      LARARIUM_RETURN_IF_ERROR(
+          BakeAlone(paths, order.member, BakeWhat::kPeople, until_picture_waits_, told));
+      return Result();
+    }
     const std::filesystem::path file = paths.Human(order.member.name);
     if (seated_ != order.key) {
-      LARARIUM_RETURN_IF_ERROR(BakeAlone(paths, order.member, warnings));
+      LARARIUM_RETURN_IF_ERROR(
+          BakeAlone(paths, order.member, BakeWhat::kUnlitPeople, until_stopped_, warnings));
     }
     Result result;
     if (std::optional<cv::Mat> known = LoadThumbnail(file)) {
@@ -84,11 +98,13 @@ class CastPictures::Painter {
  private:
   Status BakeAlone(const ProjectPaths& paths,
                    const CastDocument& member,
+                   BakeWhat what,
+                   Progress& progress,
                    std::vector<std::string>& warnings) {
     const std::lock_guard turn(*baking_);
     ProjectDocument alone;
     alone.cast.push_back(member);
-    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, progress_, BakeWhat::kPeople));
+    LARARIUM_ASSIGN_OR_RETURN(BakeReport report, Bake(paths, alone, progress, what));
     TrimHeap();
     std::move(report.warnings.begin(), report.warnings.end(), std::back_inserter(warnings));
     return Status();
@@ -134,7 +150,8 @@ class CastPictures::Painter {
   }
 
   std::shared_ptr<std::mutex> baking_;
-  UntilStopped progress_;
+  UntilUrged until_stopped_;
+  UntilUrged until_picture_waits_;
   std::unique_ptr<Studio> studio_;
   std::string seated_;  // The key of the person in the studio.
   std::vector<std::string> joints_;
@@ -186,6 +203,7 @@ void CastPictures::BakeAgain() {
   for (auto* people : {&cast_, &presets_}) {
     for (auto& [name, sitter] : *people) {
       sitter.done.clear();
+      sitter.lit.clear();
     }
   }
   gaze_done_.clear();
@@ -250,10 +268,12 @@ std::shared_ptr<const CastPortrait> CastPictures::portrait() const {
   return portrait_;
 }
 
-bool CastPictures::Working() const {
+size_t CastPictures::PeopleLeft() const {
   const std::lock_guard lock(mutex_);
-  const std::optional<Order> order = NextOrder();
-  return order && !order->of_preset && order->object.empty();
+  return static_cast<size_t>(std::ranges::count_if(cast_, [](const auto& entry) {
+    const Sitter& sitter = entry.second;
+    return sitter.done != sitter.key || sitter.lit != sitter.key;
+  }));
 }
 
 bool CastPictures::Working(const std::string& name) const {
@@ -283,19 +303,20 @@ void CastPictures::Start() {
   ordered_.notify_one();
 }
 
-// Requires the lock. The portrait comes first, then the cast, objects, and presets.
+// Requires the lock. The portrait comes first, then the cast, objects, and presets; the light of
+// the cast, which nothing here shows, comes last.
 std::optional<CastPictures::Order> CastPictures::NextOrder() const {
   if (gaze_) {
     const auto found = cast_.find(gaze_->name);
     if (found != cast_.end() && (found->second.key != gaze_done_ || gaze_ != gazed_)) {
-      return Order{"", false, found->second.member, found->second.key, gaze_};
+      return Order{.member = found->second.member, .key = found->second.key, .gaze = gaze_};
     }
   }
   const auto next_of = [](const std::map<std::string, Sitter>& people,
                           bool of_preset) -> std::optional<Order> {
     for (const auto& [name, sitter] : people) {
       if (sitter.done != sitter.key) {
-        return Order{"", of_preset, sitter.member, sitter.key, {}};
+        return Order{.of_preset = of_preset, .member = sitter.member, .key = sitter.key};
       }
     }
     return std::nullopt;
@@ -305,10 +326,24 @@ std::optional<CastPictures::Order> CastPictures::NextOrder() const {
   }
   for (const auto& [name, thing] : objects_) {
     if (thing.done != thing.key) {
-      return Order{name, false, {}, thing.key, {}};
+      return Order{.object = name, .key = thing.key};
     }
   }
-  return next_of(presets_, true);
+  if (std::optional<Order> preset = next_of(presets_, true)) {
+    return preset;
+  }
+  for (const auto& [name, sitter] : cast_) {
+    if (sitter.lit != sitter.key) {
+      return Order{.member = sitter.member, .key = sitter.key, .light = true};
+    }
+  }
+  return std::nullopt;
+}
+
+bool CastPictures::PictureWaits() const {
+  const std::lock_guard lock(mutex_);
+  const std::optional<Order> order = NextOrder();
+  return order && !order->light;
 }
 
 void CastPictures::Deliver(const Order& order,
@@ -321,7 +356,12 @@ void CastPictures::Deliver(const Order& order,
   }
   auto& people = order.of_preset ? presets_ : cast_;
   if (const auto found = people.find(order.member.name); found != people.end()) {
-    found->second.done = order.key;
+    if (order.light || thumbnail == nullptr) {
+      found->second.lit = order.key;
+    }
+    if (!order.light) {
+      found->second.done = order.key;
+    }
     if (thumbnail != nullptr) {
       found->second.thumbnail = std::move(thumbnail);
     }
@@ -350,7 +390,7 @@ bool CastPictures::AwaitOrder(std::unique_lock<std::mutex>& lock,
 }
 
 void CastPictures::Run(std::stop_token stop) {
-  Painter painter(baking_, stop);
+  Painter painter(baking_, stop, [this] { return PictureWaits(); });
   std::unique_lock lock(mutex_);
   while (AwaitOrder(lock, stop, painter)) {
     const Order order = *NextOrder();
@@ -360,6 +400,9 @@ void CastPictures::Run(std::stop_token stop) {
     lock.lock();
     if (stop.stop_requested()) {
       return;
+    }
+    if (!painted.ok() && order.light && NextOrder() && !NextOrder()->light) {
+      continue;  // Baking the light made way for a picture.
     }
     if (!painted.ok()) {
       problems_.push_back(painted.status());

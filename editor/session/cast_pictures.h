@@ -3,7 +3,8 @@
 // Pictures of the people and objects of a project: a thumbnail of each, and a portrait of the
 // selected person. They are drawn on a separate thread with an OpenGL context of its own, so that
 // the interface never waits. An object has a thumbnail once it is baked. A person whose recipe,
-// model or clips changed is baked first; the old picture stays until the new one is ready.
+// model or clips changed is baked first; the old picture stays until the new one is ready. When no
+// picture is left to draw, the thread bakes the light transfer of the people.
 
 #include <condition_variable>
 #include <filesystem>
@@ -65,9 +66,9 @@ class CastPictures {
   Picture ObjectThumbnail(const std::string& object) const;
   std::shared_ptr<const CastPortrait> portrait() const;
 
-  // Whether a person of the project still has to be baked or drawn.
-  bool Working() const;
-  // Whether the person with this name still has to be baked or drawn.
+  // The number of people of the project who still have to be drawn, or baked with their light.
+  size_t PeopleLeft() const;
+  // Whether the person with this name still has to be drawn.
   bool Working(const std::string& name) const;
 
   // Errors and warnings since the last call.
@@ -81,6 +82,7 @@ class CastPictures {
     std::string key;  // The key (see KeyOf()) of the present inputs.
     // The key of the inputs that the thumbnail shows, or with which drawing failed.
     std::string done;
+    std::string lit;  // The key of the inputs whose light is baked, or whose baking failed.
     Picture thumbnail;
   };
   struct Thing {
@@ -96,14 +98,15 @@ class CastPictures {
 
     friend bool operator==(const Gaze&, const Gaze&) = default;
   };
-  // The next picture for the thread: the portrait or the thumbnail of one person, or the thumbnail
-  // of an object.
+  // The next work for the thread: the portrait, the thumbnail or the light of one person, or the
+  // thumbnail of an object.
   struct Order {
-    std::string object;  // The object's name; empty: a person.
+    std::string object = {};  // The object's name; empty: a person.
     bool of_preset = false;
-    CastDocument member;
-    std::string key;
-    std::optional<Gaze> gaze;  // Not set: a thumbnail.
+    CastDocument member = {};
+    std::string key = {};
+    std::optional<Gaze> gaze = {};  // Set: a portrait.
+    bool light = false;             // The light, and no picture.
   };
   class Painter;
 
@@ -114,6 +117,7 @@ class CastPictures {
                   const std::stop_token& stop,
                   Painter& painter);
   std::optional<Order> NextOrder() const;
+  bool PictureWaits() const;
   void Deliver(const Order& order, Picture thumbnail, std::shared_ptr<const CastPortrait> portrait);
 
   ProjectPaths project_;

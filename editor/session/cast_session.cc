@@ -1,6 +1,5 @@
 #include "editor/session/cast_session.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "editor/document/file_stamp.h"
@@ -18,13 +17,6 @@ CastSession::CastSession(ProjectSession& project,
       tasks_(tasks),
       messages_(messages),
       pictures_(project.paths(), CacheFolder() / "presets", std::move(baking)) {}
-
-size_t CastSession::PeopleLeft() const {
-  const std::vector<CastDocument>& cast = project_.document().cast;
-  return static_cast<size_t>(
-      std::count_if(cast.begin(), cast.end(),
-                    [this](const CastDocument& member) { return pictures_.Working(member.name); }));
-}
 
 const CastCatalogue* CastSession::catalogue() {
   if (catalogue_.newest() == nullptr && catalogue_problem().empty()) {

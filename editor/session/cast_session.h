@@ -30,8 +30,6 @@ class CastSession {
 
   CastPictures& pictures() { return pictures_; }
   const CastPictures& pictures() const { return pictures_; }
-  // The number of cast members who still have to be built or drawn.
-  size_t PeopleLeft() const;
 
   // The options of recipes, read at the first call. nullptr: not read yet, or the library is
   // missing; see catalogue_problem().

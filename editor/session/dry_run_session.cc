@@ -26,7 +26,7 @@ void DryRunSession::Update(double seconds) {
   since_script_ = revision == seen_script_ ? since_script_ + seconds : seconds;
   seen_script_ = revision;
   if (!runs_.Stale(revision) || since_script_ < kPause || tasks_.Running(TaskKind::kOpening) ||
-      cast_.pictures().Working() || project_.document().cast.empty()) {
+      cast_.pictures().PeopleLeft() > 0 || project_.document().cast.empty()) {
     return;
   }
   if (tasks_.Running(TaskKind::kDryRun)) {

@@ -108,7 +108,7 @@ void PreviewSession::Open() {
   const auto content = std::make_shared<show::ShowContent>();
   const auto report = std::make_shared<BakeReport>();
   const auto missing = std::make_shared<size_t>(0);  // Number of people with a replacement.
-  const auto work = [content, report, missing, others_stand_in = cast_.PeopleLeft() > 0,
+  const auto work = [content, report, missing, others_stand_in = cast_.pictures().PeopleLeft() > 0,
                      paths = project_.paths(), document = project_.commands().snapshot(),
                      script = project_.script().snapshot(), name = project_.place_name(),
                      database = map_.loaded().database, baking = baking_,
@@ -252,7 +252,7 @@ void PreviewSession::Reopen() {
 }
 
 bool PreviewSession::StageIsOutdated() const {
-  return stale_ || (stand_ins_ == 0 && cast_.pictures().Working()) ||
+  return stale_ || (stand_ins_ == 0 && cast_.pictures().PeopleLeft() > 0) ||
          tasks_.Running(TaskKind::kOpening);
 }
 
@@ -353,7 +353,7 @@ void PreviewSession::Update(double seconds) {
     place_changed_ = true;
     stale_ = true;
   }
-  const size_t left = cast_.PeopleLeft();
+  const size_t left = cast_.pictures().PeopleLeft();
   // The script may be the cause of a failure, and a person who was drawn as a replacement is ready.
   if ((preview_ != nullptr && preview_->failed() &&
        opened_script_ != project_.script().revision()) ||

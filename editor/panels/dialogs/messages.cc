@@ -130,7 +130,7 @@ void DrawStatusBar(editor::Workspace& workspace) {
   if (workspace.project().files().changed_outside()) {
     DrawOutsideChoice(workspace);
   }
-  const size_t unbuilt = workspace.cast().PeopleLeft();
+  const size_t unbuilt = workspace.cast().pictures().PeopleLeft();
   if (unbuilt > 0) {
     ImGui::AlignTextToFramePadding();
     const char* text = workspace.preview().has_stand_ins()
