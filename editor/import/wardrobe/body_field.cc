@@ -20,6 +20,7 @@ struct FieldTriangle {
 namespace {
 
 constexpr float kUnset = 1e3f;
+constexpr float kRounding = 1e-5f;  // Metres.
 
 struct Nearest {
   glm::vec3 point;
@@ -140,6 +141,9 @@ void BodyField::AddTriangle(const FieldTriangle& t) {
   const auto& [a, b, c] = t.corners;
   const glm::vec3 low = (glm::min(glm::min(a, b), c) - band_ - origin_) / cell_;
   const glm::vec3 high = (glm::max(glm::max(a, b), c) + band_ - origin_) / cell_;
+  const glm::vec3 middle = (a + b + c) / 3.0f;
+  const float radius =
+      std::max({glm::distance(a, middle), glm::distance(b, middle), glm::distance(c, middle)});
   int first[3] = {};
   int last[3] = {};
   for (int k = 0; k < 3; ++k) {
@@ -150,10 +154,14 @@ void BodyField::AddTriangle(const FieldTriangle& t) {
     for (int y = first[1]; y <= last[1]; ++y) {
       for (int x = first[0]; x <= last[0]; ++x) {
         const glm::vec3 p = origin_ + cell_ * glm::vec3(x, y, z);
-        if (std::abs(glm::dot(p - a, t.normal)) > band_) {
+        float& stored = distance_[Index(x, y, z)];
+        // The triangle is no nearer than its plane and the sphere about it, to within rounding.
+        const float reach = std::min(band_, std::abs(stored)) + kRounding;
+        const glm::vec3 from_middle = p - middle;
+        if (std::abs(glm::dot(p - a, t.normal)) > reach ||
+            glm::dot(from_middle, from_middle) > (reach + radius) * (reach + radius)) {
           continue;
         }
-        float& stored = distance_[Index(x, y, z)];
         const Nearest nearest = NearestOn(t, p);
         const glm::vec3 offset = p - nearest.point;
         const float distance = glm::length(offset);
