@@ -106,8 +106,10 @@ TEST_F(ParadataTest, CreditsNameAuthorsLicencesLettersVoicesAndSources) {
   document_.cast[0].clips.clear();
   document_.places.clear();
   NoProgress progress;
-  const auto baked = Bake(paths_, document_, progress);
-  ASSERT_TRUE(baked.ok()) << baked.message();
+  for (const BakeWhat what : {BakeWhat::kUnlitPeople, BakeWhat::kAllButPeople}) {
+    const auto baked = Bake(paths_, document_, progress, what);
+    ASSERT_TRUE(baked.ok()) << baked.message();
+  }
   Write("paradata.json",
         R"({"schema": 1, "author": "The museum", "licence": "CC0-1.0",
             "sources": {"cil": "CIL IV 1679"},
