@@ -9,7 +9,7 @@
 #include <span>
 
 #include "shared/core/check.h"
-#include "shared/vision/background_relocalizer.h"
+#include "shared/vision/background/background_search.h"
 #include "shared/vision/camera_filter.h"
 #include "shared/vision/gain_estimator.h"
 #include "shared/vision/motion_model.h"
@@ -60,7 +60,8 @@ class Tracker final : public PoseSource {
  public:
   Tracker(std::vector<std::shared_ptr<const SceneDatabase>> maps,
           const CameraModel& camera,
-          const TrackerOptions& options)
+          const TrackerOptions& options,
+          std::unique_ptr<BackgroundSearch> background)
       : options_(options),
         camera_(camera, options.known_camera),
         maps_(std::move(maps)),
@@ -70,7 +71,8 @@ class Tracker final : public PoseSource {
         patch_trackers_.push_back(
             std::make_unique<PatchTracker>(std::make_shared<const TrackedMap>(map)));
       }
-      background_ = std::make_unique<BackgroundRelocalizer>(relocalizer_, options.threads);
+      background_ =
+          background ? std::move(background) : MakeBackgroundSearch(relocalizer_, options.threads);
     }
   }
 
@@ -348,7 +350,7 @@ class Tracker final : public PoseSource {
       constexpr double kMostBlurPx = 2.0;  // Patches of a more blurred image are not usable.
       if (checked_blur_px_ < kMostBlurPx) {
         patch_trackers_[map_]->Merge(checked_image_, checked_camera_, *checked_pose_,
-                                     relocalizer_.points(map_), *tracked.camera_from_map);
+                                     background_->points(), *tracked.camera_from_map);
       }
       return;
     }
@@ -410,7 +412,7 @@ class Tracker final : public PoseSource {
   CameraModel checked_camera_;
   ImagePyramid checked_image_;
   double checked_blur_px_ = 0.0;
-  std::unique_ptr<BackgroundRelocalizer> background_;
+  std::unique_ptr<BackgroundSearch> background_;
 };
 
 }  // namespace
@@ -444,7 +446,8 @@ Status TrackerOptions::Validate() const {
 Result<std::unique_ptr<PoseSource>> CreateTracker(
     std::vector<std::shared_ptr<const SceneDatabase>> maps,
     const CameraModel& camera,
-    const TrackerOptions& options) {
+    const TrackerOptions& options,
+    std::unique_ptr<BackgroundSearch> background) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
   LARARIUM_RETURN_IF_ERROR(camera.Validate());
   if (maps.empty()) {
@@ -457,7 +460,8 @@ Result<std::unique_ptr<PoseSource>> CreateTracker(
                            "train the place again");
     }
   }
-  return std::unique_ptr<PoseSource>(std::make_unique<Tracker>(std::move(maps), camera, options));
+  return std::unique_ptr<PoseSource>(
+      std::make_unique<Tracker>(std::move(maps), camera, options, std::move(background)));
 }
 
 }  // namespace lararium::vision

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "shared/vision/background/background_search.h"
 #include "shared/vision/features.h"
 #include "shared/vision/scene_database.h"
 #include "shared/vision/tracked_frame.h"
@@ -37,9 +38,12 @@ struct TrackerOptions {
 
 // Creates a tracker for one camera. maps holds at least one map; the tracker shares them and never
 // changes them. TrackedFrame::map is an index into maps. camera describes the images to come.
+// background: what relocalises in the background; by default a thread of this program does. One
+// that cannot wait needs BackgroundWork::kFree.
 Result<std::unique_ptr<PoseSource>> CreateTracker(
     std::vector<std::shared_ptr<const SceneDatabase>> maps,
     const geometry::CameraModel& camera,
-    const TrackerOptions& options);
+    const TrackerOptions& options,
+    std::unique_ptr<BackgroundSearch> background = nullptr);
 
 }  // namespace lararium::vision

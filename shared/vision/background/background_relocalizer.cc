@@ -1,13 +1,18 @@
-#include "shared/vision/background_relocalizer.h"
+#include "shared/vision/background/background_relocalizer.h"
+
+#include "shared/vision/background/joined_search.h"
 
 namespace lararium::vision {
 
-BackgroundRelocalizer::BackgroundRelocalizer(Relocalizer& relocalizer, int threads)
-    : relocalizer_(relocalizer) {
-  if (threads != 1) {
-    thread_ = std::jthread([this](const std::stop_token& stop) { Work(stop); });
+std::unique_ptr<BackgroundSearch> MakeBackgroundSearch(Relocalizer& relocalizer, int threads) {
+  if (threads == 1) {
+    return std::make_unique<JoinedSearch>(relocalizer);
   }
+  return std::make_unique<BackgroundRelocalizer>(relocalizer);
 }
+
+BackgroundRelocalizer::BackgroundRelocalizer(Relocalizer& relocalizer)
+    : relocalizer_(relocalizer), thread_([this](const std::stop_token& stop) { Work(stop); }) {}
 
 void BackgroundRelocalizer::Begin(const cv::Mat& grey, const CameraGuess& guess) {
   const std::lock_guard lock(mutex_);
@@ -20,12 +25,11 @@ void BackgroundRelocalizer::Begin(const cv::Mat& grey, const CameraGuess& guess)
 
 std::optional<Located> BackgroundRelocalizer::Take(bool wait) {
   std::unique_lock lock(mutex_);
-  if (!thread_.joinable()) {
-    located_ = relocalizer_.Find(grey_, guess_);
-  } else if (wait) {
+  if (wait) {
     changed_.wait(lock, [this] { return located_.has_value(); });
   }
   if (located_) {
+    map_ = located_->map;
     EndLocked();
   }
   return located_;
@@ -33,7 +37,7 @@ std::optional<Located> BackgroundRelocalizer::Take(bool wait) {
 
 void BackgroundRelocalizer::Drop() {
   std::unique_lock lock(mutex_);
-  if (busy_ && thread_.joinable()) {
+  if (busy_) {
     changed_.wait(lock, [this] { return located_.has_value(); });
   }
   EndLocked();
