@@ -256,7 +256,7 @@ Status WriteFileAtomically(const std::filesystem::path& path, std::span<const st
 }
 
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view content) {
-  return WriteFileAtomically(path, std::as_bytes(std::span(content)));
+  return WriteFileAtomically(path, std::as_bytes(std::span(content.data(), content.size())));
 }
 
 Result<MappedFile> MappedFile::Open(const std::filesystem::path& path) {

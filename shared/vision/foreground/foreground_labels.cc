@@ -59,8 +59,8 @@ void ForegroundLabels::Label(const cv::Mat& bgr,
 }
 
 void ForegroundLabels::AddColourEvidence(const cv::Mat& log_odds, std::span<const int> seen) {
-  std::ranges::fill(foreground_, 0.0f);
-  std::ranges::fill(background_, 0.0f);
+  std::fill(foreground_.begin(), foreground_.end(), 0.0f);
+  std::fill(background_.begin(), background_.end(), 0.0f);
   auto* joined = joined_.ptr<float>();
   for (const int pixel : seen) {
     joined[pixel] = kLeastOdds;

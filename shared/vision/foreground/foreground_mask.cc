@@ -87,7 +87,7 @@ void ForegroundMask::AddView(const Keyframe& keyframe, std::span<const Observati
     depths.push_back((keyframe.camera_from_map * map_->points[seen.point].cast<double>()).z());
   }
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::ranges::nth_element(depths, middle);
+  std::nth_element(depths.begin(), middle, depths.end());
   view.depth = std::max(*middle, 1e-9);
 }
 
@@ -111,7 +111,7 @@ cv::Mat ForegroundMask::Estimate(const TrackedFrame& tracked, std::span<const Se
         std::clamp(static_cast<int>((point.pixel.y() + 0.5f) * scale_y), 0, size.height - 1);
     seen_.push_back(y * size.width + x);
   }
-  std::ranges::sort(seen_);
+  std::sort(seen_.begin(), seen_.end());
   seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
 
   ChooseViews(*tracked.camera_from_map);
@@ -145,7 +145,7 @@ void ForegroundMask::ChooseViews(const geometry::Rigid3& camera_from_map) {
   }
   const auto last =
       ranking_.begin() + static_cast<std::ptrdiff_t>(std::min(kViews, ranking_.size()));
-  std::ranges::partial_sort(ranking_, last);
+  std::partial_sort(ranking_.begin(), last, ranking_.end());
 }
 
 void ForegroundMask::SetCamera(const geometry::CameraModel& camera) {
@@ -336,7 +336,7 @@ float ForegroundMask::Gain(const cv::Mat& warped) {
     return 1.0f;
   }
   const auto middle = sample_.begin() + static_cast<std::ptrdiff_t>(sample_.size() / 2);
-  std::ranges::nth_element(sample_, middle);
+  std::nth_element(sample_.begin(), middle, sample_.end());
   return *middle;
 }
 
@@ -352,7 +352,7 @@ bool ForegroundMask::Judge() {
     return false;
   }
   const auto middle = sample_.begin() + static_cast<std::ptrdiff_t>(sample_.size() / 2);
-  std::ranges::nth_element(sample_, middle);
+  std::nth_element(sample_.begin(), middle, sample_.end());
   const float unit = std::max(*middle, kLeastUnit);
   if (unit > kMostUnit) {
     return false;
