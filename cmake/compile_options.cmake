@@ -27,6 +27,9 @@ if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O2")
+if(EMSCRIPTEN)
+  set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+endif()
 # Optimising the assertions would take a third of the time in which tests compile.
 set(lararium_test_options $<$<CONFIG:Release>:-O1>)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of packages.txt that this machine lacks: those for
-# everybody, and those for the purposes that are named (cast, check, full, package).
+# everybody, and those for the purposes that are named (cast, check, full, package, web).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -5,7 +5,7 @@ if(NOT CLANG_FORMAT)
 endif()
 file(GLOB_RECURSE files ${SOURCE_DIR}/shared/*.h ${SOURCE_DIR}/shared/*.cc ${SOURCE_DIR}/player/*.h
      ${SOURCE_DIR}/player/*.cc ${SOURCE_DIR}/editor/*.h ${SOURCE_DIR}/editor/*.cc
-     ${SOURCE_DIR}/tests/*.h ${SOURCE_DIR}/tests/*.cc)
+     ${SOURCE_DIR}/web/*.h ${SOURCE_DIR}/web/*.cc ${SOURCE_DIR}/tests/*.h ${SOURCE_DIR}/tests/*.cc)
 execute_process(COMMAND ${CLANG_FORMAT} --dry-run --Werror ${files}
                 RESULT_VARIABLE result ERROR_VARIABLE text)
 if(NOT result EQUAL 0)

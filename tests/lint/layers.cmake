@@ -8,6 +8,7 @@ set(floors
   "shared/stage"
   "shared/drama shared/bundle shared/render shared/audio"
   "shared/show"
+  "web/tracker"
   "editor/text"
   "editor/desktop editor/train editor/import editor/export player/kiosk player/benchmark"
   "editor/bake editor/colmap player/staff player/openxr"
@@ -35,7 +36,8 @@ set(largest_folder 80)
 
 file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR}
      ${SOURCE_DIR}/shared/*.h ${SOURCE_DIR}/shared/*.cc ${SOURCE_DIR}/player/*.h
-     ${SOURCE_DIR}/player/*.cc ${SOURCE_DIR}/editor/*.h ${SOURCE_DIR}/editor/*.cc)
+     ${SOURCE_DIR}/player/*.cc ${SOURCE_DIR}/editor/*.h ${SOURCE_DIR}/editor/*.cc
+     ${SOURCE_DIR}/web/*.h ${SOURCE_DIR}/web/*.cc)
 foreach(file IN LISTS files)
   file(STRINGS ${SOURCE_DIR}/${file} includes REGEX "^#include")
   string(REGEX REPLACE "^([a-z]+/[a-z]+)/.*" "\\1" home ${file})
@@ -51,7 +53,7 @@ foreach(file IN LISTS files)
     # Only the programs' own code; never each other's, never tests.
     if(line MATCHES "\"tests/")
       list(APPEND problems "${file}: includes a test header")
-    elseif(line MATCHES "\"((shared|editor|player)/[a-z]+)/")
+    elseif(line MATCHES "\"((shared|editor|player|web)/[a-z]+)/")
       set(room ${CMAKE_MATCH_1})
       if(NOT room STREQUAL home)
         if(NOT CMAKE_MATCH_2 STREQUAL "shared" AND NOT CMAKE_MATCH_2 STREQUAL program)

@@ -32,7 +32,7 @@ FOREIGN = {
     "hereby": "leave it out",
 }
 SUFFIXES = {".h": "//", ".cc": "//", ".glsl": "//", ".vert": "//", ".frag": "//", ".lua": "--"}
-FOLDERS = ("editor", "lua", "player", "scenes", "shaders", "shared", "tests")
+FOLDERS = ("editor", "lua", "player", "scenes", "shaders", "shared", "tests", "web")
 FRAGMENT = re.compile(r"\S\s+(?://|--)\s*(?:" + "|".join(CONTINUES.split()) + r")\b", re.IGNORECASE)
 DIALECT = re.compile(r"\b(" + "|".join(sorted(FOREIGN, key=len, reverse=True)) + r")\b", re.IGNORECASE)
 

@@ -1,0 +1,143 @@
+#include "web/tracker/tracker_session.h"
+
+#include <algorithm>
+
+namespace lararium::web {
+
+using geometry::CameraModel;
+
+namespace {
+
+// The trained camera of the first map that fits the images, as the player guesses.
+CameraModel GuessCamera(std::span<const std::shared_ptr<const vision::SceneDatabase>> maps,
+                        int width,
+                        int height) {
+  const auto fits = std::find_if(maps.begin(), maps.end(), [&](const auto& map) {
+    return map->camera.ForImages(width, height).ok();
+  });
+  return (fits == maps.end() ? maps.front() : *fits)->camera.GuessForImages(width, height);
+}
+
+std::vector<double> NumbersOf(const vision::TrackedFrame& tracked) {
+  const geometry::Rigid3 pose = tracked.camera_from_map.value_or(geometry::Rigid3());
+  const Eigen::Quaterniond& q = pose.rotation;
+  const Eigen::Vector3d& t = pose.translation;
+  const CameraModel& c = tracked.camera;
+  return {static_cast<double>(tracked.state),
+          static_cast<double>(tracked.reason),
+          static_cast<double>(tracked.followed),
+          static_cast<double>(tracked.map),
+          static_cast<double>(tracked.confidence),
+          static_cast<double>(tracked.inliers),
+          q.x(),
+          q.y(),
+          q.z(),
+          q.w(),
+          t.x(),
+          t.y(),
+          t.z(),
+          static_cast<double>(c.width),
+          static_cast<double>(c.height),
+          c.fx,
+          c.fy,
+          c.cx,
+          c.cy,
+          c.k1,
+          c.k2,
+          c.p1,
+          c.p2};
+}
+
+}  // namespace
+
+Status TrackerSession::AddMap(std::span<const std::byte> larscene) {
+  LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase map, vision::ParseSceneDatabase(larscene, "map"));
+  maps_.push_back(std::make_shared<const vision::SceneDatabase>(std::move(map)));
+  return Status();
+}
+
+Status TrackerSession::SetIntrinsics(std::span<const double> numbers, int width, int height) {
+  LARARIUM_ASSIGN_OR_RETURN(camera_, CameraModel::FromNumbers(numbers, width, height));
+  return Status();
+}
+
+// Nothing but the background search keeps former images, so each gets pixels of its own.
+uint8_t* TrackerSession::NewImage(int width, int height) {
+  grey_ = cv::Mat(height, width, CV_8UC1);
+  return grey_.data;
+}
+
+Status TrackerSession::Start() {
+  if (maps_.empty()) {
+    return Status::Error("tracker", "has no map", "add a map before the first image");
+  }
+  vision::TrackerOptions options;
+  options.threads = 1;
+  options.known_camera = camera_.has_value();
+  CameraModel camera;
+  if (camera_) {
+    LARARIUM_ASSIGN_OR_RETURN(camera, camera_->ForImages(grey_.cols, grey_.rows));
+  } else {
+    camera = GuessCamera(maps_, grey_.cols, grey_.rows);
+  }
+  std::unique_ptr<PostedSearch> search;
+  if (posted_) {
+    std::vector<size_t> points;
+    for (const auto& map : maps_) {
+      points.push_back(map->points.size());
+    }
+    search = std::make_unique<PostedSearch>(std::move(points));
+    options.background = vision::BackgroundWork::kFree;
+  }
+  PostedSearch* const borrowed = search.get();
+  LARARIUM_ASSIGN_OR_RETURN(poses_,
+                            vision::CreateTracker(maps_, camera, options, std::move(search)));
+  search_ = borrowed;
+  return Status();
+}
+
+Status TrackerSession::Track(double seconds) {
+  if (grey_.empty()) {
+    return Status::Error("tracker", "has no image", "fill in an image first");
+  }
+  if (!poses_) {
+    LARARIUM_RETURN_IF_ERROR(Start());
+  }
+  geometry::Frame frame;
+  frame.index = index_++;
+  frame.capture_time = seconds;
+  frame.grey = std::move(grey_);
+  grey_.release();
+  numbers_ = NumbersOf(poses_->Track(frame));
+  return Status();
+}
+
+void TrackerSession::Relocalize() {
+  if (poses_) {
+    poses_->Relocalize();
+  }
+}
+
+Status TrackerSession::Find(std::span<const double> question) {
+  if (maps_.empty() || grey_.empty()) {
+    return Status::Error("search", "has no map or no image", "give it both first");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const SearchQuestion asked, ParseQuestion(question));
+  LARARIUM_RETURN_IF_ERROR(asked.guess.prior.model.Validate());
+  for (const CameraModel& candidate : asked.guess.candidates) {
+    LARARIUM_RETURN_IF_ERROR(candidate.Validate());
+  }
+  if (!relocalizer_) {
+    relocalizer_ = std::make_unique<vision::Relocalizer>(maps_, vision::TrackerOptions());
+  }
+  SearchAnswer answer{asked.number, relocalizer_->Find(grey_, asked.guess), {}};
+  grey_.release();
+  if (answer.located.location.camera_from_map) {
+    const auto points = relocalizer_->points(answer.located.map);
+    answer.points.assign(points.begin(), points.end());
+  }
+  numbers_ = Numbers(answer);
+  return Status();
+}
+
+}  // namespace lararium::web
