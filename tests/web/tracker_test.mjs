@@ -95,7 +95,8 @@ for (let again = 0; again < 2; ++again) {  // Other work of the machine makes ti
 }
 const unknown = await trackAll({}, native.unknown);
 const found = await trackAll({intrinsics: native.camera}, native.found, (tracker) => tracker.relocalize());
-for (const [name, {worst}, most] of [['known', known, MOST_PX], ['unknown', unknown, MOST_PX], ['found', found, MOST_FOUND_PX]]) {
+for (const [name, {worst}, most] of [
+  ['known', known, MOST_PX], ['unknown', unknown, MOST_PX], ['found', found, MOST_FOUND_PX]]) {
   console.log(`${worst <= most ? 'ok  ' : 'MISS'} ${name}: largest distance from native ${worst} px (bar ${most})`);
 }
 console.log(`     very first pose ${tenths(known.times.first[0])} ms, warm ${tenths(quantile(found.times.first, 0.5))} ms, ` +
