@@ -27,6 +27,7 @@ CameraEstimate ExactCamera(const geometry::CameraModel& model) {
 CameraEstimate Changed(const CameraEstimate& camera, const CameraVector& step) {
   CameraEstimate changed = camera;
   changed.readout += Eigen::Vector2d(step[kReadoutX], step[kReadoutY]);
+  changed.turning += step.segment<3>(kTurnX);
   const double factor = std::exp(step[kFocal]);
   changed.model.fx *= factor;
   changed.model.fy *= factor;
@@ -41,6 +42,7 @@ CameraVector Difference(const CameraEstimate& from, const CameraEstimate& to) {
   CameraVector step;
   step[kReadoutX] = to.readout.x() - from.readout.x();
   step[kReadoutY] = to.readout.y() - from.readout.y();
+  step.segment<3>(kTurnX) = to.turning - from.turning;
   step[kFocal] = std::log(to.model.Focal() / from.model.Focal());
   step[kCentreX] = to.model.cx - from.model.cx;
   step[kCentreY] = to.model.cy - from.model.cy;
@@ -50,10 +52,11 @@ CameraVector Difference(const CameraEstimate& from, const CameraEstimate& to) {
 }
 
 CameraMatrix Information(const CameraEstimate& camera) {
+  constexpr double kKnown = 1e-12;
   CameraMatrix covariance = camera.covariance;
   for (int i = 0; i < kCameraParameters; ++i) {
     if (covariance(i, i) == 0.0) {
-      covariance(i, i) = 1.0;
+      covariance(i, i) = kKnown;
     }
   }
   // Pixels and coefficients differ by orders of magnitude.

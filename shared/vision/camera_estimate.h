@@ -17,6 +17,9 @@ namespace lararium::vision {
 enum CameraParameter {
   kReadoutX,  // CameraEstimate::readout
   kReadoutY,
+  kTurnX,  // CameraEstimate::turning
+  kTurnY,
+  kTurnZ,
   kFocal,    // relative change of both focal lengths
   kCentreX,  // principal point, pixels
   kCentreY,
@@ -33,6 +36,10 @@ using CameraMatrix = Eigen::Matrix<double, kCameraParameters, kCameraParameters>
 struct CameraEstimate {
   geometry::CameraModel model;
   Eigen::Vector2d readout = Eigen::Vector2d::Zero();  // See RollingShutter.
+  // What the camera turns in one frame time beyond the motion that is given with it: radians. A
+  // hand trembles so fast that the images before do not tell how the camera turns in this one, but
+  // the rows of a rolling shutter do. Belongs to one image only.
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();
   // Covariance of the parameters; a parameter of variance 0 is exactly known.
   CameraMatrix covariance = CameraMatrix::Zero();
 
@@ -58,8 +65,8 @@ struct PosedCamera {
   CameraEstimate camera;
 };
 
-// The inverse of the covariance. A known parameter has no correlation with others and 1 on the
-// diagonal, so that it can be estimated to be unchanged.
+// The inverse of the covariance. A known parameter has no correlation with others and a large
+// number on the diagonal, so that it is estimated to be unchanged.
 CameraMatrix Information(const CameraEstimate& camera);
 
 // A pose and the first N - 6 parameters of the camera.
@@ -95,7 +102,12 @@ bool PixelResidual(const CameraEstimate& camera,
                    Eigen::Vector2d& residual,
                    Eigen::Matrix<double, 2, N>* jacobian) {
   const double time = N > 6 ? camera.TimeOf(observed) : 0.0;
-  const Eigen::Vector3d p = N > 6 ? AtTimeOf(time, in_camera, motion) : in_camera;
+  Vector6d in_image = Vector6d::Zero();
+  if (N > 6 && motion != nullptr) {
+    in_image = *motion;
+    in_image.template head<3>() += camera.turning;
+  }
+  const Eigen::Vector3d p = N > 6 ? AtTimeOf(time, in_camera, &in_image) : in_camera;
   Eigen::Vector2d on_plane;
   Matrix26d by_pose;
   if (!PlaneResidual(p, Eigen::Vector2d::Zero(), on_plane,
@@ -113,12 +125,14 @@ bool PixelResidual(const CameraEstimate& camera,
   if constexpr (N > 6) {
     const geometry::CameraModel& model = camera.model;
     Eigen::Vector2d speed = Eigen::Vector2d::Zero();  // pixels per frame time
+    jacobian->template middleCols<3>(6 + kTurnX).setZero();
     if (motion != nullptr) {
       // The point moves as the one of the middle of the image does, turned by what the camera has
       // turned since: A = I + t [w] + t^2 / 2 [w]^2, which multiplies each row from the right.
-      const Eigen::Vector3d w = motion->template head<3>();
+      const Eigen::Vector3d w = in_image.template head<3>();
       const Eigen::Vector3d across = w.cross(in_camera);
-      const Eigen::Vector3d velocity = across + time * w.cross(across) + motion->template tail<3>();
+      const Eigen::Vector3d velocity =
+          across + time * w.cross(across) + in_image.template tail<3>();
       for (int row = 0; row < 2; ++row) {
         const Eigen::Vector3d by_point = jacobian->template block<1, 3>(row, 3).transpose();
         const Eigen::Vector3d turned = by_point.cross(w);
@@ -126,6 +140,10 @@ bool PixelResidual(const CameraEstimate& camera,
             by_point + time * turned + 0.5 * time * time * turned.cross(w);
         jacobian->template block<1, 3>(row, 0) = in_camera.cross(by_middle).transpose();
         jacobian->template block<1, 3>(row, 3) = by_middle.transpose();
+        jacobian->template block<1, 3>(row, 6 + kTurnX) =
+            time * (in_camera.cross(by_point) +
+                    0.5 * time * (in_camera.cross(turned) + across.cross(by_point)))
+                       .transpose();
         speed[row] = by_point.dot(velocity);
       }
     }

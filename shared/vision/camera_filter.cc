@@ -39,15 +39,14 @@ bool ShutterIsGlobal(const CameraEstimate& camera) {
   constexpr double kLongest = 0.03;  // Frame times.
   constexpr double kUncertain = 0.015;
   return camera.readout.cwiseAbs().maxCoeff() < kLongest &&
-         camera.covariance.diagonal().head<kShutterParameters>().maxCoeff() <
-             kUncertain * kUncertain;
+         camera.covariance.diagonal().head<2>().maxCoeff() < kUncertain * kUncertain;
 }
 
 double LongerSide(const CameraModel& model) { return std::max(model.width, model.height); }
 
 CameraMatrix Squares(double readout, double focal, double centre, double radial) {
   CameraVector deviations;
-  deviations << readout, readout, focal, centre, centre, radial, radial;
+  deviations << readout, readout, 0.0, 0.0, 0.0, focal, centre, centre, radial, radial;
   return deviations.cwiseAbs2().asDiagonal();
 }
 
@@ -164,6 +163,9 @@ void CameraFilter::Update(const CameraEstimate& estimate) {
   constexpr double kMostDeviations = 4.0;
   const CameraEstimate before = now_;
   now_ = estimate;
+  now_.turning.setZero();
+  now_.covariance.middleRows<3>(kTurnX).setZero();
+  now_.covariance.middleCols<3>(kTurnX).setZero();
   const CameraVector off = Difference(before, estimate);
   for (const int i : {kReadoutX, kReadoutY}) {
     if (off[i] * off[i] > kMostDeviations * kMostDeviations * before.covariance(i, i)) {

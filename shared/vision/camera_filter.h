@@ -48,6 +48,8 @@ class CameraFilter {
   // Takes note of the camera of an image that was followed with Doubted(). Where such images go on
   // contradicting the intrinsics, these are not held any more.
   void Contradict(const CameraEstimate& estimate);
+  // Whether the last of these images contradicted the intrinsics.
+  bool contradicted() const { return contradictions_ > 0; }
 
  private:
   CameraEstimate Unknown() const;

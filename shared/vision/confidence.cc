@@ -35,48 +35,71 @@ double BetaFraction(double a, double b, double x) {
   return fraction;
 }
 
-// The mean of J' J over the image and the depths, in square pixels, where J is the derivative of a
-// point's projection by (w, v) and the camera's parameters.
+// The means of J' J over the image and the depths, in square pixels.
 template <int N>
-JointMatrix<N> MeanSquareOfMotion(const CameraModel& model, const std::array<double, 3>& depths) {
+struct MeanSquares {
+  // J: the derivative of a point's projection by (w, v) and the camera's parameters.
+  JointMatrix<N> by_parameters = JointMatrix<N>::Zero();
+  // J: the derivative by how the turning changes, beyond its part that moves all of the image.
+  Eigen::Matrix3d by_turning_change = Eigen::Matrix3d::Zero();
+};
+
+template <int N>
+MeanSquares<N> ComputeMeanSquares(const CameraModel& model, const PoseEvidence& evidence) {
   constexpr int kColumns = 5;
   constexpr int kRows = 4;
-  JointMatrix<N> sum = JointMatrix<N>::Zero();
-  const CameraEstimate camera = ExactCamera(model);
+  MeanSquares<N> sum;
+  CameraEstimate camera = ExactCamera(model);
+  camera.readout = evidence.shutter.readout;
+  const double mean_square_time = camera.readout.squaredNorm() / 12.0;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       const Eigen::Vector2d pixel((column + 0.5) * model.width / kColumns - 0.5,
                                   (row + 0.5) * model.height / kRows - 0.5);
       const Eigen::Vector2d plane = model.PlaneFromPixel(pixel);
-      for (const double depth : depths) {
+      for (const double depth : evidence.depths) {
         Eigen::Vector2d residual;
         Eigen::Matrix<double, 2, N> jacobian;
-        if (PixelResidual<N>(camera, depth * plane.homogeneous(), nullptr, pixel, residual,
-                             &jacobian)) {
-          sum.noalias() += jacobian.transpose() * jacobian;
+        if (PixelResidual<N>(camera, depth * plane.homogeneous(), &evidence.shutter.motion, pixel,
+                             residual, &jacobian)) {
+          sum.by_parameters.noalias() += jacobian.transpose() * jacobian;
+          const double time = camera.TimeOf(pixel);
+          const Eigen::Matrix<double, 2, 3> by_change =
+              0.5 * (time * time - mean_square_time) * jacobian.template leftCols<3>();
+          sum.by_turning_change.noalias() += by_change.transpose() * by_change;
         }
       }
     }
   }
-  return sum / (kColumns * kRows * static_cast<double>(depths.size()));
+  const double count = kColumns * kRows * static_cast<double>(evidence.depths.size());
+  return {sum.by_parameters / count, sum.by_turning_change / count};
 }
 
-// The squared error is d' M d, where d has the covariance. In axes in which the covariance becomes
-// the identity and M is diagonal, it is a sum of squares.
+// The squared error is d' M d, where d has the covariance C. In axes in which the covariance
+// becomes the identity and M is diagonal, it is a sum of squares with these variances: the
+// eigenvalues of R' M R, where R R' = C.
+template <int N>
+auto VariancesOf(const JointMatrix<N>& covariance, const JointMatrix<N>& mean_squares) {
+  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> axes{BoundedMatrix(covariance)};
+  const JointMatrix<N> root =
+      axes.eigenvectors() *
+      axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
+  const JointMatrix<N> turned = root.transpose() * mean_squares * root;
+  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> parts(BoundedMatrix(turned),
+                                                           Eigen::EigenvaluesOnly);
+  return JointVector<N>(parts.eigenvalues().cwiseMax(0.0));
+}
+
 template <int N>
 RegistrationVariance VarianceOf(const CameraModel& camera, const PoseEvidence& evidence) {
-  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> covariance(
-      evidence.covariance.topLeftCorner<N, N>());
-  const JointMatrix<N> root =
-      covariance.eigenvectors() *
-      covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
-  const JointMatrix<N> turned =
-      root.transpose() * MeanSquareOfMotion<N>(camera, evidence.depths) * root;
-  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> parts(turned, Eigen::EigenvaluesOnly);
+  const MeanSquares<N> squares = ComputeMeanSquares<N>(camera, evidence);
+  const JointVector<N> of_parameters =
+      VariancesOf<N>(evidence.covariance.topLeftCorner<N, N>(), squares.by_parameters);
+  const Eigen::Vector3d of_change =
+      VariancesOf<3>(evidence.turning_change, squares.by_turning_change);
   RegistrationVariance variance;
-  for (int i = 0; i < N; ++i) {
-    variance.parts[i] = std::max(parts.eigenvalues()[N - 1 - i], 0.0);
-  }
+  std::copy_n(of_parameters.data(), N, variance.parts.begin());
+  std::copy_n(of_change.data(), 3, variance.parts.end() - 3);
   return variance;
 }
 
@@ -105,10 +128,12 @@ double RegistrationVariance::Sum() const {
 
 RegistrationVariance ComputeRegistrationVariance(const CameraModel& camera,
                                                  const PoseEvidence& evidence) {
-  // A readout time does not move the middle of the image, to which the pose belongs.
-  return evidence.covariance(6 + kFocal, 6 + kFocal) == 0.0
-             ? VarianceOf<6>(camera, evidence)
-             : VarianceOf<kMostJoint>(camera, evidence);
+  if (evidence.covariance(6 + kFocal, 6 + kFocal) != 0.0) {
+    return VarianceOf<kMostJoint>(camera, evidence);
+  }
+  // Without a motion, it does not matter how long the image was read.
+  return evidence.shutter.motion.isZero(0.0) ? VarianceOf<6>(camera, evidence)
+                                             : VarianceOf<6 + kShutterParameters>(camera, evidence);
 }
 
 // The sum of squares is approximated by a multiple of a chi-square distribution with h degrees of

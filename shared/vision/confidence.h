@@ -18,13 +18,17 @@ struct PoseEvidence {
   // Representative depths of the visible points, map units: nearer, middle, farther.
   std::array<double, 3> depths = {1.0, 1.0, 1.0};
   int inliers = 0;
+  // The motion while the image was read, and the covariance of how its turning changes in a frame
+  // time, which no pose with one motion shows; radians.
+  RollingShutter shutter = {};
+  Eigen::Matrix3d turning_change = Eigen::Matrix3d::Zero();
 };
 
 // The registration error that the covariance predicts, as a mean square over the image and the
 // depths. The squared error is distributed as the sum of the squares of independent normal
-// variables with the variances `parts`.
+// variables with the variances `parts`, of which the last three are those of turning_change.
 struct RegistrationVariance {
-  std::array<double, kMostJoint> parts = {};  // Square pixels, in descending order.
+  std::array<double, kMostJoint + 3> parts = {};  // Square pixels.
   double Sum() const;
 };
 RegistrationVariance ComputeRegistrationVariance(const geometry::CameraModel& camera,

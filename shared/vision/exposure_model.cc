@@ -90,4 +90,14 @@ Matrix6d ExposureModel::UnpredictedCovariance() const {
   return share * share * doubt;
 }
 
+Eigen::Matrix3d ExposureModel::UnpredictedTurning() const {
+  // The motion is extrapolated by half a frame time.
+  constexpr double kUnforeseen = 0.5;
+  constexpr double kLeast = 0.001;  // radians per frame time
+  const Eigen::Matrix3d accelerations = kUnforeseen * Accelerations().topLeftCorner<3, 3>();
+  Eigen::Matrix3d doubt = accelerations;
+  doubt.diagonal().array() += accelerations.diagonal().mean() + kLeast * kLeast;
+  return doubt;
+}
+
 }  // namespace lararium::vision

@@ -46,6 +46,9 @@ class ExposureModel {
   // Covariance of the displacement, as in PatchPose::covariance, by the part of the acceleration
   // during the exposure that earlier images do not predict. Requires motion().
   Matrix6d UnpredictedCovariance() const;
+  // Covariance of the first part of ExposureMotion::during_frame, the turning, by what earlier
+  // images do not predict. Requires motion().
+  Eigen::Matrix3d UnpredictedTurning() const;
 
  private:
   Matrix6d Accelerations() const;

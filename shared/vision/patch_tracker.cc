@@ -110,6 +110,9 @@ FollowedPose PatchTracker::Follow(const ImagePyramid& image,
       result.evidence.covariance.bottomRightCorner<kCameraParameters, kCameraParameters>();
   if (exposure_.motion() != nullptr) {
     result.motion = exposure_.motion()->during_frame;
+    result.motion->head<3>() += posed.camera.turning;
+    result.evidence.shutter = {posed.camera.readout, *result.motion};
+    result.evidence.turning_change = exposure_.UnpredictedTurning();
   }
   Judge(camera, result);
   if (result.reliable) {
@@ -121,8 +124,24 @@ FollowedPose PatchTracker::Follow(const ImagePyramid& image,
 }
 
 CameraPrior PatchTracker::PriorOf(const CameraEstimate& camera) const {
-  return {camera, exposure_.motion() != nullptr ? &exposure_.motion()->during_frame : nullptr,
-          kSharedErrors};
+  CameraPrior prior{camera, nullptr, kSharedErrors};
+  if (exposure_.motion() != nullptr) {
+    prior.motion = &exposure_.motion()->during_frame;
+    // The rows of a global shutter tell nothing.
+    constexpr double kDeviations = 6.0;  // Patches share errors.
+    constexpr double kLeastReadout = 0.05;
+    const auto significant = [&](int parameter, double readout) {
+      return std::abs(readout) > kLeastReadout &&
+             readout * readout >
+                 kDeviations * kDeviations * camera.covariance(parameter, parameter);
+    };
+    const bool rolls =
+        significant(kReadoutX, camera.readout.x()) || significant(kReadoutY, camera.readout.y());
+    if (rolls) {
+      prior.camera.covariance.block<3, 3>(kTurnX, kTurnX) = exposure_.UnpredictedTurning();
+    }
+  }
+  return prior;
 }
 
 CameraEstimate PatchTracker::EstimateCamera(const CameraEstimate& prior) {

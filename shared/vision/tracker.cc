@@ -190,7 +190,7 @@ class Tracker final : public PoseSource {
     Report(followed, tracked);
     tracked.followed = true;
     constexpr int64_t kDoubtInterval = 5;  // frames
-    if (camera_.held() && tracked.frame.index % kDoubtInterval == 0) {
+    if (camera_.held() && (camera_.contradicted() || tracked.frame.index % kDoubtInterval == 0)) {
       camera_.Contradict(patch_trackers_[map_]->EstimateCamera(camera_.Doubted()));
     }
     if (share_ < kFewAgree &&

@@ -21,7 +21,7 @@ const CameraModel kPhone{1280, 720, 880.0, 880.0, 636.0, 363.0, 0.05, -0.07, 0.0
 
 CameraMatrix Variances(double readout, double focal, double centre, double radial) {
   CameraVector deviations;
-  deviations << readout, readout, focal, centre, centre, radial, radial;
+  deviations << readout, readout, 0.0, 0.0, 0.0, focal, centre, centre, radial, radial;
   return deviations.cwiseAbs2().asDiagonal();
 }
 
@@ -47,6 +47,7 @@ TEST(PixelResidual, JacobianIsThatOfDifferences) {
   motion << 0.02, -0.03, 0.01, 0.01, 0.02, -0.01;
   CameraEstimate camera = ExactCamera(kPhone);
   camera.readout = {0.3, 0.7};
+  camera.turning = {0.01, 0.005, -0.02};
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d point = PointInView(random);
     const Eigen::Vector2d observed(random.Uniform(0, 1280), random.Uniform(0, 720));
@@ -74,7 +75,7 @@ TEST(PixelResidual, JacobianIsThatOfDifferences) {
 TEST(Changed, IsUndoneByTheDifference) {
   const CameraEstimate camera = ExactCamera(kPhone);
   CameraVector step;
-  step << 0.1, -0.2, 0.05, 3.0, -4.0, 0.01, -0.02;
+  step << 0.1, -0.2, 0.01, -0.03, 0.02, 0.05, 3.0, -4.0, 0.01, -0.02;
   EXPECT_LT((Difference(camera, Changed(camera, step)) - step).norm(), 1e-12);
 }
 
@@ -82,8 +83,9 @@ TEST(Information, IsTheInverseOfWhatIsUncertain) {
   CameraEstimate camera = ExactCamera(kPhone);
   EXPECT_EQ(camera.Unknown(), 0);
   camera.covariance = Variances(0.5, 0.0, 0.0, 0.0);
-  EXPECT_EQ(camera.Unknown(), kShutterParameters);
+  EXPECT_EQ(camera.Unknown(), kTurnX);
   camera.covariance = Variances(0.5, 0.1, 5.0, 0.05);
+  camera.covariance.diagonal().segment<3>(kTurnX).setConstant(1e-4);
   camera.covariance(kFocal, kRadial1) = camera.covariance(kRadial1, kFocal) = 0.002;
   EXPECT_EQ(camera.Unknown(), kCameraParameters);
   EXPECT_LT((Information(camera) * camera.covariance - CameraMatrix::Identity()).norm(), 1e-9);
@@ -174,6 +176,28 @@ TEST(EstimatePatchPose, FindsTheReadoutTimeOfACameraThatTurns) {
                                   {kPose, prior.camera}, 0.01, pose));
     EXPECT_NEAR(pose.covariance(6 + kReadoutY, 6 + kReadoutY), 0.25, 1e-6);
   }
+}
+
+TEST(EstimatePatchPose, LearnsFromTheRowsHowTheCameraTurns) {
+  Random random(6);
+  Vector6d predicted;
+  predicted << 0.01, 0.03, -0.01, 0.005, -0.004, 0.003;
+  Vector6d motion = predicted;
+  motion.head<3>() += Eigen::Vector3d(-0.006, 0.004, 0.005);
+  CameraEstimate truth = ExactCamera(kPhone);
+  truth.readout = {0.0, 0.8};
+  const std::vector<PatchMatch> matches = RollingMatches(truth, &motion, 0.1, random);
+  CameraPrior prior{truth, &predicted};
+  prior.camera.covariance.diagonal().segment<3>(kTurnX).setConstant(0.005 * 0.005);
+  PatchPose pose;
+  ASSERT_TRUE(EstimatePatchPose(matches, prior, {kPose, prior.camera}, 0.01, pose));
+  const Eigen::Vector3d off = predicted.head<3>() + pose.posed.camera.turning - motion.head<3>();
+  EXPECT_LT(off.norm(), 5e-4);
+  const Eigen::Matrix3d covariance = pose.covariance.block<3, 3>(6 + kTurnX, 6 + kTurnX);
+  EXPECT_LT(off.dot(covariance.inverse() * off), 16.3);  // 99.9 % quantile
+  EXPECT_LT(PoseDistance(pose.posed.camera_from_map, kPose), 1e-3);
+  EXPECT_EQ(pose.posed.camera.model, kPhone);  // Known parameters do not change.
+  EXPECT_LT((pose.posed.camera.readout - truth.readout).norm(), 1e-6);
 }
 
 TEST(EstimatePatchPose, WeighsThePriorOfTheFocalLengthAgainstThePatches) {

@@ -13,7 +13,7 @@ const CameraModel kSimilar{1280, 720, 1000.0, 1000.0, 650.0, 350.0, 0.1, -0.05, 
 
 CameraMatrix Certain(double share) {
   CameraVector deviations;
-  deviations << 0.01, 0.01, 0.002, 2.0, 2.0, 0.005, 0.005;
+  deviations << 0.01, 0.01, 0.0, 0.0, 0.0, 0.002, 2.0, 2.0, 0.005, 0.005;
   deviations *= share;
   return deviations.cwiseAbs2().asDiagonal();
 }
@@ -27,7 +27,7 @@ CameraEstimate LensOf(double focal, double centre, double k1) {
 TEST(CameraFilter, OfAKnownCameraOnlyTheShutterIsNotKnown) {
   const CameraFilter filter(kSimilar, true);
   EXPECT_EQ(filter.now().model, kSimilar);
-  EXPECT_EQ(filter.Predict(1.0).Unknown(), kShutterParameters);
+  EXPECT_EQ(filter.Predict(1.0).Unknown(), kTurnX);
   EXPECT_TRUE(filter.Guess().candidates.empty());
 }
 
@@ -84,7 +84,7 @@ TEST(CameraFilter, HoldsTheSimilarCameraOnceAnImageLooksLikeIt) {
   filter.Found(found);
   EXPECT_TRUE(filter.held());
   EXPECT_EQ(filter.now().model, kSimilar);
-  EXPECT_EQ(filter.Predict(1.0).Unknown(), kShutterParameters);
+  EXPECT_EQ(filter.Predict(1.0).Unknown(), kTurnX);
   // An image may still come from another lens.
   EXPECT_EQ(filter.Guess().prior.Unknown(), kCameraParameters);
   filter.Found(LensOf(560.0, 636.0, -0.02));
@@ -97,9 +97,12 @@ TEST(CameraFilter, KnownIntrinsicsThatImagesGoOnContradictAreGivenUp) {
   CameraEstimate breathed = filter.Doubted();
   breathed.model.fx = breathed.model.fy = 1015.0;
   breathed.covariance = Certain(1.0);
+  EXPECT_FALSE(filter.contradicted());
   filter.Contradict(breathed);
+  EXPECT_TRUE(filter.contradicted());
   filter.Contradict(breathed);
   filter.Contradict(filter.Doubted());  // No contradiction: the two before were chance.
+  EXPECT_FALSE(filter.contradicted());
   filter.Contradict(breathed);
   filter.Contradict(breathed);
   EXPECT_TRUE(filter.held());

@@ -72,6 +72,38 @@ TEST(RegistrationVariance, IsWhatProjectionsOfDrawnPosesShow) {
   EXPECT_NEAR(sum / kDraws / expected, 1.0, 0.08);
 }
 
+TEST(RegistrationVariance, CountsWhatIsNotKnownOfTheMotionWhileTheImageIsRead) {
+  PoseEvidence evidence{.depths = {2.0, 2.0, 2.0}};
+  evidence.shutter.readout = {0.0, 0.8};
+  evidence.shutter.motion[0] = 0.01;
+  constexpr double kTurning = 0.004;  // Deviation, radians in a frame time.
+  evidence.covariance(6 + kTurnX, 6 + kTurnX) = kTurning * kTurning;
+  // About x, a small turning moves the image by fy (1 + y^2) times its angle along y, and by
+  // f x y along x; the angle is the turning times the time of the row.
+  double sum = 0.0;
+  double change_sum = 0.0;
+  int count = 0;
+  for (int row = 0; row < 480; row += 8) {
+    for (int column = 0; column < 640; column += 8) {
+      const double x = (column + 3.5 - kCamera.cx) / kCamera.fx;
+      const double y = (row + 3.5 - kCamera.cy) / kCamera.fy;
+      const double time = 0.8 * (row + 3.5 - 239.5) / 480.0;
+      const double moved = std::hypot(kCamera.fy * (1.0 + y * y), kCamera.fx * x * y);
+      sum += std::pow(kTurning * time * moved, 2);
+      change_sum += std::pow(0.5 * kTurning * (time * time - 0.64 / 12.0) * moved, 2);
+      ++count;
+    }
+  }
+  EXPECT_NEAR(ComputeRegistrationVariance(kCamera, evidence).Sum() / (sum / count), 1.0, 0.1);
+  // How the turning changes counts where the motion does not show it.
+  evidence.covariance.setZero();
+  evidence.turning_change(0, 0) = kTurning * kTurning;
+  EXPECT_NEAR(ComputeRegistrationVariance(kCamera, evidence).Sum() / (change_sum / count), 1.0,
+              0.4);  // The rows at which it is computed are few.
+  evidence.shutter.readout.setZero();
+  EXPECT_EQ(ComputeRegistrationVariance(kCamera, evidence).Sum(), 0.0);
+}
+
 TEST(PoseConfidence, IsTheShareOfDrawnPosesWithinTheLimit) {
   Random random(2);
   for (const double scale : {2e-4, 4e-4, 8e-4, 1.6e-3}) {
