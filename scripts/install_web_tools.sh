@@ -102,7 +102,8 @@ an_empty_folder
 mkdir -p "$work/lists/partial"
 # shellcheck disable=SC2016  # apt-get expands it
 mirror=${LARARIUM_DEBIAN_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' |
-  grep -m 1 '/debian/\?$' || echo http://deb.debian.org/debian)}
+  grep -m 1 '/debian/\?$' || true)}
+[ -n "$mirror" ] || skip "apt-get names no archive of Debian; set LARARIUM_DEBIAN_MIRROR"
 echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror bookworm main" > "$work/sources.list"
 source_of() {
   apt-get -qq -o Dir::Etc::sourcelist="$work/sources.list" -o Dir::Etc::sourceparts=/dev/null \
