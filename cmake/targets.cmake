@@ -1,7 +1,15 @@
-# lararium_library(ROOM SOURCES ... [PUBLIC ...] [PRIVATE ...])
-# One static library for a room, named lararium_ROOM.
+# lararium_library(ROOM SOURCES ... [PUBLIC ...] [PRIVATE ...]
+#                  [SYSTEM_SOURCES ...] [SYSTEM_PRIVATE ...] [WEB_SOURCES ...])
+# One static library for a room, named lararium_ROOM. What is specific to an operating system, the
+# SYSTEM arguments, is left out in a build for browsers, and WEB_SOURCES take its place.
 function(lararium_library room)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM_SOURCES;SYSTEM_PRIVATE;WEB_SOURCES" ${ARGN})
+  if(EMSCRIPTEN)
+    list(APPEND arg_SOURCES ${arg_WEB_SOURCES})
+  else()
+    list(APPEND arg_SOURCES ${arg_SYSTEM_SOURCES})
+    list(APPEND arg_PRIVATE ${arg_SYSTEM_PRIVATE})
+  endif()
   add_library(lararium_${room} STATIC ${arg_SOURCES})
   target_link_libraries(lararium_${room} PUBLIC lararium_options ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   lararium_precompile(lararium_${room} rooms)
