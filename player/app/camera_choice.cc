@@ -1,8 +1,7 @@
 #include "player/app/camera_choice.h"
 
-#include <algorithm>
-
 #include "player/app/device_file.h"
+#include "shared/geometry/similar_camera.h"
 
 namespace lararium::player {
 namespace {
@@ -10,11 +9,8 @@ namespace {
 using geometry::CameraModel;
 
 CameraChoice GuessFrom(std::span<const TrainedCamera> trained, int width, int height) {
-  const auto fits =
-      std::find_if(trained.begin(), trained.end(), [&](const TrainedCamera& candidate) {
-        return candidate.camera.ForImages(width, height).ok();
-      });
-  const TrainedCamera& similar = fits == trained.end() ? trained.front() : *fits;
+  const TrainedCamera& similar =
+      geometry::FindSimilarCamera(trained, &TrainedCamera::camera, width, height);
   return {similar.camera.GuessForImages(width, height),
           "the bundle's place \"" + similar.place + "\", to begin with", false};
 }

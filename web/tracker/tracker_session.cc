@@ -1,22 +1,12 @@
 #include "web/tracker/tracker_session.h"
 
-#include <algorithm>
+#include "shared/geometry/similar_camera.h"
 
 namespace lararium::web {
 
 using geometry::CameraModel;
 
 namespace {
-
-// The trained camera of the first map that fits the images, as the player guesses.
-CameraModel GuessCamera(std::span<const std::shared_ptr<const vision::SceneDatabase>> maps,
-                        int width,
-                        int height) {
-  const auto fits = std::find_if(maps.begin(), maps.end(), [&](const auto& map) {
-    return map->camera.ForImages(width, height).ok();
-  });
-  return (fits == maps.end() ? maps.front() : *fits)->camera.GuessForImages(width, height);
-}
 
 std::vector<double> NumbersOf(const vision::TrackedFrame& tracked) {
   const geometry::Rigid3 pose = tracked.camera_from_map.value_or(geometry::Rigid3());
@@ -78,7 +68,9 @@ Status TrackerSession::Start() {
   if (camera_) {
     LARARIUM_ASSIGN_OR_RETURN(camera, camera_->ForImages(grey_.cols, grey_.rows));
   } else {
-    camera = GuessCamera(maps_, grey_.cols, grey_.rows);
+    const auto camera_of = [](const auto& map) -> const CameraModel& { return map->camera; };
+    const auto& similar = geometry::FindSimilarCamera(maps_, camera_of, grey_.cols, grey_.rows);
+    camera = similar->camera.GuessForImages(grey_.cols, grey_.rows);
   }
   std::unique_ptr<PostedSearch> search;
   if (posted_) {

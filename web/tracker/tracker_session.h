@@ -32,7 +32,8 @@ class TrackerSession {
   uint8_t* NewImage(int width, int height);
   // Tracks the image. seconds: time of capture.
   Status Track(double seconds);
-  // The numbers of the last tracked image, in the order of kTracked in lararium-tracker.js.
+  // The numbers of the last tracked image, in the order in which Tracker.track() of
+  // lararium-tracker.js takes them.
   std::span<const double> tracked() const { return numbers_; }
   // Makes the next image be located without a prior.
   void Relocalize();
