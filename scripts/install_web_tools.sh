@@ -20,7 +20,8 @@ declare -A sha256=(
   [libjpeg-turbo]=d718ead0dfbcbc8523665c02a7f7152e31039ded641d022868722623bb3b486d
   [opencv]=66d014c59f65ed670ee05d5695e5c0a500fa7ce2539a32bfa15ef5a9da2a4ffd
 )
-libraries=(zlib libjpeg-turbo opencv)  # In the order in which they need each other.
+# OpenCV needs zlib, which comes before it.
+libraries=(zlib libjpeg-turbo opencv)
 
 if [ $# -gt 1 ]; then
   echo "usage: $0 [FOLDER]" >&2

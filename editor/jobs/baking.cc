@@ -478,7 +478,9 @@ void AddSpeechSteps(const SpokenLine& spoken, std::vector<BakeStep>& steps) {
                    }});
 }
 
-bool WithPlace(BakeWhat what) { return what == BakeWhat::kAll || what == BakeWhat::kAllButPeople; }
+bool OnlyPeople(BakeWhat what) {
+  return what == BakeWhat::kPeople || what == BakeWhat::kUnlitPeople;
+}
 
 Status AddPeople(const ProjectPaths& paths,
                  const ProjectDocument& document,
@@ -501,7 +503,7 @@ Result<std::vector<BakeStep>> Steps(const ProjectPaths& paths,
                                     BakeWhat what,
                                     std::span<const SpokenLine> spoken) {
   std::vector<BakeStep> steps;
-  if (!WithPlace(what)) {
+  if (OnlyPeople(what)) {
     LARARIUM_RETURN_IF_ERROR(AddPeople(paths, document, progress, what, steps));
     return steps;
   }
@@ -600,7 +602,7 @@ Result<BakeReport> Bake(const ProjectPaths& paths,
   BakeReport report;
   ProjectLines lines;
   std::vector<SpokenLine> spoken;
-  if (WithPlace(what)) {
+  if (!OnlyPeople(what)) {
     LARARIUM_ASSIGN_OR_RETURN(lines, LoadProjectLines(paths, document));
     LARARIUM_ASSIGN_OR_RETURN(spoken, SpokenLines(paths, document, lines));
     const LineNotes notes = CheckLineFiles(paths, lines, spoken);

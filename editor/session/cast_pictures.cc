@@ -61,7 +61,8 @@ class CastPictures::Painter {
       return PaintObject(paths.Prop(order.object));
     }
     if (order.light) {
-      std::vector<std::string> told;  // When the person was baked without light.
+      // Baking the person without light has told the warnings.
+      std::vector<std::string> told;
       LARARIUM_RETURN_IF_ERROR(
           BakeAlone(paths, order.member, BakeWhat::kPeople, until_picture_waits_, told));
       return Result();
@@ -340,8 +341,8 @@ std::optional<CastPictures::Order> CastPictures::NextOrder() const {
   return std::nullopt;
 }
 
+// Requires the lock.
 bool CastPictures::PictureWaits() const {
-  const std::lock_guard lock(mutex_);
   const std::optional<Order> order = NextOrder();
   return order && !order->light;
 }
@@ -390,7 +391,10 @@ bool CastPictures::AwaitOrder(std::unique_lock<std::mutex>& lock,
 }
 
 void CastPictures::Run(std::stop_token stop) {
-  Painter painter(baking_, stop, [this] { return PictureWaits(); });
+  Painter painter(baking_, stop, [this] {
+    const std::lock_guard lock(mutex_);
+    return PictureWaits();
+  });
   std::unique_lock lock(mutex_);
   while (AwaitOrder(lock, stop, painter)) {
     const Order order = *NextOrder();
@@ -401,7 +405,7 @@ void CastPictures::Run(std::stop_token stop) {
     if (stop.stop_requested()) {
       return;
     }
-    if (!painted.ok() && order.light && NextOrder() && !NextOrder()->light) {
+    if (!painted.ok() && order.light && PictureWaits()) {
       continue;  // Baking the light made way for a picture.
     }
     if (!painted.ok()) {

@@ -105,8 +105,8 @@ class CastPictures {
     bool of_preset = false;
     CastDocument member = {};
     std::string key = {};
-    std::optional<Gaze> gaze = {};  // Set: a portrait.
-    bool light = false;             // The light, and no picture.
+    std::optional<Gaze> gaze = {};  // Only a portrait has one.
+    bool light = false;             // True: the light is baked, and no picture is drawn.
   };
   class Painter;
 

@@ -9,9 +9,9 @@ export async function start(video, canvas, mapUrl) {
   const scene = new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshNormalMaterial()));
   const camera = Object.assign(new THREE.PerspectiveCamera(), {matrixAutoUpdate: false});
   video.requestVideoFrameCallback(async function draw(now, {mediaTime}) {
-    const frame = new VideoFrame(video);  // Its first plane is the luminance.
+    const frame = new VideoFrame(video);
     const data = new Uint8Array(frame.allocationSize());
-    const [{offset, stride}] = await frame.copyTo(data);
+    const [{offset, stride}] = await frame.copyTo(data);  // The luminance is the first plane.
     const {width, height} = frame.visibleRect;
     frame.close();
     const tracked = tracker.track({data: data.subarray(offset), width, height, stride}, mediaTime);
