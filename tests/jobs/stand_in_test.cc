@@ -16,6 +16,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 float HeightOf(const human::Human& human) {
@@ -70,9 +71,14 @@ TEST_F(StandInTest, BakingOneAloneLeavesTheLinesOfOthers) {
                                   std::string_view("id,speaker,notes,en\nhail,ben,,Hail!\n"))
                   .ok());
   document_.cast.resize(1);
-  const auto report = Bake(paths_, document_, progress_, BakeWhat::kUnlitPeople);
+  auto report = Bake(paths_, document_, progress_, BakeWhat::kUnlitPeople);
   ASSERT_TRUE(report.ok()) << report.message();
   EXPECT_THAT(report->baked, ElementsAre("human ada"));
+  EXPECT_THAT(PeopleToBake(paths_, document_), ElementsAre("ada"));
+  report = Bake(paths_, document_, progress_, BakeWhat::kPeople);
+  ASSERT_TRUE(report.ok()) << report.message();
+  EXPECT_THAT(report->baked, ElementsAre("light transfer of ada"));
+  EXPECT_THAT(PeopleToBake(paths_, document_), IsEmpty());
 }
 
 TEST_F(StandInTest, PeopleAreToBeBakedUntilTheirLightIs) {
