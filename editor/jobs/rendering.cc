@@ -1,6 +1,7 @@
 #include "editor/jobs/rendering.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "editor/jobs/training.h"
@@ -38,6 +39,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
   LARARIUM_ASSIGN_OR_RETURN(const auto show, show::Show::Create(std::move(job.content), {}, log));
 
   LARARIUM_ASSIGN_OR_RETURN(const auto context, render::CreateOffscreenContext());
+  std::optional<render::DrawingTurn> turn(std::in_place, context);
   LARARIUM_ASSIGN_OR_RETURN(const auto renderer, show::ShowRenderer::Create(show->content()));
   renderer->SetEvidence(job.evidence);
   LARARIUM_ASSIGN_OR_RETURN(
@@ -48,6 +50,7 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
                                                          show::SoundRecording::Sounds(*show)));
   LARARIUM_ASSIGN_OR_RETURN(auto sound,
                             show::SoundRecording::Create(*show, true, writer.get(), job.sound));
+  turn.reset();
   RenderReport report;
   show::ShowStatistics statistics;
   show::LockStep lock_step({*source, *poses, *show, statistics});
@@ -63,8 +66,10 @@ Result<RenderReport> RenderVideo(RenderJob job, Progress& progress, Log& log) {
       break;
     }
     LARARIUM_RETURN_IF_ERROR(sound.Add(staged.sound));
+    turn.emplace(context);
     LARARIUM_RETURN_IF_ERROR(renderer->Draw(staged, target));
     target.ReadPixels(picture);
+    turn.reset();
     LARARIUM_RETURN_IF_ERROR(writer->Write(picture, staged.sound.frame_time));
     ++report.frames;
     report.tracked += staged.camera.camera_from_stage.has_value() ? 1 : 0;

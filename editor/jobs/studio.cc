@@ -250,16 +250,18 @@ StudioPose CalmPose(const human::Human& human) {
 
 Result<std::unique_ptr<Studio>> Studio::Create() {
   LARARIUM_ASSIGN_OR_RETURN(render::OffscreenContext context, render::CreateOffscreenContext());
-  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<render::Renderer> renderer, render::Renderer::Create());
-  return std::unique_ptr<Studio>(new Studio(std::move(context), std::move(renderer)));
+  std::unique_ptr<Studio> studio(new Studio(std::move(context)));
+  const render::DrawingTurn turn(studio->context_);
+  LARARIUM_ASSIGN_OR_RETURN(studio->renderer_, render::Renderer::Create());
+  return studio;
 }
 
-Studio::Studio(render::OffscreenContext context, std::unique_ptr<render::Renderer> renderer)
-    : context_(std::move(context)), renderer_(std::move(renderer)) {}
+Studio::Studio(render::OffscreenContext context) : context_(std::move(context)) {}
 
 Studio::~Studio() = default;
 
 Status Studio::Seat(std::shared_ptr<const human::Human> human, const StudioPose& pose) {
+  const render::DrawingTurn turn(context_);
   if (sitter_ != nullptr) {
     renderer_->RemoveModel(sitter_->model);
     sitter_ = nullptr;
@@ -276,6 +278,7 @@ void Studio::SetShapes(std::span<const StudioPose::Shape> shapes) {
 
 Result<StudioShot> Studio::Shoot(const StudioView& view, cv::Size size) {
   CHECK(sitter_ != nullptr);
+  const render::DrawingTurn turn(context_);
   const PosedPerson& person = sitter_->person;
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
                             render::RenderTarget::Create(size.width, size.height));
@@ -301,6 +304,7 @@ Result<StudioShot> Studio::Shoot(const StudioView& view, cv::Size size) {
 Result<cv::Mat> Studio::ShootThing(const std::shared_ptr<const stage::ObjectModel>& model,
                                    cv::Size size,
                                    const StudioView& view) {
+  const render::DrawingTurn turn(context_);
   LARARIUM_ASSIGN_OR_RETURN(const render::RenderTarget target,
                             render::RenderTarget::Create(size.width, size.height));
   LARARIUM_ASSIGN_OR_RETURN(

@@ -75,7 +75,7 @@ class Studio {
  private:
   struct Sitter;
 
-  Studio(render::OffscreenContext context, std::unique_ptr<render::Renderer> renderer);
+  explicit Studio(render::OffscreenContext context);
 
   render::OffscreenContext context_;  // The first member, so that it is destroyed last.
   std::unique_ptr<render::Renderer> renderer_;

@@ -116,6 +116,7 @@ Result<std::unique_ptr<Preview::Worker>> Preview::Worker::Create(const Opener& o
   drama.past = drama::Past::kRepeated;  // Seeking to and fro must give the same state.
   LARARIUM_ASSIGN_OR_RETURN(worker->show_, show::Show::Create(std::move(content), drama, log));
   LARARIUM_ASSIGN_OR_RETURN(worker->context_, render::CreateOffscreenContext());
+  const render::DrawingTurn turn(*worker->context_);
   LARARIUM_ASSIGN_OR_RETURN(
       worker->renderer_,
       show::ShowRenderer::Create(worker->show_->content(), QualityFor(worker->source_->width())));
@@ -259,7 +260,10 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   if (request.place != nullptr && request.place != place_) {
     place_ = request.place;
     show_->SetPlace(0, *place_);
-    renderer_->SetPlace(0, *place_);
+    {
+      const render::DrawingTurn turn(*context_);
+      renderer_->SetPlace(0, *place_);
+    }
     poses_->SetOccluders(0, show::OccludersInMap(*place_));
   }
   PlaceObjects(request.objects);
@@ -276,6 +280,7 @@ Result<std::shared_ptr<const PreviewPicture>> Preview::Worker::Draw(const Previe
   show_->input().SetDescriptions(request.descriptions);
   show_->StageFrame(*tracked_, request.time, staged_);
   PlaySound(request.sound);
+  const render::DrawingTurn turn(*context_);
   renderer_->SetEvidence(request.evidence);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   PreviewPicture picture = Describe();

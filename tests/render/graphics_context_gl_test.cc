@@ -1,10 +1,16 @@
+#include <epoxy/gl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/window.h"
@@ -76,6 +82,49 @@ TEST(PoorDriver, InEsNeedsFloatsToDrawInto) {
   constexpr const char* kBoth = "-GL_EXT_color_buffer_float -GL_EXT_color_buffer_half_float";
   EXPECT_EXIT(TryWithout(kVariable, kBoth, GraphicsApi::kOpenGlEs30), ::testing::ExitedWithCode(1),
               "neither GL_EXT_color_buffer_float nor");
+}
+
+// Copies one texture into another and writes into that, many times.
+void DrawInTurns() {
+  constexpr int kPictures = 2000;
+  constexpr int kSide = 256;
+  const auto context = CreateOffscreenContext();
+  const std::vector<uint8_t> pixels(size_t{kSide} * kSide * 4);
+  for (int picture = 0; context.ok() && picture < kPictures; ++picture) {
+    const DrawingTurn turn(*context);
+    std::array<GLuint, 2> textures = {};
+    std::array<GLuint, 2> framebuffers = {};
+    glGenTextures(2, textures.data());
+    glGenFramebuffers(2, framebuffers.data());
+    for (const size_t i : {0, 1}) {
+      glBindTexture(GL_TEXTURE_2D, textures[i]);
+      glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSide, kSide, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                   pixels.data());
+      glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[i]);
+      glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, textures[i], 0);
+      glClear(GL_COLOR_BUFFER_BIT);
+    }
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers[0]);
+    glBlitFramebuffer(0, 0, 200, 200, 10, 10, 250, 240, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 8, 8, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    glDeleteFramebuffers(2, framebuffers.data());
+    glDeleteTextures(2, textures.data());
+  }
+}
+
+// Freed memory is filled, so that a driver which reads it crashes.
+[[noreturn]] void DrawInTwoThreads() {
+  ::mallopt(M_PERTURB, 165);
+  {
+    const std::jthread other(DrawInTurns);
+    DrawInTurns();
+  }
+  std::exit(0);  // NOLINT(concurrency-mt-unsafe): the only thread
+}
+
+TEST(DrawingTurn, LetsTwoThreadsDrawWithAnyDriver) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(DrawInTwoThreads(), ::testing::ExitedWithCode(0), "");
 }
 
 #ifndef LARARIUM_SANITIZED  // Sanitizers need more addresses than the limit leaves.

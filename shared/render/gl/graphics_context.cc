@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ namespace {
 
 constexpr std::string_view kContextPlace = "off-screen graphics";
 constexpr std::string_view kRemedy = "install libegl1 and libgl1-mesa-dri";
+
+// Locked by the thread that draws with Mesa's software renderer.
+std::mutex drawing_on_processor;
 
 bool InitializeDisplay(EGLDisplay display) {
   return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
@@ -136,16 +140,20 @@ Result<OffscreenContext> CreateOffscreenContext(GraphicsChoice choice) {
     LARARIUM_ASSIGN_OR_RETURN(const EGLContext egl_context, CreateContext(display, api));
     OffscreenContext context(display, egl_context);
     LARARIUM_RETURN_IF_ERROR(context.MakeCurrent());
+    context.draws_on_processor_ = DrawsOnProcessor(GraphicsDeviceName());
     return context;
   });
 }
 
 OffscreenContext::OffscreenContext(OffscreenContext&& other) noexcept
-    : display_(other.display_), context_(std::exchange(other.context_, nullptr)) {}
+    : display_(other.display_),
+      context_(std::exchange(other.context_, nullptr)),
+      draws_on_processor_(other.draws_on_processor_) {}
 
 OffscreenContext& OffscreenContext::operator=(OffscreenContext&& other) noexcept {
   std::swap(display_, other.display_);
   std::swap(context_, other.context_);
+  std::swap(draws_on_processor_, other.draws_on_processor_);
   return *this;
 }
 
@@ -165,6 +173,18 @@ Status OffscreenContext::MakeCurrent() {
     return Status::Error(kContextPlace, "the context cannot be used without a surface", kRemedy);
   }
   return Status();
+}
+
+DrawingTurn::DrawingTurn(const OffscreenContext& context) {
+  if (context.draws_on_processor_) {
+    lock_ = std::unique_lock(drawing_on_processor);
+  }
+}
+
+DrawingTurn::~DrawingTurn() {
+  if (lock_.owns_lock()) {
+    glFinish();  // Threads of the driver draw until then.
+  }
 }
 
 GraphicsApi CurrentGraphicsApi() {

@@ -2,6 +2,7 @@
 
 // An OpenGL context without a window. For one with a window see shared/render/gl/window.h.
 
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,7 +21,7 @@ std::string_view Name(GraphicsApi api);
 using GraphicsChoice = std::optional<GraphicsApi>;
 
 // Move-only. It is current on the thread that created it. Destroy it after all objects that were
-// created in it.
+// created in it. If other threads of the process draw as well, each takes turns (DrawingTurn).
 class OffscreenContext {
  public:
   OffscreenContext(OffscreenContext&& other) noexcept;
@@ -32,10 +33,27 @@ class OffscreenContext {
 
  private:
   friend Result<OffscreenContext> CreateOffscreenContext(GraphicsChoice choice);
+  friend class DrawingTurn;
   OffscreenContext(void* display, void* context) : display_(display), context_(context) {}
 
-  void* display_ = nullptr;  // EGLDisplay
-  void* context_ = nullptr;  // EGLContext
+  void* display_ = nullptr;          // EGLDisplay
+  void* context_ = nullptr;          // EGLContext
+  bool draws_on_processor_ = false;  // See DrawsOnProcessor.
+};
+
+// While one exists, its thread is the only one that draws offscreen, if Mesa's software renderer
+// draws: up to version 22.3 at least, that walks through what other contexts are about to draw
+// without locking it. A graphics card lets all threads draw. The context must be current, and must
+// not be destroyed meanwhile.
+class DrawingTurn {
+ public:
+  explicit DrawingTurn(const OffscreenContext& context);
+  ~DrawingTurn();
+  DrawingTurn(const DrawingTurn&) = delete;
+  DrawingTurn& operator=(const DrawingTurn&) = delete;
+
+ private:
+  std::unique_lock<std::mutex> lock_;
 };
 
 // Uses EGL without a surface, which works with a GPU and with Mesa's software renderer. Fails if
