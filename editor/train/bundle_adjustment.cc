@@ -126,6 +126,101 @@ class TurnedReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7
   Eigen::Matrix<double, 7, 7> turn_ = Eigen::Matrix<double, 7, 7>::Zero();
 };
 
+// Like ReprojectionCost, for an image in which autofocus has moved the lens. The second block is
+// the logarithm of the ratio of the focal lengths.
+class BreathingReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 1, 7, 3> {
+ public:
+  BreathingReprojectionCost(const CameraModel& fixed,
+                            const ImageMotion& motion,
+                            const Eigen::Vector2d& pixel)
+      : fixed_(fixed), motion_(motion), pixel_(pixel) {}
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    IntrinsicsBlock intrinsics;
+    std::copy_n(parameters[0], kIntrinsics, intrinsics.begin());
+    const double ratio = std::exp(parameters[1][0]);
+    intrinsics[0] *= ratio;
+    double* const by_breath = jacobians != nullptr ? jacobians[1] : nullptr;
+    double* const by_lens = jacobians != nullptr ? jacobians[0] : nullptr;
+    Matrix2xIntrinsics by_intrinsics;
+    const bool wanted = by_breath != nullptr || by_lens != nullptr;
+    if (!ReprojectionResidual(fixed_, motion_, pixel_, intrinsics.data(), parameters[2],
+                              parameters[3], residuals, wanted ? by_intrinsics.data() : nullptr,
+                              jacobians != nullptr ? jacobians[2] : nullptr,
+                              jacobians != nullptr ? jacobians[3] : nullptr)) {
+      return false;
+    }
+    if (by_breath != nullptr) {
+      Eigen::Map<Eigen::Vector2d> jacobian(by_breath);
+      jacobian = intrinsics[0] * by_intrinsics.col(0);
+    }
+    if (by_lens != nullptr) {
+      by_intrinsics.col(0) *= ratio;
+      Eigen::Map<Matrix2xIntrinsics> jacobian(by_lens);
+      jacobian = by_intrinsics;
+    }
+    return true;
+  }
+
+ private:
+  const CameraModel& fixed_;
+  ImageMotion motion_;
+  Eigen::Vector2d pixel_;
+};
+
+// Between two images, autofocus moves little: a random walk.
+class BreathingStepCost : public ceres::SizedCostFunction<1, 1, 1> {
+ public:
+  explicit BreathingStepCost(double frames) {
+    constexpr double kStep = 0.004;  // Standard deviation of the change in one frame time.
+    weight_ = 1.0 / (kStep * std::sqrt(std::max(frames, 1.0)));
+  }
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    residuals[0] = weight_ * (parameters[1][0] - parameters[0][0]);
+    for (const int i : {0, 1}) {
+      if (jacobians != nullptr && jacobians[i] != nullptr) {
+        jacobians[i][0] = i == 0 ? -weight_ : weight_;
+      }
+    }
+    return true;
+  }
+
+ private:
+  double weight_ = 0.0;
+};
+
+// The intrinsics are those of the mean focal length.
+class MeanBreathCost : public ceres::CostFunction {
+ public:
+  explicit MeanBreathCost(size_t images) {
+    set_num_residuals(1);
+    mutable_parameter_block_sizes()->assign(images, 1);
+  }
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    const size_t images = parameter_block_sizes().size();
+    const double weight = 1.0 / (kDoubt * static_cast<double>(images));
+    residuals[0] = 0.0;
+    for (size_t i = 0; i < images; ++i) {
+      residuals[0] += weight * parameters[i][0];
+      if (jacobians != nullptr && jacobians[i] != nullptr) {
+        jacobians[i][0] = weight;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static constexpr double kDoubt = 1e-5;
+};
+
 // What is known of a camera without looking at the images: its focal length to a share, and that
 // lenses distort little. Keeps the intrinsics of a camera plausible that took only few images.
 class PriorCost : public ceres::SizedCostFunction<3, kIntrinsics> {
@@ -186,6 +281,17 @@ class Bundle {
         problem_.SetManifold(block, &*manifolds_[i]);
       }
     }
+    breaths_.reserve(cameras_.size());
+    for (const TrainingCamera& camera : cameras_) {
+      breaths_.push_back(std::log(camera.focal_ratio.value_or(1.0)));
+      if (camera.focal_ratio) {
+        double* block = &breaths_.back();
+        problem_.AddParameterBlock(block, 1);
+        if (!options.refine_breathing) {
+          problem_.SetParameterBlockConstant(block);
+        }
+      }
+    }
   }
   Bundle(const Bundle&) = delete;
   Bundle& operator=(const Bundle&) = delete;
@@ -223,6 +329,11 @@ class Bundle {
                       double* pose,
                       double* point) {
     const uint32_t lens = LensOf(cameras_, camera);
+    if (cameras_[camera].focal_ratio) {
+      problem_.AddResidualBlock(new BreathingReprojectionCost(cameras_[lens].model, motion, pixel),
+                                &loss_, intrinsics_[lens].data(), &breaths_[camera], pose, point);
+      return;
+    }
     ceres::CostFunction* cost = nullptr;
     if (lens == camera) {
       cost = new ReprojectionCost(cameras_[camera].model, motion, pixel);
@@ -239,6 +350,20 @@ class Bundle {
         problem_.AddResidualBlock(new PriorCost(cameras_[i]), nullptr, intrinsics_[i].data());
       }
     }
+  }
+
+  // Adds what is known of how autofocus moves between images; cameras and their times are in the
+  // order of the film.
+  void AddBreathing(std::span<const uint32_t> cameras, std::span<const double> times) {
+    std::vector<double*> blocks;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      blocks.push_back(&breaths_[cameras[i]]);
+      if (i > 0) {
+        problem_.AddResidualBlock(new BreathingStepCost(times[i] - times[i - 1]), nullptr,
+                                  blocks[i - 1], blocks[i]);
+      }
+    }
+    problem_.AddResidualBlock(new MeanBreathCost(blocks.size()), nullptr, blocks);
   }
 
   bool Solve() {
@@ -271,14 +396,20 @@ class Bundle {
   }
   // A rolling shutter is that of the only camera.
   Eigen::Vector2d readout() const { return {intrinsics_[0][5], intrinsics_[0][6]}; }
+  double focal_ratio(size_t camera) const { return std::exp(breaths_[camera]); }
   Rigid3 pose(size_t i) const { return ToPose(poses_[i]); }
   const Eigen::Vector3d& point(size_t i) const { return points_[i]; }
   ceres::Problem& problem() { return problem_; }
-  // All blocks that are not constant: intrinsics, poses, points.
+  // All blocks that are not constant: intrinsics, breathing, poses, points.
   std::vector<double*> VariableBlocks() {
     std::vector<double*> blocks;
     for (IntrinsicsBlock& camera : intrinsics_) {
       blocks.push_back(camera.data());
+    }
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      if (cameras_[i].focal_ratio) {
+        blocks.push_back(&breaths_[i]);
+      }
     }
     for (PoseBlock& pose : poses_) {
       blocks.push_back(pose.data());
@@ -309,8 +440,11 @@ class Bundle {
     for (PoseBlock& pose : poses_) {
       ordering->AddElementToGroup(pose.data(), 1);
     }
-    for (IntrinsicsBlock& camera : intrinsics_) {
-      ordering->AddElementToGroup(camera.data(), 2);
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      if (cameras_[i].focal_ratio) {
+        ordering->AddElementToGroup(&breaths_[i], 1);
+      }
+      ordering->AddElementToGroup(intrinsics_[i].data(), 2);
     }
     return ordering;
   }
@@ -323,6 +457,8 @@ class Bundle {
   // [camera]: Set if some of its intrinsics are not adjusted.
   std::vector<std::optional<ceres::SubsetManifold>> manifolds_;
   std::vector<IntrinsicsBlock> intrinsics_;  // [camera]
+  // [camera]: Logarithm of its focal_ratio. Blocks of the problem only where that is set.
+  std::vector<double> breaths_;
   std::vector<PoseBlock> poses_;
   std::vector<Eigen::Vector3d> points_;
 };
@@ -380,6 +516,9 @@ struct ReconstructionBundle {
         bundle.AddObservation(reconstruction.CameraOf(image), reconstruction.motion(image),
                               reconstruction.Pixel(element), poses[image], point);
       }
+    }
+    if (options.refine_breathing) {
+      bundle.AddBreathing(reconstruction.camera_of_image(), reconstruction.times());
     }
     // One camera that took all images needs no help.
     if (LensCount(bundle.cameras()) > 1) {
@@ -765,6 +904,13 @@ bool AdjustAll(Reconstruction& reconstruction,
       reconstruction.SetCamera(lens, adjusted.bundle.camera(lens));
     }
   }
+  if (options.refine_breathing) {
+    std::vector<double> ratios;
+    for (uint32_t image = 0; image < reconstruction.image_count(); ++image) {
+      ratios.push_back(adjusted.bundle.focal_ratio(reconstruction.CameraOf(image)));
+    }
+    reconstruction.SetFocalRatios(ratios);
+  }
   if (options.refine_readout) {
     reconstruction.SetReadout(adjusted.bundle.readout());
   }
@@ -885,7 +1031,7 @@ IntrinsicsDeviation EstimateDeviation(const Reconstruction& reconstruction,
       by_image[image] += moved;
       by_track[reconstruction.TrackOf(element)] += moved;
       independent += moved * moved;
-      if (reconstruction.CameraOf(image) == main) {
+      if (MeanCamera(reconstruction.cameras(), reconstruction.CameraOf(image)) == main) {
         // Cauchy's loss has scaled residuals and Jacobian by this.
         const double weight = std::sqrt(std::max(
             1.0 - residual.squaredNorm() / (options.loss_scale_px * options.loss_scale_px), 0.0));

@@ -48,6 +48,9 @@ struct BundleOptions {
   bool refine_radial = true;    // If false, the radial terms stay; needs refine_intrinsics.
   bool refine_centre = false;   // Also adjusts the principal point; needs refine_intrinsics.
   bool refine_readout = false;  // Also adjusts the readout time.
+  // Also adjusts by how much autofocus has moved the lens in each image; see
+  // Reconstruction::LetBreathe.
+  bool refine_breathing = false;
   // If not 0, only the most observed points take part, enough of them that each image sees this
   // many. AdjustAll triangulates the other points again afterwards. 0: all points take part.
   size_t points_per_image = 0;

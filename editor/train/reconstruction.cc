@@ -71,6 +71,28 @@ void Reconstruction::GiveOwnCamera(uint32_t image, const geometry::CameraModel& 
   FillPlanePoints(image);
 }
 
+void Reconstruction::LetBreathe(std::vector<double> times) {
+  CHECK(times.size() == image_count() && times_.empty());
+  times_ = std::move(times);
+  for (uint32_t image = 0; image < image_count(); ++image) {
+    TrainingCamera own = cameras_[CameraOf(image)];
+    own.lens_of = LensOf(cameras_, CameraOf(image));
+    own.focal_ratio = 1.0;
+    camera_of_image_[image] = static_cast<uint32_t>(cameras_.size());
+    cameras_.push_back(own);
+  }
+}
+
+void Reconstruction::SetFocalRatios(std::span<const double> focal_ratios) {
+  CHECK(focal_ratios.size() == image_count());
+  for (uint32_t image = 0; image < image_count(); ++image) {
+    TrainingCamera& of_image = cameras_[CameraOf(image)];
+    of_image.focal_ratio = focal_ratios[image];
+    of_image.model = TurnedModel(cameras_[*of_image.lens_of], of_image);
+    FillPlanePoints(image);
+  }
+}
+
 void Reconstruction::FillPlanePoints(uint32_t image) {
   for (const uint32_t element : ElementsOf(image)) {
     plane_points_[element] = camera(image).PlaneFromPixel(Pixel(element));
@@ -80,7 +102,7 @@ void Reconstruction::FillPlanePoints(uint32_t image) {
 uint32_t Reconstruction::MainCamera() const {
   std::vector<size_t> images(cameras_.size(), 0);
   for (const uint32_t image : LocatedImages()) {
-    ++images[CameraOf(image)];
+    ++images[MeanCamera(cameras_, CameraOf(image))];
   }
   return static_cast<uint32_t>(std::max_element(images.begin(), images.end()) - images.begin());
 }

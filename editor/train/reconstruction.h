@@ -45,7 +45,8 @@ class Reconstruction {
   const geometry::CameraModel& camera(uint32_t image) const {
     return cameras_[CameraOf(image)].model;
   }
-  // The camera that took most of the located images; of equals, the first.
+  // The camera that took most of the located images; of equals, the first. Where autofocus moves,
+  // the one with the mean focal length.
   uint32_t MainCamera() const;
   // The camera that took most of the located images.
   const geometry::CameraModel& camera() const { return cameras_[MainCamera()].model; }
@@ -53,6 +54,13 @@ class Reconstruction {
   void SetCamera(uint32_t index, const geometry::CameraModel& camera);
   // Adds a camera of its own for an image that turned out not to be taken by its camera.
   void GiveOwnCamera(uint32_t image, const geometry::CameraModel& camera);
+  // Gives each image a camera of its own with the lens of its camera, which autofocus may have
+  // moved. times[image]: when the images of the film were taken, in frame times; ascending.
+  void LetBreathe(std::vector<double> times);
+  // Empty unless the images may breathe.
+  const std::vector<double>& times() const { return times_; }
+  // focal_ratios[image]: See TrainingCamera.
+  void SetFocalRatios(std::span<const double> focal_ratios);
   // Goes back to cameras and images as they were given to the constructor.
   void SetCameras(std::vector<TrainingCamera> cameras, std::vector<uint32_t> camera_of_image);
   const std::vector<uint32_t>& camera_of_image() const { return camera_of_image_; }
@@ -142,6 +150,7 @@ class Reconstruction {
   std::vector<uint32_t> camera_of_image_;
   Eigen::Vector2d readout_ = Eigen::Vector2d::Zero();
   std::vector<ImageMotion> motions_;  // [image], or empty
+  std::vector<double> times_;
   std::vector<std::vector<Eigen::Vector2d>> pixels_;
   Tracks tracks_;
   std::vector<uint32_t> element_track_;

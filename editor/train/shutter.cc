@@ -99,4 +99,45 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
   return shutter;
 }
 
+bool AdjustToBreathing(Reconstruction& reconstruction,
+                       const InitialPair& anchors,
+                       std::vector<double> times,
+                       const MapperOptions& mapper,
+                       BundleOptions options,
+                       Log& log) {
+  constexpr double kLeast = 0.002;  // Root mean square of the relative changes.
+  constexpr int kRounds = 4;        // The points were made for a lens that stands still.
+  const auto breath = [&] {
+    double sum = 0.0;
+    for (const uint32_t image : reconstruction.LocatedImages()) {
+      const uint32_t camera = reconstruction.CameraOf(image);
+      sum += std::pow(std::log(*reconstruction.cameras()[camera].focal_ratio), 2);
+    }
+    return std::sqrt(sum / static_cast<double>(reconstruction.LocatedImages().size()));
+  };
+  const Reconstruction before = reconstruction;
+  reconstruction.LetBreathe(std::move(times));
+  options.refine_breathing = true;
+  options.points_per_image = 150;
+  options.max_iterations = 15;
+  bool adjusted = AdjustAll(reconstruction, anchors, options);
+  const bool breathes = adjusted && breath() > kLeast;
+  if (breathes) {
+    options.max_iterations = 50;
+    for (int round = 0; round < kRounds && adjusted; ++round) {
+      FitAgain(reconstruction, mapper);
+      options.points_per_image = round + 1 == kRounds ? kFinalPointsPerImage : 600;
+      adjusted = AdjustAll(reconstruction, anchors, options);
+    }
+    FitAgain(reconstruction, mapper);
+  }
+  log.Info("autofocus has moved the focal length by {:.2f} % (root mean square): {}",
+           100.0 * breath(), breathes && adjusted ? "taken" : "not taken");
+  if (!breathes || !adjusted) {
+    reconstruction = before;
+    return false;
+  }
+  return true;
+}
+
 }  // namespace lararium::train

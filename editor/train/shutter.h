@@ -45,4 +45,14 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
                                        BundleOptions options,
                                        Log& log);
 
+// Estimates by how much autofocus has moved the lens in each image of a film, and adjusts the map
+// to it. times[image]: See Reconstruction::LetBreathe. options say which intrinsics may change.
+// Returns false if the lens stood still as far as the images tell; the map then stays as it is.
+bool AdjustToBreathing(Reconstruction& reconstruction,
+                       const InitialPair& anchors,
+                       std::vector<double> times,
+                       const MapperOptions& mapper,
+                       BundleOptions options,
+                       Log& log);
+
 }  // namespace lararium::train

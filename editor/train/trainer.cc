@@ -38,9 +38,18 @@ class Trainer {
     TrainResult result;
     LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
     LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
-    if (map_.reconstruction->cameras().size() == 1 && AdjustsToShutter()) {
-      LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
-      LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+    if (map_.reconstruction->cameras().size() == 1) {
+      const bool rolls = AdjustsToShutter();
+      const bool breathes = AdjustsToBreathing();
+      if (rolls || breathes) {
+        LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
+        LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+      }
+      // Autofocus that was not known looked like a motion of the camera.
+      if (breathes && AdjustsToShutter()) {
+        LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
+        LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+      }
     }
     FillReport(result.database);
     result.report = std::move(report_);
@@ -111,6 +120,7 @@ class Trainer {
         map_.reconstruction->cameras().front().model.cx != verified_.cameras.front().model.cx &&
         map_.reconstruction->LensCount() == 1;
     refined.refine_readout = report_.shutter.has_value();
+    refined.refine_breathing = !map_.reconstruction->times().empty();
     return refined;
   }
 
@@ -139,6 +149,20 @@ class Trainer {
     report_.shutter = AdjustToShutter(*map_.reconstruction, map_.anchors, std::move(of_images),
                                       MapperOptions(), Refined(), log_);
     return report_.shutter.has_value();
+  }
+
+  // Estimates whether autofocus moved while a film was made. Returns whether the map has changed.
+  bool AdjustsToBreathing() {
+    if (options_.intrinsics || !verified_.film_gap) {
+      return false;
+    }
+    std::vector<double> times;
+    for (const TrainingImage& image : survey_.keyframes) {
+      times.push_back(TimeOf(image.frame_index));
+    }
+    progress_.Report("autofocus", 0.0);
+    return AdjustToBreathing(*map_.reconstruction, map_.anchors, std::move(times), MapperOptions(),
+                             Refined(), log_);
   }
 
   Status LocateOthers(const vision::SceneDatabase& database) {
@@ -177,6 +201,9 @@ class Trainer {
   vision::CameraGuess CameraAssumed(int64_t frame_index) const {
     const size_t source_camera = source_.CameraOf(frame_index);
     const Reconstruction& map = *map_.reconstruction;
+    if (!map.times().empty()) {
+      return {vision::ExactCamera(BreathingCamera(frame_index)), {}, BetweenKeyframes(frame_index)};
+    }
     const TrainingCamera& assumed = map.cameras()[source_camera];
     std::vector<uint32_t> takers;  // Cameras of keyframes that count as by the same one.
     for (const uint32_t image : map.LocatedImages()) {
@@ -200,6 +227,23 @@ class Trainer {
       guess.candidates.push_back(map.cameras()[taker].model);
     }
     return guess;
+  }
+
+  // The camera between those of the keyframes before and after a frame, where autofocus moves.
+  geometry::CameraModel BreathingCamera(int64_t frame_index) const {
+    const Reconstruction& map = *map_.reconstruction;
+    const double time = TimeOf(frame_index);
+    const auto after = std::upper_bound(map.times().begin(), map.times().end(), time);
+    const auto next =
+        static_cast<uint32_t>(std::min(after - map.times().begin(), std::ssize(map.times()) - 1));
+    const uint32_t last = next > 0 ? next - 1 : 0;
+    const double gap = map.times()[next] - map.times()[last];
+    const double share = gap > 0.0 ? std::clamp((time - map.times()[last]) / gap, 0.0, 1.0) : 0.0;
+    geometry::CameraModel camera = map.camera(last);
+    const double ratio = std::pow(map.camera(next).fx / camera.fx, share);
+    camera.fx *= ratio;
+    camera.fy *= ratio;
+    return camera;
   }
 
   // A camera of frames as that of the upright images which the source put into them.
@@ -295,7 +339,7 @@ class Trainer {
     report_.cameras.resize(map_.reconstruction->cameras().size());
     for (const uint32_t image : map_.reconstruction->LocatedImages()) {
       const std::span<const TrainingCamera> cameras = map_.reconstruction->cameras();
-      const uint32_t index = map_.reconstruction->CameraOf(image);
+      const uint32_t index = MeanCamera(cameras, map_.reconstruction->CameraOf(image));
       const uint32_t lens = LensOf(cameras, index);
       CameraReport& camera = report_.cameras[lens];
       if (lens == index || camera.keyframes == 0) {

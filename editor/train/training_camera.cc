@@ -35,6 +35,10 @@ uint32_t LensOf(std::span<const TrainingCamera> cameras, uint32_t camera) {
   return cameras[camera].lens_of.value_or(camera);
 }
 
+uint32_t MeanCamera(std::span<const TrainingCamera> cameras, uint32_t camera) {
+  return cameras[camera].focal_ratio ? LensOf(cameras, camera) : camera;
+}
+
 size_t LensCount(std::span<const TrainingCamera> cameras) {
   return static_cast<size_t>(
       std::ranges::count_if(cameras, [](const TrainingCamera& camera) { return !camera.lens_of; }));
@@ -49,6 +53,9 @@ geometry::CameraModel TurnedModel(const TrainingCamera& from, const TrainingCame
   for (int turn = 0; turn < QuarterTurns(from, to); ++turn) {
     model = Turned(model);
   }
+  const double ratio = to.focal_ratio.value_or(1.0) / from.focal_ratio.value_or(1.0);
+  model.fx *= ratio;
+  model.fy *= ratio;
   model.width = to.model.width;
   model.height = to.model.height;
   model.cx += to.area.x;

@@ -27,6 +27,9 @@ struct TrainingCamera {
   cv::Rect area = {};                    // See SourceCamera; empty if its images fill the frames.
   std::optional<uint32_t> lens_of = {};  // See SourceCamera. Both have the same intrinsics, turned.
   int quarter_turns = 0;                 // See SourceCamera.
+  // The focal length as a share of that of lens_of: set if this is that camera while autofocus has
+  // moved its lens, in one image.
+  std::optional<double> focal_ratio = {};
 
   bool FocalKnown() const { return given || focal_doubt < 1.0; }
 };
@@ -38,6 +41,8 @@ geometry::CameraModel ModelOfArea(const TrainingCamera& camera);
 geometry::CameraModel Turned(const geometry::CameraModel& camera);
 // The index of the first camera with the lens of a camera.
 uint32_t LensOf(std::span<const TrainingCamera> cameras, uint32_t camera);
+// The index of the camera with the mean focal length, for one whose lens autofocus has moved.
+uint32_t MeanCamera(std::span<const TrainingCamera> cameras, uint32_t camera);
 // How many lenses the cameras have.
 size_t LensCount(std::span<const TrainingCamera> cameras);
 // By how many right angles, clockwise, the images of `from` are turned to lie as those of `to`.

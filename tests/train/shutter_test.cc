@@ -124,6 +124,75 @@ TEST(AdjustToShutter, LeavesTheMapOfAGlobalShutterAlone) {
   EXPECT_TRUE(reconstruction.readout().isZero(0.0));
 }
 
+// A film in which autofocus moves the focal length by a few percent, mapped with a single one.
+struct BreathingFilm {
+  World world = MakeWorld({.images = 16, .points = 400, .noise_px = 0.2});
+  std::vector<double> ratios;
+  std::vector<double> times;
+
+  explicit BreathingFilm(double most) {
+    for (uint32_t image = 0; image < world.pixels.size(); ++image) {
+      times.push_back(8.0 * image);
+      ratios.push_back(1.0 + most * std::sin(1.3 * image));
+      for (Eigen::Vector2d& pixel : world.pixels[image]) {
+        const Eigen::Vector2d centre(world.camera.cx, world.camera.cy);
+        pixel = centre + ratios[image] * (pixel - centre);
+      }
+    }
+  }
+
+  double MeanRatio() const {
+    double sum = 0.0;
+    for (const double ratio : ratios) {
+      sum += std::log(ratio) / static_cast<double>(ratios.size());
+    }
+    return std::exp(sum);
+  }
+
+  Reconstruction Located() const {
+    Reconstruction reconstruction = world.Unsolved(world.Pairs(11, world.camera), world.camera);
+    for (uint32_t image = 0; image < world.pixels.size(); ++image) {
+      reconstruction.Locate(image, world.camera_from_world[image]);
+    }
+    for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
+      reconstruction.Triangulate(track, {.max_error_px = 20.0});
+    }
+    EXPECT_TRUE(AdjustAll(reconstruction, {0, 8}, {.refine_intrinsics = true}));
+    return reconstruction;
+  }
+};
+
+TEST(AdjustToBreathing, FindsTheFocalLengthOfEachImageWithAnHonestDeviation) {
+  const BreathingFilm film(0.024);
+  Reconstruction reconstruction = film.Located();
+  const double before = film.world.CenterError(reconstruction);
+  BundleOptions options{.refine_intrinsics = true};
+  ASSERT_TRUE(AdjustToBreathing(reconstruction, {0, 8}, film.times, MapperOptions(), options,
+                                *MakeSilentLog()));
+  for (uint32_t image = 0; image < film.ratios.size(); ++image) {
+    EXPECT_NEAR(reconstruction.camera(image).fx / (film.ratios[image] * film.world.camera.fx), 1.0,
+                0.004)
+        << image;
+  }
+  const double mean = film.MeanRatio() * film.world.camera.fx;
+  options.refine_breathing = true;
+  const double deviation = EstimateDeviation(reconstruction, 0, options).focal_px;
+  EXPECT_GT(deviation, 0.0);
+  EXPECT_LT(deviation, 0.004 * mean);
+  EXPECT_LT(std::abs(reconstruction.camera().fx - mean), 4.0 * deviation);
+  EXPECT_LT(film.world.CenterError(reconstruction), 0.3 * before);
+}
+
+TEST(AdjustToBreathing, LeavesTheMapOfALensThatStandsStillAlone) {
+  const BreathingFilm film(0.0);
+  Reconstruction reconstruction = film.Located();
+  const Eigen::Vector3d center = reconstruction.camera_from_map(3).Center();
+  EXPECT_FALSE(AdjustToBreathing(reconstruction, {0, 8}, film.times, MapperOptions(),
+                                 {.refine_intrinsics = true}, *MakeSilentLog()));
+  EXPECT_EQ(reconstruction.camera_from_map(3).Center(), center);
+  EXPECT_EQ(reconstruction.cameras().size(), 1u);
+}
+
 TEST(EstimateMotions, AreThoseBetweenTheFramesAround) {
   ImageMotion speed;
   speed << 0.01, -0.02, 0.005, 0.02, 0.01, -0.03;
