@@ -188,6 +188,13 @@ std::string CameraSummary(const train::TrainReport& report) {
                   std::abs(readout.x()) > std::abs(readout.y()) ? "columns" : "rows");
     summary += text;
   }
+  if (report.focal_change) {
+    std::snprintf(text, sizeof(text),
+                  "autofocus: it moved the focal length by %.2f %% (root mean square); the map "
+                  "allows for it\n",
+                  100.0 * *report.focal_change);
+    summary += text;
+  }
   return summary;
 }
 

@@ -105,10 +105,10 @@ Result<train::TrainReport> Finish(const ProjectPaths& paths,
 
 // The step names of train::Train, with their shares of the time for the maquette.
 std::vector<TaskStep> StepsOfOne() {
-  // The last three only where the shutter rolls.
-  return {{"reading", 0.02},  {"features", 0.13}, {"matching", 0.25}, {"mapping", 0.30},
-          {"refining", 0.10}, {"database", 0.02}, {"locating", 0.06}, {"shutter", 0.04},
-          {"database", 0.02}, {"locating", 0.06}};
+  // The last two only where the shutter rolls or autofocus moves.
+  return {{"reading", 0.02},   {"features", 0.13}, {"matching", 0.25}, {"mapping", 0.30},
+          {"refining", 0.10},  {"database", 0.02}, {"locating", 0.06}, {"shutter", 0.04},
+          {"autofocus", 0.03}, {"database", 0.02}, {"locating", 0.06}};
 }
 
 }  // namespace

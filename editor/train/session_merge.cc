@@ -16,7 +16,6 @@
 #include "editor/train/lookalikes.h"
 #include "editor/train/session_adjustment.h"
 #include "editor/train/session_camera.h"
-#include "editor/train/survey.h"
 #include "shared/core/check.h"
 #include "shared/core/random.h"
 #include "shared/geometry/resampling.h"
@@ -34,6 +33,9 @@ using vision::Observation;
 using vision::SceneDatabase;
 
 constexpr std::string_view kSessionPlace = "adding a session";
+constexpr std::string_view kMoreInCommon =
+    "film the place from where it was filmed before, so that most of each view is known; where the "
+    "light differs much, film once more in light between";
 constexpr uint32_t kNoPoint = 0xffffffff;
 constexpr size_t kLeastLocated = 3;       // Minimum number of agreeing keyframes.
 constexpr double kAgreeingAngle = 0.035;  // Largest difference of rotations, radians.
@@ -48,8 +50,7 @@ Status NotFound(size_t located, size_t keyframes) {
   return Status::Error(kSessionPlace,
                        std::to_string(located) + " of " + std::to_string(keyframes) +
                            " images of the new video were found in the map",
-                       "film the place from where it was filmed before, so that most of each view "
-                       "is known; where the light differs much, film once more in light between");
+                       kMoreInCommon);
 }
 
 // ------------------------------------------------------------ similarities
@@ -292,7 +293,10 @@ class Merger {
     }
     const auto similarity = RobustSimilarity(pairs, kPointDistance * depth, options_.seed);
     if (!similarity) {
-      return NotFound(agreeing.size(), features_.size());
+      return Status::Error(kSessionPlace,
+                           "only " + std::to_string(pairs.size()) +
+                               " points of the new video are known to be points of the map",
+                           kMoreInCommon);
     }
     report_.map_from_session = *similarity;
     for (size_t k = 0; k < poses_.size(); ++k) {
@@ -645,22 +649,6 @@ class Merger {
 
 // ------------------------------------------------------------ the video
 
-Result<std::vector<Features>> KeyframeFeatures(const SceneDatabase& session,
-                                               int max_features,
-                                               Progress& progress) {
-  std::vector<TrainingImage> images(session.keyframes.size());
-  for (size_t k = 0; k < images.size(); ++k) {
-    images[k].name = session.keyframes[k].name;
-    images[k].grey = session.keyframes[k].grey;
-  }
-  LARARIUM_RETURN_IF_ERROR(ExtractFeatures(images, max_features, progress));
-  std::vector<Features> features;
-  for (TrainingImage& image : images) {
-    features.push_back(std::move(image.features));
-  }
-  return features;
-}
-
 // Moves the poses of the session's frames along with the nearest keyframe in the video.
 class PoseMover {
  public:
@@ -750,16 +738,16 @@ Result<TrainResult> AddSession(const SceneDatabase& map,
     LARARIUM_ASSIGN_OR_RETURN(of_session.intrinsics,
                               RecogniseCamera(map, source, options.seed, progress, log));
   }
+  of_session.keep_features = true;
   LARARIUM_ASSIGN_OR_RETURN(TrainResult trained, Train(source, of_session, progress, log));
   progress.Report("merging", 0.0);
   const auto start = std::chrono::steady_clock::now();
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<Features> features,
-                            KeyframeFeatures(trained.database, options.max_features, progress));
   MergeOptions merging;
   merging.max_points = options.max_points;
   merging.seed = options.seed;
   LARARIUM_ASSIGN_OR_RETURN(MergedMap merged,
-                            MergeSession(map, trained.database, features, merging, log));
+                            MergeSession(map, trained.database, trained.features, merging, log));
+  trained.features.clear();
   if (progress.Cancelled()) {
     return Status::Error(kSessionPlace, "cancelled");
   }

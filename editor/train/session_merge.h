@@ -41,10 +41,11 @@ struct MergedMap {
 
 // Merges a session that was trained by itself into a map. The map's frame and the poses of its
 // keyframes stay fixed; its points may move because of the new observations. features[k] are the
-// features of the session's keyframe k in raw pixels of session.camera; there may be more features
-// than observations. The session's keyframes come after those of the map. The merged database has
-// the map's camera: pixels and images of another camera are resampled, and content outside the
-// image is left out. Fails if too few of the session's keyframes are located in the map.
+// features of the session's keyframe k at raw pixels of session.camera; each observation is at the
+// pixel of one of them (TrainResult::features). The session's keyframes come after those of the
+// map. The merged database has the map's camera: pixels and images of another camera are resampled,
+// and content outside the image is left out. Fails if too few of the session's keyframes are
+// located in the map.
 Result<MergedMap> MergeSession(const vision::SceneDatabase& map,
                                const vision::SceneDatabase& session,
                                std::span<const vision::Features> features,

@@ -99,14 +99,14 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
   return shutter;
 }
 
-bool AdjustToBreathing(Reconstruction& reconstruction,
-                       const InitialPair& anchors,
-                       std::vector<double> times,
-                       const MapperOptions& mapper,
-                       BundleOptions options,
-                       Log& log) {
-  constexpr double kLeast = 0.002;  // Root mean square of the relative changes.
-  constexpr int kRounds = 4;        // The points were made for a lens that stands still.
+std::optional<double> AdjustToBreathing(Reconstruction& reconstruction,
+                                        const InitialPair& anchors,
+                                        std::vector<double> times,
+                                        const MapperOptions& mapper,
+                                        BundleOptions options,
+                                        Log& log) {
+  constexpr double kLeast = 0.002;
+  constexpr int kRounds = 4;  // The points were made for a lens that stands still.
   const auto breath = [&] {
     double sum = 0.0;
     for (const uint32_t image : reconstruction.LocatedImages()) {
@@ -131,13 +131,14 @@ bool AdjustToBreathing(Reconstruction& reconstruction,
     }
     FitAgain(reconstruction, mapper);
   }
+  const double change = breath();
   log.Info("autofocus has moved the focal length by {:.2f} % (root mean square): {}",
-           100.0 * breath(), breathes && adjusted ? "taken" : "not taken");
+           100.0 * change, breathes && adjusted ? "taken" : "not taken");
   if (!breathes || !adjusted) {
     reconstruction = before;
-    return false;
+    return std::nullopt;
   }
-  return true;
+  return change;
 }
 
 }  // namespace lararium::train

@@ -1,8 +1,9 @@
 #pragma once
 
-// The rolling shutter of the camera that filmed a place: how the camera moved while each frame was
-// read, and how long that took (after Hedborg, Forssen, Felsberg & Ringaby, "Rolling shutter bundle
-// adjustment", CVPR 2012; the motion is that between the frames of the film).
+// What changes in the camera that filmed a place. Its rolling shutter: how the camera moved while
+// each frame was read, and how long that took (after Hedborg, Forssen, Felsberg & Ringaby, "Rolling
+// shutter bundle adjustment", CVPR 2012; the motion is that between the frames of the film). Its
+// autofocus, which changes the focal length ("breathing").
 
 #include <cstdint>
 #include <optional>
@@ -47,12 +48,13 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
 
 // Estimates by how much autofocus has moved the lens in each image of a film, and adjusts the map
 // to it. times[image]: See Reconstruction::LetBreathe. options say which intrinsics may change.
-// Returns false if the lens stood still as far as the images tell; the map then stays as it is.
-bool AdjustToBreathing(Reconstruction& reconstruction,
-                       const InitialPair& anchors,
-                       std::vector<double> times,
-                       const MapperOptions& mapper,
-                       BundleOptions options,
-                       Log& log);
+// Returns the root mean square of the focal lengths' relative changes; nullopt if the lens stood
+// still as far as the images tell: the map then stays as it is.
+std::optional<double> AdjustToBreathing(Reconstruction& reconstruction,
+                                        const InitialPair& anchors,
+                                        std::vector<double> times,
+                                        const MapperOptions& mapper,
+                                        BundleOptions options,
+                                        Log& log);
 
 }  // namespace lararium::train

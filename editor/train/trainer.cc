@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "editor/train/bundle_adjustment.h"
+#include "editor/train/camera_transfer.h"
 #include "editor/train/database_builder.h"
 #include "editor/train/frame_locator.h"
 #include "editor/train/image_mapping.h"
@@ -52,6 +53,13 @@ class Trainer {
       }
     }
     FillReport(result.database);
+    if (options_.keep_features) {
+      for (const uint32_t image : map_.reconstruction->LocatedImages()) {
+        result.features.push_back(FeaturesIn(result.database.camera,
+                                             map_.reconstruction->camera(image),
+                                             survey_.keyframes[image].features));
+      }
+    }
     result.report = std::move(report_);
     return result;
   }
@@ -161,8 +169,9 @@ class Trainer {
       times.push_back(TimeOf(image.frame_index));
     }
     progress_.Report("autofocus", 0.0);
-    return AdjustToBreathing(*map_.reconstruction, map_.anchors, std::move(times), MapperOptions(),
-                             Refined(), log_);
+    report_.focal_change = AdjustToBreathing(*map_.reconstruction, map_.anchors, std::move(times),
+                                             MapperOptions(), Refined(), log_);
+    return report_.focal_change.has_value();
   }
 
   Status LocateOthers(const vision::SceneDatabase& database) {

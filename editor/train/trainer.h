@@ -17,6 +17,7 @@
 #include "shared/core/status.h"
 #include "shared/geometry/camera_model.h"
 #include "shared/geometry/transform.h"
+#include "shared/vision/features.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::train {
@@ -33,8 +34,9 @@ struct TrainOptions {
   uint64_t seed = 1;     // The same images and seed give the same bytes.
   // A longer source is thinned out to this many keyframes. Its other frames are located afterwards.
   int max_keyframes = 160;
-  int max_features = 6500;  // Maximum number of features per keyframe.
-  int max_points = 60'000;  // Maximum number of points of the database; see ChoosePoints.
+  int max_features = 6500;     // Maximum number of features per keyframe.
+  int max_points = 60'000;     // Maximum number of points of the database; see ChoosePoints.
+  bool keep_features = false;  // See TrainResult.
 
   Status Validate() const;
 };
@@ -95,13 +97,18 @@ struct TrainReport {
   bool principal_point_estimated = false;
   double cx_deviation_px = 0.0;
   double cy_deviation_px = 0.0;
-  std::optional<Shutter> shutter;                       // Set if it is a rolling one.
+  std::optional<Shutter> shutter;  // Set if it is a rolling one.
+  // Root mean square of the relative changes of the focal length; set if autofocus moved it.
+  std::optional<double> focal_change;
   std::vector<std::string> notes;                       // See FrameSource::Notes.
   std::vector<std::pair<std::string, double>> seconds;  // Wall-clock time of each step.
 };
 
 struct TrainResult {
   vision::SceneDatabase database;
+  // [keyframe]: Its features at pixels of the database's camera, as its observations are; empty
+  // unless TrainOptions::keep_features.
+  std::vector<vision::Features> features;
   TrainReport report;
 };
 

@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <opencv2/imgproc.hpp>
 #include <set>
+#include <span>
 
+#include "editor/train/session_merge.h"
 #include "shared/core/parallel.h"
 #include "shared/core/random.h"
 
@@ -252,6 +255,55 @@ TEST(Trainer, TakesFramesThatReadOnlyOnce) {
     EXPECT_NE(frame.frame_index, missed);
     EXPECT_TRUE(frame.camera_from_map.has_value()) << frame.frame_index;
   }
+}
+
+// WalkPast while autofocus moves: the focal length of each image is ratios[i] times the camera's.
+std::vector<cv::Mat> Breathing(std::span<const double> ratios) {
+  std::vector<cv::Mat> images = WalkPast(static_cast<int>(ratios.size()));
+  for (size_t i = 0; i < images.size(); ++i) {
+    const double r = ratios[i];
+    const cv::Matx23d zoom(r, 0, (1 - r) * Camera().cx, 0, r, (1 - r) * Camera().cy);
+    cv::warpAffine(images[i], images[i], zoom, images[i].size(), cv::INTER_LINEAR,
+                   cv::BORDER_REPLICATE);
+  }
+  return images;
+}
+
+TEST(Trainer, TellsTheFocalLengthOfEachFrameWhereAutofocusMoves) {
+  std::vector<double> ratios;
+  for (int i = 0; i < 16; ++i) {
+    ratios.push_back(1.0 + 0.04 * std::sin(0.35 * i));
+  }
+  TrainOptions options = KnownCamera();
+  options.intrinsics.reset();
+  options.keep_features = true;
+  const Result<TrainResult> result = TrainOn(Breathing(ratios), options);
+  ASSERT_TRUE(result.ok()) << result.message();
+  ASSERT_EQ(result->report.located.size(), ratios.size());
+  // Walking past two walls does not tell the mean focal length well.
+  double mean = 0.0;  // Of the focal lengths as shares of the true ones.
+  for (size_t i = 0; i < ratios.size(); ++i) {
+    const double share = result->report.located[i].camera.fx / (ratios[i] * Camera().fx);
+    mean += share / static_cast<double>(ratios.size());
+  }
+  for (size_t i = 0; i < ratios.size(); ++i) {
+    EXPECT_NEAR(result->report.located[i].camera.fx / (ratios[i] * Camera().fx), mean, 0.015) << i;
+  }
+  // The map is that of one camera, and so are the features.
+  const vision::SceneDatabase& map = result->database;
+  ASSERT_EQ(result->features.size(), map.keyframes.size());
+  for (const vision::Observation& o : map.observations) {
+    EXPECT_TRUE(std::ranges::any_of(result->features[o.keyframe].keypoints,
+                                    [&](const auto& k) { return k.x == o.x && k.y == o.y; }));
+  }
+  // As another session it becomes a part of a map from a lens that stands still.
+  const Result<TrainResult> still = TrainOn(WalkPast(12), KnownCamera());
+  ASSERT_TRUE(still.ok()) << still.message();
+  ListSource source(Breathing(ratios));
+  NoProgress progress;
+  const auto both = AddSession(still->database, source, options, progress, *MakeSilentLog());
+  ASSERT_TRUE(both.ok()) << both.message();
+  EXPECT_LT(both->database.mean_reprojection_error_px, 0.5);
 }
 
 TEST(Trainer, KeepsTheBudgetOfPoints) {
