@@ -132,7 +132,8 @@ Result<std::span<const std::byte>> Bundle::member(std::string_view name) const {
 
 Result<StoredMember> Bundle::stored(std::string_view name) const {
   LARARIUM_ASSIGN_OR_RETURN(const std::span<const std::byte> bytes, member(name));
-  const auto listed = std::ranges::find(manifest_.members, name, &Member::name);
+  const auto listed = std::find_if(manifest_.members.begin(), manifest_.members.end(),
+                                   [&](const Member& member) { return member.name == name; });
   return StoredMember{place_, listed->name,
                       static_cast<uint64_t>(bytes.data() - file_.bytes().data()), bytes.size(),
                       listed->sha256};

@@ -8,17 +8,10 @@
 #include <cstdint>
 #include <string_view>
 #include <thread>
-#include <vector>
 
 #include "shared/core/status.h"
 
 namespace lararium {
-
-// Empties `items` and releases their memory, which an assignment of {} would keep.
-template <typename T>
-void Release(std::vector<T>& items) {
-  std::vector<T>().swap(items);
-}
 
 // Lets all threads share this number of arenas. By default there are up to eight arenas for each
 // core, and each grows to the largest size that any thread needed in it. For programs that run for

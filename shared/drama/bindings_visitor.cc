@@ -1,12 +1,12 @@
 // Host functions for the visitor and for triggers.
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "shared/core/number_text.h"
 #include "shared/drama/host_bindings.h"
 #include "shared/drama/lua_binding.h"
 #include "shared/drama/script_runtime.h"
@@ -19,13 +19,12 @@ constexpr size_t kMaxName = 100;  // Bytes; limit for keys and markers.
 
 void PushArgument(lua_State* lua, std::string_view argument) {
   double number = 0.0;
-  const char* end = argument.data() + argument.size();
+  std::string_view rest = argument;
   if (argument == "T" || argument == "F") {
     lua_pushboolean(lua, argument == "T" ? 1 : 0);
   } else if (const std::optional<std::string> text = ReadMessageText(argument)) {
     lua_pushlstring(lua, text->data(), text->size());
-  } else if (const auto read = std::from_chars(argument.data(), end, number);
-             read.ec == std::errc() && read.ptr == end && std::isfinite(number)) {
+  } else if (TakeNumber(rest, number) && rest.empty() && std::isfinite(number)) {
     lua_pushnumber(lua, number);
   } else {
     lua_pushnil(lua);

@@ -377,7 +377,7 @@ class LuaDrama : public Drama {
 }  // namespace
 
 Status DramaOptions::Validate() const {
-  if (memory_limit < (1 << 20) || memory_limit > (size_t{1} << 32)) {
+  if (memory_limit < (1 << 20) || uint64_t{memory_limit} > (uint64_t{1} << 32)) {
     return Status::Error("drama", "the memory limit must lie between 1 MiB and 4 GiB");
   }
   if (instruction_limit < 100'000 || instruction_limit > (int64_t{1} << 40)) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "shared/core/number_text.h"
+
 namespace lararium::drama {
 namespace {
 
@@ -223,10 +225,8 @@ std::optional<double> NumberOf(std::string_view token) {
     token.remove_prefix(2);
   }
   double value = 0.0;
-  const char* const end = token.data() + token.size();
-  const auto [stop, error] = std::from_chars(
-      token.data(), end, value, hex ? std::chars_format::hex : std::chars_format::general);
-  if (error != std::errc() || stop != end || !std::isfinite(value)) {
+  const bool read = hex ? TakeHexNumber(token, value) : TakeNumber(token, value);
+  if (!read || !token.empty() || !std::isfinite(value)) {
     return std::nullopt;
   }
   return value;

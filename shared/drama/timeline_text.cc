@@ -1,9 +1,9 @@
 #include "shared/drama/timeline_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "shared/core/number_text.h"
 #include "shared/drama/lua_literals.h"
 #include "shared/drama/lua_tokens.h"
 
@@ -474,11 +474,7 @@ TextEdit Difference(std::string_view before, std::string_view after) {
 
 std::string LuaLiteral(const Json& value) {
   if (value.is_number()) {
-    char digits[32];
-    const double number = value.get<double>();
-    const auto [end, error] = std::to_chars(digits, digits + sizeof(digits), number);
-    CHECK(error == std::errc());
-    return std::string(digits, end);
+    return FormatNumber(value.get<double>());
   }
   if (value.is_boolean()) {
     return value.get<bool>() ? "true" : "false";

@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <type_traits>
 
 #include "shared/core/file.h"
+#include "shared/core/number_text.h"
 #include "shared/core/plain_text.h"
 
 namespace lararium::drama {
@@ -23,11 +25,15 @@ class Words {
   template <typename T>
   bool Number(T& value) {
     Skip();
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (error != std::errc()) {
+    if constexpr (std::is_integral_v<T>) {
+      const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+      if (error != std::errc()) {
+        return false;
+      }
+      rest_.remove_prefix(static_cast<size_t>(end - rest_.data()));
+    } else if (!TakeNumber(rest_, value)) {
       return false;
     }
-    rest_.remove_prefix(static_cast<size_t>(end - rest_.data()));
     return rest_.empty() || rest_.front() == ' ';
   }
   std::string_view Rest() {
@@ -64,12 +70,7 @@ bool ParseLine(std::string_view line, VisitorLog::Entry& entry) {
          visitor.keys.size() <= kMaxKeyBytes && IsPlausible(visitor);
 }
 
-void AppendNumber(std::string& out, float value) {
-  char digits[32];
-  const auto [end, error] = std::to_chars(digits, digits + sizeof(digits), value);
-  out += ' ';
-  out.append(digits, error == std::errc() ? end : digits);
-}
+void AppendNumber(std::string& out, float value) { out += ' ' + FormatNumber(value); }
 
 bool IsPlain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||

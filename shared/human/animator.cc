@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shared/core/memory.h"
+#include "shared/core/release.h"
 #include "shared/human/human.h"
 
 namespace lararium::human {

@@ -446,7 +446,8 @@ Result<Human> LoadHuman(const std::filesystem::path& file) {
 }
 
 std::vector<std::byte> SerializeHuman(const Human& human) {
-  CHECK(std::ranges::all_of(human.meshes, [](const auto& mesh) { return mesh.error == 0.0f; }));
+  CHECK(std::all_of(human.meshes.begin(), human.meshes.end(),
+                    [](const auto& mesh) { return mesh.error == 0.0f; }));
   flatbuffers::FlatBufferBuilder builder(size_t{1} << 20);
   const auto name = builder.CreateString(human.name);
   const auto credits = builder.CreateString(human.credits);

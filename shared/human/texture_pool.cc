@@ -8,7 +8,7 @@ void TexturePool::Share(std::vector<std::shared_ptr<const Texture>>& textures) {
   const std::lock_guard lock(mutex_);
   std::erase_if(known_, [](const auto& known) { return known.expired(); });
   for (std::shared_ptr<const Texture>& texture : textures) {
-    const auto same = std::ranges::find_if(known_, [&](const auto& known) {
+    const auto same = std::find_if(known_.begin(), known_.end(), [&](const auto& known) {
       const std::shared_ptr<const Texture> other = known.lock();
       return other != nullptr && *other == *texture;
     });

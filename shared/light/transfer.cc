@@ -243,7 +243,8 @@ Transfer::Transfer(const TransferBytes& bytes)
   CHECK(IsShCount(count_) && count_ >= 9 && poses_ > 0 && poses_ <= kMaxKeyPoses &&
         bytes.scale.size() == poses_ * vertices_ &&
         bytes.values.size() == bytes.scale.size() * size);
-  auto rows = std::make_shared_for_overwrite<int8_t[]>(bytes.scale.size() * stride());
+  // The rows are not set to zero first, because all of them are written.
+  std::shared_ptr<int8_t[]> rows(new int8_t[bytes.scale.size() * stride()]);
   constexpr size_t kBlock = 1024;  // rows
   ParallelFor((bytes.scale.size() + kBlock - 1) / kBlock, [&](size_t block) {
     const size_t end = std::min((block + 1) * kBlock, bytes.scale.size());

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "shared/core/background.h"
+
 namespace lararium::show {
 namespace {
 
@@ -11,7 +13,8 @@ namespace {
 constexpr float kFiner = 0.7f;
 
 bool IsWhole(const human::Human& human) {
-  return std::ranges::all_of(human.meshes, [](const auto& mesh) { return mesh.error == 0.0f; });
+  return std::all_of(human.meshes.begin(), human.meshes.end(),
+                     [](const auto& mesh) { return mesh.error == 0.0f; });
 }
 
 Result<LodStreamer::Person> ReadFiner(const ReadPerson& read, size_t cast, float finest) {
@@ -40,14 +43,14 @@ void LodStreamer::Want(size_t cast, float detail) {
   }
   reading_cast_ = cast;
   reading_finest_ = kFiner * detail;
-  reading_ = std::async(std::launch::async, ReadFiner, std::cref(read_), cast, reading_finest_);
+  reading_ = std::async(BackgroundLaunch(), ReadFiner, std::cref(read_), cast, reading_finest_);
 }
 
 LodStreamer::Reading LodStreamer::reading() const {
   if (!reading_.valid()) {
     return Reading::kNobody;
   }
-  const bool done = reading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  const bool done = reading_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
   return done ? Reading::kDone : Reading::kSomebody;
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "shared/core/check.h"
-#include "shared/core/memory.h"
+#include "shared/core/release.h"
 #include "shared/geometry/glm_convert.h"
 
 namespace lararium::show {
@@ -236,8 +236,8 @@ void Show::SwapFinishedLods() {
 stage::Pose Show::DrawnObjectPose(const stage::StageSnapshot::ObjectEntry& entry) const {
   const stage::ObjectState& state = entry.state;
   const std::span<const VisibleActor> visible = cast_->visible();
-  const auto holder = std::ranges::find(visible, state.holder, [&](const VisibleActor& actor) {
-    return cast_->actors()[actor.cast];
+  const auto holder = std::find_if(visible.begin(), visible.end(), [&](const VisibleActor& actor) {
+    return cast_->actors()[actor.cast] == state.holder;
   });
   if (!state.holder || state.hand < 0 || holder == visible.end()) {
     return state.stage_from_object;
@@ -254,8 +254,9 @@ void Show::StageThings(double time, const PlaceLight& light, StagedThings& thing
   things.lamps.clear();
   uint32_t lit_vertices = 0;
   for (uint32_t index = 0; index < object_ids_.size(); ++index) {
-    const auto entry = std::ranges::find(drawn_.objects, object_ids_[index],
-                                         &stage::StageSnapshot::ObjectEntry::object);
+    const auto entry =
+        std::find_if(drawn_.objects.begin(), drawn_.objects.end(),
+                     [&](const auto& drawn) { return drawn.object == object_ids_[index]; });
     if (entry == drawn_.objects.end() || !entry->state.visible) {
       continue;
     }
@@ -322,7 +323,7 @@ std::optional<glm::vec3> Show::PlaceOf(const stage::StageSound& sound) const {
     case stage::StageSound::At::kActor:
       for (const stage::StageSnapshot::ActorEntry& entry : drawn_.actors) {
         if (entry.actor == sound.actor) {
-          const auto cast = std::ranges::find(cast_->actors(), entry.actor);
+          const auto cast = std::find(cast_->actors().begin(), cast_->actors().end(), entry.actor);
           const auto index = static_cast<size_t>(cast - cast_->actors().begin());
           return cast_->MouthOf(index, entry.state).position;
         }

@@ -27,12 +27,14 @@ std::vector<const Occluder*> InTheWay(const Place& place) {
 }  // namespace
 
 bool BlockWalkingAlike(const Place& a, const Place& b) {
-  return std::ranges::equal(InTheWay(a), InTheWay(b),
-                            [](const Occluder* one, const Occluder* other) {
-                              return one->stage_from_mesh == other->stage_from_mesh &&
-                                     one->mesh.positions == other->mesh.positions &&
-                                     one->mesh.indices == other->mesh.indices;
-                            });
+  const std::vector<const Occluder*> of_a = InTheWay(a);
+  const std::vector<const Occluder*> of_b = InTheWay(b);
+  return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const Occluder* one, const Occluder* other) {
+                      return one->stage_from_mesh == other->stage_from_mesh &&
+                             one->mesh.positions == other->mesh.positions &&
+                             one->mesh.indices == other->mesh.indices;
+                    });
 }
 
 }  // namespace lararium::stage

@@ -36,27 +36,27 @@ const Task* TaskQueue::Find(TaskId id) const {
 }
 
 const Task* TaskQueue::SeatOf(ActorId actor) const {
-  const auto found = std::ranges::find_if(tasks_, [actor](const Task& task) {
+  const auto found = std::find_if(tasks_.begin(), tasks_.end(), [actor](const Task& task) {
     return task.actor == actor && task.stage == TaskStage::kLingering;
   });
   return found == tasks_.end() ? nullptr : &*found;
 }
 
 bool TaskQueue::IsBusy(ActorId actor) const {
-  return std::ranges::any_of(tasks_, [actor](const Task& task) {
+  return std::any_of(tasks_.begin(), tasks_.end(), [actor](const Task& task) {
     return task.stage == TaskStage::kRunning && (task.actor == actor || task.partner == actor);
   });
 }
 
 int TaskQueue::UsersOf(ObjectId object, const Task& except) const {
-  return static_cast<int>(std::ranges::count_if(tasks_, [&](const Task& task) {
+  return static_cast<int>(std::count_if(tasks_.begin(), tasks_.end(), [&](const Task& task) {
     return task.id != except.id && task.kind == TaskKind::kUse && task.object == object &&
            task.OccupiesPlace();
   }));
 }
 
 bool TaskQueue::IsPlaceTaken(ObjectId object, int place, const Task& except) const {
-  return std::ranges::any_of(tasks_, [&](const Task& task) {
+  return std::any_of(tasks_.begin(), tasks_.end(), [&](const Task& task) {
     return task.id != except.id && task.place_of == object && task.place == place &&
            task.OccupiesPlace();
   });

@@ -345,11 +345,13 @@ bool TaskReservations::ReservePut(Task& task) {
       if (!IsSpotFor(task, at_s, at_i)) {
         continue;
       }
-      const bool is_wanted = std::ranges::any_of(queue_.tasks(), [&](const Task& other) {
-        return other.id != task.id && other.kind == TaskKind::kPut &&
-               other.stage == TaskStage::kRunning && other.target.object == task.target.object &&
-               other.target.surface == at_s && other.spot == at_i;
-      });
+      const bool is_wanted =
+          std::any_of(queue_.tasks().begin(), queue_.tasks().end(), [&](const Task& other) {
+            return other.id != task.id && other.kind == TaskKind::kPut &&
+                   other.stage == TaskStage::kRunning &&
+                   other.target.object == task.target.object && other.target.surface == at_s &&
+                   other.spot == at_i;
+          });
       if (is_wanted || IsOccupied(world_, task.target.object, at_s, at_i)) {
         continue;
       }

@@ -56,7 +56,7 @@ bool MustWaitFor(World& world, const Task& task, const Task& other) {
 
 // Whether no earlier task of the actor waits.
 bool IsFirstOf(const TaskQueue& queue, const Task& task) {
-  return std::ranges::none_of(queue.tasks(), [&](const Task& other) {
+  return std::none_of(queue.tasks().begin(), queue.tasks().end(), [&](const Task& other) {
     return other.id < task.id && other.stage == TaskStage::kWaiting && other.actor == task.actor;
   });
 }
@@ -64,7 +64,7 @@ bool IsFirstOf(const TaskQueue& queue, const Task& task) {
 }  // namespace
 
 bool MayStart(World& world, const TaskQueue& queue, const Task& task) {
-  return std::ranges::none_of(queue.tasks(), [&](const Task& other) {
+  return std::none_of(queue.tasks().begin(), queue.tasks().end(), [&](const Task& other) {
     if (other.stage == TaskStage::kWaiting) {
       return other.id < task.id && SharesWith(task, other);
     }
@@ -84,10 +84,11 @@ void WaitInLine(World& world, const TaskQueue& queue, const Task& task) {
       object.use().carry) {
     return;
   }
-  const auto before = std::ranges::count_if(queue.tasks(), [&](const Task& other) {
-    return other.id < task.id && other.stage == TaskStage::kWaiting && other.actor != task.actor &&
-           (other.object == id || other.target.object == id);
-  });
+  const auto before =
+      std::count_if(queue.tasks().begin(), queue.tasks().end(), [&](const Task& other) {
+        return other.id < task.id && other.stage == TaskStage::kWaiting &&
+               other.actor != task.actor && (other.object == id || other.target.object == id);
+      });
   ApproachPlace first;
   if (object.use().queue) {
     first = *object.use().queue;

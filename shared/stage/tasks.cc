@@ -60,8 +60,8 @@ Status Tasks::CheckActor(ActorId actor) const {
 
 Result<TaskId> Tasks::Begin(const TaskRequest& request) {
   LARARIUM_RETURN_IF_ERROR(CheckActor(request.actor));
-  const auto open =
-      std::ranges::count_if(queue_.tasks(), [](const Task& task) { return !task.is_over; });
+  const auto open = std::count_if(queue_.tasks().begin(), queue_.tasks().end(),
+                                  [](const Task& task) { return !task.is_over; });
   if (static_cast<size_t>(open) >= kMaxTasks) {
     return Status::Error("stage", "more than " + std::to_string(kMaxTasks) + " things to do",
                          "wait until some are done");
@@ -219,7 +219,7 @@ std::optional<ObjectId> Tasks::ObjectOf(ActorId actor) const {
 }
 
 bool Tasks::any() const {
-  return std::ranges::any_of(queue_.tasks(), [](const Task& task) {
+  return std::any_of(queue_.tasks().begin(), queue_.tasks().end(), [](const Task& task) {
     return task.stage == TaskStage::kWaiting || task.stage == TaskStage::kRunning;
   });
 }

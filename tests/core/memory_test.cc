@@ -9,13 +9,6 @@
 namespace lararium {
 namespace {
 
-TEST(Release, GivesTheMemoryOfAVectorBack) {
-  std::vector<int> items(1000, 7);
-  Release(items);
-  EXPECT_TRUE(items.empty());
-  EXPECT_EQ(items.capacity(), 0u);
-}
-
 #ifndef LARARIUM_SANITIZED  // Sanitizers need more addresses than the limit leaves.
 // Exits with 0 if 1 GB can be had, and otherwise with 1 after the error was printed.
 [[noreturn]] void AskForAGigabyte(uint64_t limit) {

@@ -7,7 +7,7 @@
 #include "editor/import/model/model_scene.h"
 #include "editor/import/model/model_textures.h"
 #include "editor/import/model/root_motion.h"
-#include "shared/core/memory.h"
+#include "shared/core/release.h"
 #include "shared/image/picture_notes.h"
 
 namespace lararium::import {

@@ -15,8 +15,8 @@
 #include "editor/import/model/survey_offset.h"
 #include "shared/core/file.h"
 #include "shared/core/lower_case.h"
-#include "shared/core/memory.h"
 #include "shared/core/plain_text.h"
+#include "shared/core/release.h"
 
 namespace lararium::import {
 namespace {
