@@ -2,7 +2,7 @@
 # compiled lie in build/web-libraries; the others are headers of this machine's Debian packages, through links:
 # its other headers do not fit.
 set(LARARIUM_WEB_LIBRARIES ${CMAKE_SOURCE_DIR}/build/web-libraries CACHE PATH "What scripts/install_web_tools.sh made")
-if(NOT EXISTS ${LARARIUM_WEB_LIBRARIES}/lib/libopencv_imgproc.a)
+if(NOT EXISTS ${LARARIUM_WEB_LIBRARIES}/lib/libsndfile.a)
   message(FATAL_ERROR "${LARARIUM_WEB_LIBRARIES} lacks libraries; run scripts/install_web_tools.sh first")
 endif()
 
@@ -33,7 +33,16 @@ lararium_web_library(spdlog::spdlog INCLUDE ${headers} DEFINITIONS SPDLOG_FMT_EX
 lararium_web_library(Eigen3::Eigen INCLUDE /usr/include/eigen3)
 
 set(lib ${LARARIUM_WEB_LIBRARIES}/lib)
-lararium_web_library(JPEG::JPEG INCLUDE ${LARARIUM_WEB_LIBRARIES}/include LIBRARIES ${lib}/libjpeg.a)
+set(include ${LARARIUM_WEB_LIBRARIES}/include)
+lararium_web_library(JPEG::JPEG INCLUDE ${include} LIBRARIES ${lib}/libjpeg.a)
+lararium_web_library(ZLIB::ZLIB INCLUDE ${include} LIBRARIES ${lib}/libz.a)
+lararium_web_library(PNG::PNG INCLUDE ${include} LIBRARIES ${lib}/libpng.a ${lib}/libz.a)
+# Its names are those of C++ (shared/drama/lua_api.h).
+lararium_web_library(PkgConfig::lua INCLUDE ${include}/lua LIBRARIES ${lib}/liblua.a DEFINITIONS LARARIUM_LUA_NAMES_OF_CXX)
+lararium_web_library(PkgConfig::sodium INCLUDE ${include} LIBRARIES ${lib}/libsodium.a)
+lararium_web_library(recast_imported INCLUDE ${include}/recastnavigation LIBRARIES ${lib}/librecast.a)
+lararium_web_library(PkgConfig::sndfile INCLUDE ${include} LIBRARIES ${lib}/libsndfile.a ${lib}/libFLAC.a
+  ${lib}/libvorbisenc.a ${lib}/libvorbis.a ${lib}/libopus.a ${lib}/libogg.a)
 set(opencv ${LARARIUM_WEB_LIBRARIES}/include/opencv4)
 lararium_web_library(opencv_core INCLUDE ${opencv} LIBRARIES ${lib}/libopencv_core.a ${lib}/libz.a)
 lararium_web_library(opencv_imgproc INCLUDE ${opencv} LIBRARIES ${lib}/libopencv_imgproc.a opencv_core)

@@ -1,17 +1,6 @@
 #include "shared/bundle/sha256.h"
 
-#include <openssl/sha.h>
-
 namespace lararium::bundle {
-
-static_assert(SHA256_DIGEST_LENGTH == std::tuple_size_v<Sha256>);
-
-// Uses OpenSSL, which has the processor's SHA instructions; libsodium does not.
-Sha256 ComputeSha256(std::span<const std::byte> bytes) {
-  Sha256 hash;
-  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), hash.data());
-  return hash;
-}
 
 std::string FormatSha256(const Sha256& hash) {
   constexpr char kDigits[] = "0123456789abcdef";

@@ -10,12 +10,38 @@
 #ifdef __AVX__
 #include <immintrin.h>
 #endif
+#ifdef __wasm_simd128__
+#include <wasm_simd128.h>
+#endif
 
 namespace lararium::light {
 
 using Lanes = float __attribute__((vector_size(32)));
 using IntLanes = int32_t __attribute__((vector_size(32)));
 inline constexpr size_t kLanes = 8;
+
+// Sixteen 16-bit integers in the same register size.
+using ShortLanes = int16_t __attribute__((vector_size(32)));
+inline constexpr size_t kShortLanes = 16;
+
+#ifdef __wasm_simd128__
+// The registers of WebAssembly are half as wide.
+inline v128_t Low(const Lanes& a) {
+  return reinterpret_cast<v128_t>(__builtin_shufflevector(a, a, 0, 1, 2, 3));
+}
+inline v128_t High(const Lanes& a) {
+  return reinterpret_cast<v128_t>(__builtin_shufflevector(a, a, 4, 5, 6, 7));
+}
+inline v128_t Low(const ShortLanes& a) {
+  return reinterpret_cast<v128_t>(__builtin_shufflevector(a, a, 0, 1, 2, 3, 4, 5, 6, 7));
+}
+inline v128_t High(const ShortLanes& a) {
+  return reinterpret_cast<v128_t>(__builtin_shufflevector(a, a, 8, 9, 10, 11, 12, 13, 14, 15));
+}
+inline IntLanes Join(v128_t low, v128_t high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+#endif
 
 constexpr size_t PaddedToLanes(size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
@@ -52,6 +78,8 @@ inline Lanes MultiplyAdd(const Lanes& a, const Lanes& b, const Lanes& c) {
 inline Lanes LoadHalves(const float* low, const float* high) {
 #ifdef __AVX__
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+#elif defined(__wasm_simd128__)
+  return reinterpret_cast<Lanes>(Join(wasm_v128_load(low), wasm_v128_load(high)));
 #else
   Lanes lanes;
   std::memcpy(&lanes, low, sizeof(lanes) / 2);
@@ -66,6 +94,8 @@ inline Lanes Min(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 inline Lanes Sqrt(const Lanes& a) {
 #ifdef __AVX__
   return _mm256_sqrt_ps(a);
+#elif defined(__wasm_simd128__)
+  return reinterpret_cast<Lanes>(Join(wasm_f32x4_sqrt(Low(a)), wasm_f32x4_sqrt(High(a))));
 #else
   Lanes root;
   for (size_t i = 0; i < kLanes; ++i) {
@@ -78,6 +108,9 @@ inline Lanes Sqrt(const Lanes& a) {
 inline bool AnyAbove(const Lanes& a, float threshold) {
 #ifdef __AVX__
   return _mm256_movemask_ps(_mm256_cmp_ps(a, _mm256_set1_ps(threshold), _CMP_GT_OQ)) != 0;
+#elif defined(__wasm_simd128__)
+  const v128_t all = wasm_f32x4_splat(threshold);
+  return wasm_v128_any_true(wasm_v128_or(wasm_f32x4_gt(Low(a), all), wasm_f32x4_gt(High(a), all)));
 #else
   bool any = false;
   for (size_t i = 0; i < kLanes; ++i) {
@@ -150,10 +183,6 @@ inline void TransposeHalves(Lanes (&rows)[4]) {
   rows[3] = __builtin_shufflevector(b, d, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-// Sixteen 16-bit integers in the same register size.
-using ShortLanes = int16_t __attribute__((vector_size(32)));
-inline constexpr size_t kShortLanes = 16;
-
 constexpr size_t PaddedToShortLanes(size_t count) {
   return (count + kShortLanes - 1) / kShortLanes * kShortLanes;
 }
@@ -169,11 +198,14 @@ inline ShortLanes BroadcastShort(int16_t a) {
   return ShortLanes{a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a};
 }
 
-// a b / 2^15, rounded.
+// a b / 2^15, rounded. Not for -2^15 times itself.
 inline ShortLanes MultiplyHigh(const ShortLanes& a, const ShortLanes& b) {
 #ifdef __AVX2__
   return reinterpret_cast<ShortLanes>(
       _mm256_mulhrs_epi16(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
+#elif defined(__wasm_simd128__)
+  return reinterpret_cast<ShortLanes>(
+      Join(wasm_i16x8_q15mulr_sat(Low(a), Low(b)), wasm_i16x8_q15mulr_sat(High(a), High(b))));
 #else
   ShortLanes product;
   for (size_t i = 0; i < kShortLanes; ++i) {
@@ -186,10 +218,16 @@ inline ShortLanes MultiplyHigh(const ShortLanes& a, const ShortLanes& b) {
 // Stores eight floats as rounded 16-bit integers. Values must be in range.
 inline void StoreAsShorts(const Lanes& a, int16_t* to) {
   const Lanes half = a < 0.0f ? Broadcast(-0.5f) : Broadcast(0.5f);
+#ifdef __wasm_simd128__
+  const Lanes sum = a + half;
+  wasm_v128_store(to, wasm_i16x8_narrow_i32x4(wasm_i32x4_trunc_sat_f32x4(Low(sum)),
+                                              wasm_i32x4_trunc_sat_f32x4(High(sum))));
+#else
   using HalfLanes = int16_t __attribute__((vector_size(16)));
   const auto whole =
       __builtin_convertvector(__builtin_convertvector(a + half, IntLanes), HalfLanes);
   std::memcpy(to, &whole, sizeof(whole));
+#endif
 }
 
 // For each pair of neighbouring elements: the sum of the two products.
@@ -197,6 +235,8 @@ inline IntLanes DotPairs(const ShortLanes& a, const ShortLanes& b) {
 #ifdef __AVX2__
   return reinterpret_cast<IntLanes>(
       _mm256_madd_epi16(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
+#elif defined(__wasm_simd128__)
+  return Join(wasm_i32x4_dot_i16x8(Low(a), Low(b)), wasm_i32x4_dot_i16x8(High(a), High(b)));
 #else
   IntLanes sums;
   for (size_t i = 0; i < kLanes; ++i) {
@@ -211,6 +251,9 @@ inline ShortLanes LoadBytes(const int8_t* from) {
 #ifdef __AVX2__
   return reinterpret_cast<ShortLanes>(
       _mm256_cvtepi8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
+#elif defined(__wasm_simd128__)
+  return reinterpret_cast<ShortLanes>(
+      Join(wasm_i16x8_load8x8(from), wasm_i16x8_load8x8(from + kLanes)));
 #else
   ShortLanes lanes;
   for (size_t i = 0; i < kShortLanes; ++i) {
@@ -222,11 +265,16 @@ inline ShortLanes LoadBytes(const int8_t* from) {
 
 // Loads eight signed bytes into both halves.
 inline ShortLanes LoadEightBytesTwice(const int8_t* from) {
+#ifdef __wasm_simd128__
+  const v128_t half = wasm_i16x8_load8x8(from);
+  return reinterpret_cast<ShortLanes>(Join(half, half));
+#else
   using Words = int64_t __attribute__((vector_size(16)));
   using Bytes = int8_t __attribute__((vector_size(16)));
   int64_t bytes;
   std::memcpy(&bytes, from, sizeof(bytes));
   return __builtin_convertvector(reinterpret_cast<Bytes>(Words{bytes, bytes}), ShortLanes);
+#endif
 }
 
 }  // namespace lararium::light

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,28 +12,10 @@
 #include "shared/core/status.h"
 #include "shared/render/text/captions.h"
 #include "shared/render/text/menu.h"
+#include "shared/show/caption_texts.h"
 #include "shared/show/show.h"
 
 namespace lararium::show {
-
-// The texts of a show that captions use.
-struct CaptionTexts {
-  // Parallel to ShowContent::speech. Audio descriptions are in brackets.
-  std::vector<std::vector<stage::CaptionCue>> lines;
-  std::vector<std::string> speakers;  // Parallel to ShowContent::cast.
-};
-CaptionTexts TextsOf(const ShowContent& content);
-
-// Returns the caption at a time after its line began, or nullptr if there is none.
-const stage::CaptionCue* FindCue(std::span<const stage::CaptionCue> cues, double seconds);
-
-// Side of the picture on which a speaker outside the view is.
-render::CaptionSide SideOf(const StagedFrame& staged, uint32_t cast);
-
-// Collects the two captions that began last, newest first.
-void CollectCaptions(const CaptionTexts& texts,
-                     const StagedFrame& staged,
-                     std::vector<render::Caption>& captions);
 
 class Evidence;
 

@@ -1,20 +1,16 @@
 #include "shared/image/codecs.h"
 
-// In a browser only JPEG is decoded here, because keyframes need the very pixels that training saw.
-// The browser decodes all other pictures.
+// In a browser only JPEG and PNG are decoded here: keyframes need the very pixels that training
+// saw, and letters those that the editor drew. The browser decodes all other pictures.
 
 namespace lararium::image {
 namespace {
 
 Status LeftToBrowser(const std::string& where) {
-  return Status::Error(where, "is no JPEG", "let the browser decode it");
+  return Status::Error(where, "is no JPEG or PNG", "let the browser decode it");
 }
 
 }  // namespace
-
-Result<cv::Mat> DecodePng(Bytes /*encoded*/, Channels /*channels*/, const std::string& where) {
-  return LeftToBrowser(where);
-}
 
 Result<cv::Mat> DecodeTiff(Bytes /*encoded*/, Channels /*channels*/, const std::string& where) {
   return LeftToBrowser(where);
