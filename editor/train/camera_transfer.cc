@@ -21,20 +21,29 @@ Eigen::Vector2d PixelIn(const CameraModel& to, const CameraModel& from, float x,
 
 }  // namespace
 
-cv::Mat Resampled(cv::Mat image, CameraModel from, const CameraModel& to) {
-  if (image.empty() || from == to) {
-    return image;
+void Resample(CameraModel from, const CameraModel& to, std::span<cv::Mat* const> images) {
+  if (from == to || std::ranges::all_of(images, [](const cv::Mat* i) { return i->empty(); })) {
+    return;
   }
-  if (from.Focal() > 1.5 * to.Focal()) {  // Averages first, against aliasing.
+  const bool average_first = from.Focal() > 1.5 * to.Focal();  // Against aliasing.
+  if (average_first) {
     from = from.Resized(
         std::max(1, static_cast<int>(std::lround(from.width * to.Focal() / from.Focal()))),
         std::max(1, static_cast<int>(std::lround(from.height * to.Focal() / from.Focal()))));
-    cv::resize(image, image, cv::Size(from.width, from.height), 0.0, 0.0, cv::INTER_AREA);
   }
-  cv::Mat resampled;
-  cv::remap(image, resampled, geometry::PixelsSeenBy(from, to), cv::noArray(), cv::INTER_LINEAR,
-            cv::BORDER_REPLICATE);
-  return resampled;
+  const cv::Mat pixels = geometry::PixelsSeenBy(from, to);
+  for (cv::Mat* image : images) {
+    if (image->empty()) {
+      continue;
+    }
+    cv::Mat resampled;
+    if (average_first) {
+      cv::resize(*image, resampled, cv::Size(from.width, from.height), 0.0, 0.0, cv::INTER_AREA);
+      *image = std::exchange(resampled, cv::Mat());
+    }
+    cv::remap(*image, resampled, pixels, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    *image = resampled;
+  }
 }
 
 Features FeaturesIn(const CameraModel& to, const CameraModel& from, const Features& features) {

@@ -4,6 +4,7 @@
 // and observations of one camera only.
 
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <vector>
 
 #include "shared/geometry/camera_model.h"
@@ -12,8 +13,10 @@
 
 namespace lararium::train {
 
-// Resamples an image of camera `from` to that which camera `to` would have taken.
-cv::Mat Resampled(cv::Mat image, geometry::CameraModel from, const geometry::CameraModel& to);
+// Resamples images of camera `from` to those which camera `to` would have taken. Empty ones stay.
+void Resample(geometry::CameraModel from,
+              const geometry::CameraModel& to,
+              std::span<cv::Mat* const> images);
 
 // Returns the features that lie in the image of camera `to`, at their pixels there.
 vision::Features FeaturesIn(const geometry::CameraModel& to,

@@ -1,6 +1,7 @@
 #include "editor/train/database_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -103,9 +104,7 @@ class Builder {
       const geometry::CameraModel& camera = reconstruction_.camera(image);
       if (camera != database_.camera) {
         of_keyframe = ObservationsIn(database_.camera, camera, std::move(of_keyframe));
-        cv::Mat& grey = database_.keyframes[k].grey;
-        grey = Resampled(grey, camera, database_.camera);
-        bgr_[k] = Resampled(bgr_[k], camera, database_.camera);
+        Resample(camera, database_.camera, std::array{&database_.keyframes[k].grey, &bgr_[k]});
       }
       converted.insert(converted.end(), of_keyframe.begin(), of_keyframe.end());
     }

@@ -477,7 +477,7 @@ class Merger {
       vision::Keyframe& keyframe = db.keyframes.emplace_back(session_.keyframes[k]);
       keyframe.camera_from_map = poses_[k];
       keyframe.motion = cameras_.motions[MapKeyframes() + k];
-      keyframe.grey = Resampled(keyframe.grey, session_.camera, map_.camera);
+      Resample(session_.camera, map_.camera, std::array{&keyframe.grey});
       for (size_t c = 0; c < 3; ++c) {
         keyframe.gain[c] *= exposure[c];
       }

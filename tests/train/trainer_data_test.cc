@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -104,8 +105,9 @@ void PhotographWith(const std::vector<geometry::CameraModel>& cameras,
     const auto frame = (*source)->Next();
     ASSERT_TRUE(frame.ok() && frame->has_value());
     const std::string name = (*source)->FrameName((*frame)->index);
-    ASSERT_TRUE(
-        cv::imwrite((out / name).string(), Resampled((*frame)->bgr, taken_by, cameras[camera])));
+    cv::Mat image = (*frame)->bgr;
+    Resample(taken_by, cameras[camera], std::array{&image});
+    ASSERT_TRUE(cv::imwrite((out / name).string(), image));
   }
 }
 

@@ -281,7 +281,7 @@ TEST(Trainer, TellsTheFocalLengthOfEachFrameWhereAutofocusMoves) {
   ASSERT_TRUE(result.ok()) << result.message();
   ASSERT_EQ(result->report.located.size(), ratios.size());
   // Walking past two walls does not tell the mean focal length well.
-  double mean = 0.0;  // Of the focal lengths as shares of the true ones.
+  double mean = 0.0;  // This is the mean of the focal lengths as shares of the true ones.
   for (size_t i = 0; i < ratios.size(); ++i) {
     const double share = result->report.located[i].camera.fx / (ratios[i] * Camera().fx);
     mean += share / static_cast<double>(ratios.size());
