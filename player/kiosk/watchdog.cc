@@ -18,6 +18,8 @@
 #include <string>
 #include <string_view>
 
+#include "shared/core/number_text.h"
+
 namespace lararium::player {
 namespace {
 
@@ -244,7 +246,7 @@ int Supervise(const std::function<int(const ChildStart&, Heartbeat&)>& child,
                 ? options.first_pause_seconds
                 : std::min(std::max(2.0 * pause, 0.25), options.longest_pause_seconds);
     log.Error("the show ended with {}; it is begun again{}", code,
-              pause > 0.0 ? " in " + std::to_string(pause) + " s" : "");
+              pause > 0.0 ? " in " + FormatNumber(pause) + " s" : "");
     ++start.number;
     Pause(pause);
     if (g_end_asked != 0) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "shared/core/number_text.h"
 #include "shared/drama/host_bindings.h"
 #include "shared/drama/lua_binding.h"
 #include "shared/drama/script_runtime.h"
@@ -248,10 +249,11 @@ Cue CheckCue(ScriptRuntime& run, lua_State* lua, const CueLane& lane) {
       cue.index = *speech;
       if (lane.kind == LaneKind::kSpeech && cue.length > 0.0 &&
           run.stage().SpeechSeconds(cue.index) > cue.length + 0.05) {
-        run.Report({lane.where + ": track: the line '" + cue.name + "' takes " +
-                        std::to_string(run.stage().SpeechSeconds(cue.index)) +
-                        " s, longer than its slot",
-                    ""});
+        run.Report(
+            {lane.where + ": track: the line '" + cue.name + "' takes " +
+                 FormatNumber(std::round(100.0 * run.stage().SpeechSeconds(cue.index)) / 100.0) +
+                 " s, longer than its slot",
+             ""});
       }
       break;
     }
