@@ -353,7 +353,7 @@ class Bundle {
   }
 
   // Adds what is known of how autofocus moves between images; cameras and their times are in the
-  // order of the film.
+  // order of the film. Intrinsics that are adjusted are those of the mean focal length.
   void AddBreathing(std::span<const uint32_t> cameras, std::span<const double> times) {
     std::vector<double*> blocks;
     for (size_t i = 0; i < cameras.size(); ++i) {
@@ -363,7 +363,9 @@ class Bundle {
                                   blocks[i - 1], blocks[i]);
       }
     }
-    problem_.AddResidualBlock(new MeanBreathCost(blocks.size()), nullptr, blocks);
+    if (options_.refine_intrinsics) {
+      problem_.AddResidualBlock(new MeanBreathCost(blocks.size()), nullptr, blocks);
+    }
   }
 
   bool Solve() {

@@ -108,12 +108,13 @@ std::optional<double> AdjustToBreathing(Reconstruction& reconstruction,
   constexpr double kLeast = 0.002;
   constexpr int kRounds = 4;  // The points were made for a lens that stands still.
   const auto breath = [&] {
-    double sum = 0.0;
-    for (const uint32_t image : reconstruction.LocatedImages()) {
-      const uint32_t camera = reconstruction.CameraOf(image);
-      sum += std::pow(std::log(*reconstruction.cameras()[camera].focal_ratio), 2);
+    const std::vector<uint32_t> images = reconstruction.LocatedImages();
+    Eigen::VectorXd changes(std::ssize(images));
+    for (Eigen::Index i = 0; i < changes.size(); ++i) {
+      const uint32_t camera = reconstruction.CameraOf(images[static_cast<size_t>(i)]);
+      changes[i] = std::log(*reconstruction.cameras()[camera].focal_ratio);
     }
-    return std::sqrt(sum / static_cast<double>(reconstruction.LocatedImages().size()));
+    return std::sqrt((changes.array() - changes.mean()).square().mean());
   };
   const Reconstruction before = reconstruction;
   reconstruction.LetBreathe(std::move(times));

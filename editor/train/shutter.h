@@ -47,7 +47,8 @@ std::optional<Shutter> AdjustToShutter(Reconstruction& reconstruction,
                                        Log& log);
 
 // Estimates by how much autofocus has moved the lens in each image of a film, and adjusts the map
-// to it. times[image]: See Reconstruction::LetBreathe. options say which intrinsics may change.
+// to it. times[image]: See Reconstruction::LetBreathe. options say which intrinsics may change; if
+// none may, the given focal length need not be the mean.
 // Returns the root mean square of the focal lengths' relative changes; nullopt if the lens stood
 // still as far as the images tell: the map then stays as it is.
 std::optional<double> AdjustToBreathing(Reconstruction& reconstruction,

@@ -161,7 +161,7 @@ class Trainer {
 
   // Estimates whether autofocus moved while a film was made. Returns whether the map has changed.
   bool AdjustsToBreathing() {
-    if (options_.intrinsics || !verified_.film_gap) {
+    if (!verified_.film_gap) {
       return false;
     }
     std::vector<double> times;

@@ -23,11 +23,11 @@
 namespace lararium::train {
 
 struct TrainOptions {
-  // Given intrinsics are kept; see CamerasOf for sources of several cameras. Otherwise the focal
-  // length and two radial terms of each camera are estimated, with square pixels, starting from the
-  // focal length of EXIF data or from that on which the two-view geometries agree best. The
-  // principal point is estimated if there is one camera and the images determine it; otherwise it
-  // is the image's centre.
+  // Given intrinsics are kept, but for what autofocus moves in a film; see CamerasOf for sources of
+  // several cameras. Otherwise the focal length and two radial terms of each camera are estimated,
+  // with square pixels, starting from the focal length of EXIF data or from that on which the
+  // two-view geometries agree best. The principal point is estimated if there is one camera and the
+  // images determine it; otherwise it is the image's centre.
   std::optional<geometry::CameraModel> intrinsics;
 
   uint32_t session = 0;  // Session number of keyframes and points, below 32.

@@ -130,10 +130,11 @@ struct BreathingFilm {
   std::vector<double> ratios;
   std::vector<double> times;
 
-  explicit BreathingFilm(double most) {
+  // most: The largest change. mean: What the mean is greater by than the world's focal length.
+  explicit BreathingFilm(double most, double mean = 0.0) {
     for (uint32_t image = 0; image < world.pixels.size(); ++image) {
       times.push_back(8.0 * image);
-      ratios.push_back(1.0 + most * std::sin(1.3 * image));
+      ratios.push_back(1.0 + mean + most * std::sin(1.3 * image));
       for (Eigen::Vector2d& pixel : world.pixels[image]) {
         const Eigen::Vector2d centre(world.camera.cx, world.camera.cy);
         pixel = centre + ratios[image] * (pixel - centre);
@@ -149,7 +150,7 @@ struct BreathingFilm {
     return std::exp(sum);
   }
 
-  Reconstruction Located() const {
+  Reconstruction Located(bool refine_intrinsics) const {
     Reconstruction reconstruction = world.Unsolved(world.Pairs(11, world.camera), world.camera);
     for (uint32_t image = 0; image < world.pixels.size(); ++image) {
       reconstruction.Locate(image, world.camera_from_world[image]);
@@ -157,14 +158,14 @@ struct BreathingFilm {
     for (uint32_t track = 0; track < reconstruction.tracks().size(); ++track) {
       reconstruction.Triangulate(track, {.max_error_px = 20.0});
     }
-    EXPECT_TRUE(AdjustAll(reconstruction, {0, 8}, {.refine_intrinsics = true}));
+    EXPECT_TRUE(AdjustAll(reconstruction, {0, 8}, {.refine_intrinsics = refine_intrinsics}));
     return reconstruction;
   }
 };
 
 TEST(AdjustToBreathing, FindsTheFocalLengthOfEachImageWithAnHonestDeviation) {
   const BreathingFilm film(0.024);
-  Reconstruction reconstruction = film.Located();
+  Reconstruction reconstruction = film.Located(true);
   const double before = film.world.CenterError(reconstruction);
   BundleOptions options{.refine_intrinsics = true};
   ASSERT_TRUE(AdjustToBreathing(reconstruction, {0, 8}, film.times, MapperOptions(), options,
@@ -183,9 +184,22 @@ TEST(AdjustToBreathing, FindsTheFocalLengthOfEachImageWithAnHonestDeviation) {
   EXPECT_LT(film.world.CenterError(reconstruction), 0.3 * before);
 }
 
+TEST(AdjustToBreathing, KeepsAGivenCameraWhoseMeanFocalLengthIsAnother) {
+  const BreathingFilm film(0.024, 0.03);
+  Reconstruction reconstruction = film.Located(false);
+  ASSERT_TRUE(
+      AdjustToBreathing(reconstruction, {0, 8}, film.times, MapperOptions(), {}, *MakeSilentLog()));
+  EXPECT_EQ(reconstruction.camera(), film.world.camera);
+  for (uint32_t image = 0; image < film.ratios.size(); ++image) {
+    EXPECT_NEAR(reconstruction.camera(image).fx / (film.ratios[image] * film.world.camera.fx), 1.0,
+                0.004)
+        << image;
+  }
+}
+
 TEST(AdjustToBreathing, LeavesTheMapOfALensThatStandsStillAlone) {
   const BreathingFilm film(0.0);
-  Reconstruction reconstruction = film.Located();
+  Reconstruction reconstruction = film.Located(true);
   const Eigen::Vector3d center = reconstruction.camera_from_map(3).Center();
   EXPECT_FALSE(AdjustToBreathing(reconstruction, {0, 8}, film.times, MapperOptions(),
                                  {.refine_intrinsics = true}, *MakeSilentLog()));
