@@ -337,7 +337,9 @@ PixelBounds Renderer::State::CollectDraws(const RenderScene& scene, const Pictur
                  human.mark},
                 view, bounds);
   }
-  std::ranges::stable_sort(draws, {}, [&](const ModelDraw& draw) { return RootDepth(draw, view); });
+  std::stable_sort(draws.begin(), draws.end(), [&](const ModelDraw& a, const ModelDraw& b) {
+    return RootDepth(a, view) < RootDepth(b, view);
+  });
   return bounds.Pixels(view.size.width, view.size.height);
 }
 

@@ -18,7 +18,8 @@ constexpr float kWeightSteps = 32.0f;
 constexpr double kPicturesUntilSeen = 1.5;
 
 bool CatchesShadows(const ShowPlace& place) {
-  return std::ranges::any_of(place.stage.occluders, &stage::Occluder::receives_shadow);
+  return std::any_of(place.stage.occluders.begin(), place.stage.occluders.end(),
+                     [](const stage::Occluder& occluder) { return occluder.receives_shadow; });
 }
 
 // Moves the camera to its predicted pose after a number of frames.
@@ -51,7 +52,7 @@ Result<std::unique_ptr<ShowRenderer>> ShowRenderer::Create(const ShowContent& co
     show->places_[i].glossy = content.places[i].glossy;
     show->SetPlace(i, content.places[i].stage);
   }
-  if (std::ranges::any_of(content.places, CatchesShadows)) {
+  if (std::any_of(content.places.begin(), content.places.end(), CatchesShadows)) {
     LARARIUM_RETURN_IF_ERROR(show->renderer_->PrepareCaughtShadows());
   }
   return show;

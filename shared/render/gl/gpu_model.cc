@@ -125,10 +125,13 @@ void UploadIndices(const PartSource& source, GpuModel::Part& part) {
         {indices.size(), static_cast<int>(level.indices.size()), level.error, level.vertices});
     indices.insert(indices.end(), level.indices.begin(), level.indices.end());
   }
-  // Not GL_ELEMENT_ARRAY_BUFFER, because that would change the vertex array which is bound.
-  glBindBuffer(GL_COPY_WRITE_BUFFER, part.indices.id());
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(Index)),
+  // WebGL wants indices under this target from the beginning, which belongs to a vertex array.
+  const GlVertexArray array = GlVertexArray::Generate();
+  glBindVertexArray(array.id());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(Index)),
                indices.data(), GL_STATIC_DRAW);
+  glBindVertexArray(0);
 }
 
 void ApplyMaterial(const human::Material& material, GpuModel::Part& part) {
@@ -242,7 +245,7 @@ class TextureList {
       return GpuModel::kNoTexture;
     }
     const std::shared_ptr<const human::Texture>& wanted = textures_[static_cast<size_t>(texture)];
-    auto found = std::ranges::find_if(sources_, [&](const TextureSource& source) {
+    auto found = std::find_if(sources_.begin(), sources_.end(), [&](const TextureSource& source) {
       return source.texture == wanted && source.use == use;
     });
     if (found == sources_.end()) {

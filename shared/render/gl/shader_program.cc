@@ -105,11 +105,14 @@ ShaderProgram::ShaderProgram(GlProgram program) : program_(std::move(program)) {
       uniforms_.push_back({std::move(name), location});
     }
   }
-  std::ranges::sort(uniforms_, {}, &Uniform::name);
+  std::sort(uniforms_.begin(), uniforms_.end(),
+            [](const Uniform& a, const Uniform& b) { return a.name < b.name; });
 }
 
 int ShaderProgram::Location(std::string_view name) const {
-  const auto found = std::ranges::lower_bound(uniforms_, name, {}, &Uniform::name);
+  const auto found = std::lower_bound(
+      uniforms_.begin(), uniforms_.end(), name,
+      [](const Uniform& uniform, std::string_view wanted) { return uniform.name < wanted; });
   return found != uniforms_.end() && found->name == name ? found->location : -1;
 }
 

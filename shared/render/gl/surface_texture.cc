@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "shared/core/check.h"
+#include "shared/render/gl/channel_order.h"
 
 namespace lararium::render {
 namespace {
@@ -26,12 +27,11 @@ void SetFiltering() {
 }
 
 void UploadColour(const cv::Mat& bgra) {
+  const cv::Mat image = InUploadOrder(bgra);
   // Four channels, because OpenGL ES cannot generate mipmaps of sRGB textures with three.
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, bgra.cols, bgra.rows, 0, GL_RGBA,
-               GL_UNSIGNED_BYTE, bgra.data);
-  // The image is BGR, which OpenGL ES cannot upload: swap red and blue when the texture is read.
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, image.cols, image.rows, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, image.data);
+  SwapRedAndBlueIfNeeded();
 }
 
 // Uploads x and y only: the shader computes z of the unit normal, which points outwards.

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "shared/core/check.h"
+#include "shared/render/gl/channel_order.h"
 
 namespace lararium::render {
 
@@ -19,23 +20,22 @@ void Texture::Upload(const cv::Mat& bgr) {
   if (fresh) {
     texture_ = GlTexture::Generate();
   }
+  const cv::Mat image = InUploadOrder(bgr);
   glBindTexture(GL_TEXTURE_2D, texture_.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(bgr.step / bgr.elemSize()));
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(image.step / image.elemSize()));
   if (bgr.cols != width_ || bgr.rows != height_) {
     width_ = bgr.cols;
     height_ = bgr.rows;
     glTexImage2D(GL_TEXTURE_2D, 0, bytes ? GL_RGB8 : GL_RGBA16F, width_, height_, 0, format, type,
-                 bgr.data);
+                 image.data);
   } else {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, format, type, bgr.data);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, format, type, image.data);
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   if (fresh) {
-    // The image is BGR, which OpenGL ES cannot upload: swap red and blue when the texture is read.
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
+    SwapRedAndBlueIfNeeded();
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "shared/core/background.h"
 #include "shared/core/parallel.h"
 #include "shared/render/gl/surface_texture.h"
 
@@ -102,7 +103,7 @@ void TextureStore::Update() {
     return;
   }
   if (decoding_.valid()) {
-    if (decoding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    if (decoding_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) {
       return;
     }
     Finer finer = decoding_.get();
@@ -115,7 +116,7 @@ void TextureStore::Update() {
   std::shared_ptr<StoredTexture> coarse = FindCoarse();
   any_coarse_ = coarse != nullptr;
   if (any_coarse_) {
-    decoding_ = std::async(std::launch::async,
+    decoding_ = std::async(BackgroundLaunch(),
                            [texture = std::move(coarse), halvings = halvings_]() mutable -> Finer {
                              Result<cv::Mat> image = Decode(texture->source_, halvings);
                              return {std::move(texture), std::move(image), halvings};

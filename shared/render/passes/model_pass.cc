@@ -84,7 +84,7 @@ void ScatterInSkin(PlainIrradiance& irradiance) {
 }
 
 void PackDualQuaternions(std::span<const glm::mat4> skin, std::span<glm::mat4> packed) {
-  std::ranges::transform(skin, packed.begin(), [](const glm::mat4& matrix) {
+  std::transform(skin.begin(), skin.end(), packed.begin(), [](const glm::mat4& matrix) {
     const human::DualQuaternion q = human::ToDualQuaternion(matrix);
     return glm::mat4(glm::vec4(q.real.x, q.real.y, q.real.z, q.real.w),
                      glm::vec4(q.dual.x, q.dual.y, q.dual.z, q.dual.w),
@@ -202,7 +202,7 @@ void ModelPass::UploadSkins(std::span<const ModelDraw> draws) {
     if (draws[i].model->skin == GpuModel::Skin::kDualQuaternion) {
       PackDualQuaternions(draws[i].skin, packed);
     } else {
-      std::ranges::copy(draws[i].skin, packed.begin());
+      std::copy(draws[i].skin.begin(), draws[i].skin.end(), packed.begin());
     }
   }
   glBindBuffer(GL_UNIFORM_BUFFER, skin_.id());

@@ -5,8 +5,10 @@
 namespace lararium::render {
 
 bool StillDraws::State::Is(const ModelDraw& draw) const {
-  return draw.model == model && std::ranges::equal(draw.skin, stage_from_part) &&
-         std::ranges::equal(draw.shown, shown);
+  return draw.model == model &&
+         std::equal(draw.skin.begin(), draw.skin.end(), stage_from_part.begin(),
+                    stage_from_part.end()) &&
+         std::equal(draw.shown.begin(), draw.shown.end(), shown.begin(), shown.end());
 }
 
 void StillDraws::State::Become(const ModelDraw& draw) {
