@@ -60,6 +60,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const lararium::Status status = lararium::WriteFileAtomically(argv[1], lararium::NumberTexts());
-  std::fprintf(stderr, "%s", status.message().c_str());
-  return status.ok() ? 0 : 1;
+  if (!status.ok()) {
+    std::fprintf(stderr, "%s\n", status.message().c_str());
+    return 1;
+  }
+  return 0;
 }

@@ -1,6 +1,6 @@
 // show_frames BUNDLE FRAMES SECONDS FOLDER
-// Stages a show from that moment of its drama on, 30 frames a second, as it is seen from the
-// place's first keyframe, and writes what the test of the show in WebAssembly compares:
+// Stages a show from that moment of its drama on, 30 frames a second, as it is seen from one
+// of the place's keyframes, and writes what the test of the show in WebAssembly compares:
 //   FOLDER/people.f32   where people stand and how they are posed: stage_from_actor, skin matrices
 //   FOLDER/hair.f32     skin matrices of joints that swing
 //   FOLDER/faces.f32    some of the vertices of faces, and their normals
@@ -19,19 +19,17 @@
 #include <string>
 #include <vector>
 
-#include "shared/bundle/bundle.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/log.h"
 #include "shared/core/parallel.h"
 #include "shared/show/caption_texts.h"
 #include "shared/show/show.h"
+#include "tests/web/moment.h"
 
 namespace lararium::show {
 namespace {
 
-constexpr float kFinest = 0.003f;  // metres
-constexpr double kSecondsPerFrame = 1.0 / 30.0;
 // Only every 61st vertex is written, so that the files stay small.
 constexpr size_t kStep = 61;
 
@@ -125,34 +123,16 @@ Status StageFrames(const std::filesystem::path& file,
                    double seconds,
                    const std::filesystem::path& folder) {
   const Clock::time_point start = Clock::now();
-  LARARIUM_ASSIGN_OR_RETURN(std::optional<bundle::Bundle> bundle, bundle::Bundle::Open(file));
-  LARARIUM_ASSIGN_OR_RETURN(ShowContent content, LoadShowContent(*bundle, {}, {}, kFinest));
-  bundle.reset();
-  // Where finer people are read in the background, it depends on the machine when they come.
-  content.finer = {};
   const std::shared_ptr<Log> log = MakeSilentLog();
-  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Show> show,
-                            Show::Create(std::move(content), {}, *log));
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Show> show, OpenAt(file, seconds, *log));
   Json described = {{"loading_milliseconds", MillisecondsSince(start)}};
-  const Clock::time_point played = Clock::now();
-  LARARIUM_RETURN_IF_ERROR(show->PrepareAt(seconds));
-  described["playing_milliseconds"] = MillisecondsSince(played);
-  show->detail().SetPictureSize(640, 480);
-  show->detail().SetSeenAround(true);
-
-  const vision::SceneDatabase& map = *show->content().places.front().map;
-  vision::TrackedFrame tracked;
-  tracked.camera = map.camera.GuessForImages(640, 480);
-  tracked.camera_from_map = map.keyframes.front().camera_from_map;
-  tracked.state = vision::TrackState::kTracking;
   const CaptionTexts texts = TextsOf(show->content());
   Numbers numbers;
   StagedFrame staged;
   for (int i = 0; i < frames; ++i) {
-    tracked.frame.index = i;
-    tracked.frame.capture_time = i * kSecondsPerFrame;
+    const vision::TrackedFrame tracked = ViewOf(*show, i);
     const Clock::time_point begin = Clock::now();
-    show->StageFrame(tracked, i * kSecondsPerFrame, staged);
+    show->StageFrame(tracked, tracked.frame.capture_time, staged);
     const double milliseconds = MillisecondsSince(begin);
     described["frames"].push_back(Described(staged, texts, milliseconds));
     AppendNumbers(staged, numbers);

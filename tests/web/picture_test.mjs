@@ -1,0 +1,144 @@
+// node picture_test.mjs REFERENCE_PROGRAM WEB_FOLDER CHROMIUM WORK_FOLDER SHOW SECONDS
+// A page in Chromium without a screen draws a moment of a show with WebGL 2, by SwiftShader; the picture is compared with
+// the native one in OpenGL ES 3.0. Prints the calls and bytes that a frame hands to WebGL. Status 77: something that the
+// test needs is absent.
+import assert from 'node:assert/strict';
+import {execFileSync, spawn} from 'node:child_process';
+import {createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {createServer} from 'node:http';
+
+const [reference, web, chromium, work, show, seconds] = process.argv.slice(2);
+for (const [file, remedy] of [[`${web}/draw_moment.wasm`, 'build the preset `web`'], [show, 'run ./demo'],
+  [chromium, 'install chromium']]) {
+  if (!existsSync(file)) {
+    console.log(`skipped: ${file} is absent; ${remedy}`);
+    process.exit(77);
+  }
+}
+const LEAST_DB = 40;
+const MOST_DRAWS = 200;
+const MOST_BYTES = 4e6;
+
+// Runs in the page: counts what each frame hands to WebGL, and runs the program on the show.
+async function draw(seconds) {
+  const frames = [{calls: 0, draws: 0, bytes: 0}];
+  const bytesOf = {
+    bufferData: (a) => a.length > 3 ? a[4] : 0,
+    bufferSubData: (a) => a[4],
+    texImage2D: (a) => a[8] ? a[3] * a[4] * texelBytes(a[6], a[7]) : 0,
+    texSubImage2D: (a) => a[4] * a[5] * texelBytes(a[6], a[7]),
+  };
+  const gl = WebGL2RenderingContext;
+  const texelBytes = (format, type) => ({[gl.RGBA]: 4, [gl.RGB]: 3, [gl.RG]: 2}[format] ?? 1) *
+    ({[gl.FLOAT]: 4, [gl.HALF_FLOAT]: 2}[type] ?? 1);
+  for (const name of Object.getOwnPropertyNames(gl.prototype)) {
+    const {value} = Object.getOwnPropertyDescriptor(gl.prototype, name);
+    if (typeof value !== 'function') {
+      continue;
+    }
+    gl.prototype[name] = function (...args) {
+      const frame = frames.at(-1);
+      ++frame.calls;
+      frame.draws += name.startsWith('draw') && name !== 'drawBuffers' ? 1 : 0;
+      frame.bytes += bytesOf[name]?.(args) ?? (/^uniform.*v$/.test(name) ? 4 * args.at(-1) : 0);
+      const result = value.apply(this, args);
+      if (name === 'finish') {  // The end of a frame.
+        frames.push({calls: 0, draws: 0, bytes: 0});
+      }
+      return result;
+    };
+  }
+  const said = [];
+  const print = (text) => said.push(text);
+  try {
+    const program = await createProgram({print, printErr: print});
+    program.FS.writeFile('/show', new Uint8Array(await (await fetch('/show')).arrayBuffer()));
+    const start = performance.now();
+    const status = program.callMain(['/show', seconds, '/picture']);
+    said.push(`status ${status} after ${Math.round(performance.now() - start)} ms`);
+    const context = document.getElementById('lararium').getContext('webgl2');
+    said.push(`error ${context.getError()}`);
+    await fetch('/picture', {method: 'POST', body: program.FS.readFile('/picture')});
+  } catch (error) {
+    said.push(`${error}`);
+  }
+  await fetch('/report', {method: 'POST', body: JSON.stringify({frames, said})});
+}
+
+const page = `<!doctype html><meta charset=utf-8><title>picture</title><canvas id=lararium width=640 height=480></canvas>
+<script src=/draw_moment.js></script><script>(${draw})(${JSON.stringify(seconds)})</script>`;
+const files = {
+  '/draw_moment.js': [`${web}/draw_moment.js`, 'text/javascript'],
+  '/draw_moment.wasm': [`${web}/draw_moment.wasm`, 'application/wasm'],
+  '/show': [show, 'application/octet-stream'],
+};
+const posted = {};
+let finish;
+const finished = new Promise((resolve) => finish = resolve);
+const server = createServer(async (request, response) => {
+  if (request.method === 'POST') {
+    const parts = [];
+    for await (const part of request) {
+      parts.push(part);
+    }
+    posted[request.url] = Buffer.concat(parts);
+    response.end();
+    if (request.url === '/report') {
+      finish();
+    }
+  } else if (request.url === '/') {
+    response.writeHead(200, {'content-type': 'text/html'}).end(page);
+  } else if (files[request.url]) {
+    response.writeHead(200, {'content-type': files[request.url][1]});
+    createReadStream(files[request.url][0]).pipe(response);
+  } else {
+    response.writeHead(404).end();
+  }
+});
+await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+const profile = mkdtempSync(`${work}/chromium`);
+const browser = spawn(chromium, ['--headless=new', '--no-sandbox', '--no-first-run', '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader', `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`],
+{stdio: 'ignore', detached: true});
+browser.on('exit', () => finish());
+const limit = setTimeout(() => finish(), 500000);
+await finished;
+clearTimeout(limit);
+try {
+  process.kill(-browser.pid);
+} catch {
+  // It has ended by itself.
+}
+server.closeAllConnections();
+server.close();
+await new Promise((resolve) => setTimeout(resolve, 500));
+rmSync(profile, {recursive: true, force: true, maxRetries: 5});
+assert.ok(posted['/report'], 'the page has not reported');
+const report = JSON.parse(posted['/report']);
+console.log(`     the page says: ${report.said.join('; ')}`);
+assert.ok(posted['/picture'], 'the page has drawn nothing');
+
+execFileSync(reference, [show, seconds, `${work}/picture.bgr`], {stdio: 'inherit', env: {...process.env, LIBGL_ALWAYS_SOFTWARE: '1'}});
+const [drawn, expected] = [posted['/picture'], readFileSync(`${work}/picture.bgr`)];
+writeFileSync(`${work}/picture_web.bgr`, drawn);
+assert.equal(drawn.length, expected.length);
+assert.equal(drawn.length, 3 * 640 * 480);
+let squares = 0;
+let sum = 0;
+let sum_of_squares = 0;
+let worst = 0;
+drawn.forEach((value, i) => {
+  squares += (value - expected[i]) ** 2;
+  worst = Math.max(worst, Math.abs(value - expected[i]));
+  sum += value;
+  sum_of_squares += value * value;
+});
+const deviation = Math.sqrt(sum_of_squares / drawn.length - (sum / drawn.length) ** 2);
+assert.ok(deviation > 20, 'there is something to compare');
+const decibels = 10 * Math.log10(255 ** 2 * drawn.length / squares);
+console.log(`${decibels >= LEAST_DB ? 'ok  ' : 'MISS'} page against OpenGL ES 3.0: ${decibels.toFixed(1)} dB (bar ${LEAST_DB}), largest difference ${worst} of 255`);
+const frame = report.frames[2];  // The first frame uploads what stays.
+console.log(`${frame.draws <= MOST_DRAWS && frame.bytes <= MOST_BYTES ? 'ok  ' : 'MISS'} a frame: ${frame.calls} calls, ` +
+  `${frame.draws} of them draw (bar ${MOST_DRAWS}), ${(frame.bytes / 1e6).toFixed(2)} MB (bar ${MOST_BYTES / 1e6})`);
+assert.ok(decibels >= LEAST_DB && frame.draws > 0);
+process.exit(0);
