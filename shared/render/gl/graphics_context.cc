@@ -5,7 +5,6 @@
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "shared/render/gl/graphics_choice.h"
 
@@ -33,18 +32,6 @@ Status CheckDriver() {
                          "update the driver, or play with --graphics gl");
   }
   return Status();
-}
-
-OffscreenContext::OffscreenContext(OffscreenContext&& other) noexcept
-    : display_(other.display_),
-      context_(std::exchange(other.context_, nullptr)),
-      draws_on_processor_(other.draws_on_processor_) {}
-
-OffscreenContext& OffscreenContext::operator=(OffscreenContext&& other) noexcept {
-  std::swap(display_, other.display_);
-  std::swap(context_, other.context_);
-  std::swap(draws_on_processor_, other.draws_on_processor_);
-  return *this;
 }
 
 DrawingTurn::DrawingTurn(const OffscreenContext& context) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "shared/core/status.h"
 
@@ -24,8 +25,13 @@ using GraphicsChoice = std::optional<GraphicsApi>;
 // created in it. If other threads of the process draw as well, each takes turns (DrawingTurn).
 class OffscreenContext {
  public:
-  OffscreenContext(OffscreenContext&& other) noexcept;
-  OffscreenContext& operator=(OffscreenContext&& other) noexcept;
+  OffscreenContext(OffscreenContext&& other) noexcept { *this = std::move(other); }
+  OffscreenContext& operator=(OffscreenContext&& other) noexcept {
+    std::swap(display_, other.display_);
+    std::swap(context_, other.context_);
+    std::swap(draws_on_processor_, other.draws_on_processor_);
+    return *this;
+  }
   ~OffscreenContext();
 
   // Makes the context current on the calling thread.
