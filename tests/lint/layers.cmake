@@ -9,6 +9,7 @@ set(floors
   "shared/drama shared/bundle shared/render shared/audio"
   "shared/show"
   "web/tracker"
+  "web/page"
   "editor/text"
   "editor/desktop editor/train editor/import editor/export player/kiosk player/benchmark"
   "editor/bake editor/colmap player/staff player/openxr"

@@ -1,25 +1,14 @@
-// The functions that JavaScript calls (lararium-tracker.js). Those that can fail return an error's
-// text, which stays until the next call, or nullptr.
+// The functions that JavaScript calls (lararium-tracker.js). Those that can fail return
+// ErrorText().
 
 #include <emscripten/emscripten.h>
 
-#include <string>
-
+#include "web/tracker/error_text.h"
 #include "web/tracker/tracker_session.h"
 
-using lararium::Status;
+using lararium::web::ErrorText;
 using lararium::web::PostedSearch;
 using lararium::web::TrackerSession;
-
-namespace {
-
-const char* ErrorText(const Status& status) {
-  static std::string text;
-  text = status.message();
-  return status.ok() ? nullptr : text.c_str();
-}
-
-}  // namespace
 
 extern "C" {
 

@@ -31,6 +31,10 @@ export interface Pose {
   translation: [number, number, number];
 }
 
+/** All values of Tracked.state and Tracked.reason. */
+export const STATES: readonly Tracked['state'][];
+export const REASONS: readonly Tracked['reason'][];
+
 export interface Tracked {
   state: 'searching' | 'tracking' | 'lost';
   /** Why the image has no pose. */

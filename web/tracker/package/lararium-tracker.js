@@ -1,8 +1,9 @@
 // Finds the pose of a camera in a place that Lararium's editor was trained on.
 import createModule from './module.mjs';
 
-const STATES = ['searching', 'tracking', 'lost'];
-const REASONS = ['none', 'too dark', 'too few features', 'too few matches', 'no consistent pose', 'ambiguous'];
+// In the order of the program's numbers.
+export const STATES = ['searching', 'tracking', 'lost'];
+export const REASONS = ['none', 'too dark', 'too few features', 'too few matches', 'no consistent pose', 'ambiguous'];
 
 // The program's bytes or their compilation; one for all trackers of a worker.
 let compiled;

@@ -1,0 +1,61 @@
+// The functions that JavaScript calls (show.js). Those that can fail return web::ErrorText().
+
+#include <emscripten/emscripten.h>
+
+#include "web/page/page_show.h"
+#include "web/tracker/error_text.h"
+
+using lararium::web::ErrorText;
+using lararium::web::PageShow;
+using lararium::web::PixelFormat;
+
+namespace {
+
+constexpr const char* kFile = "/show.larshow";  // show.js writes it.
+
+std::unique_ptr<PageShow> show;
+
+}  // namespace
+
+extern "C" {
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_open() {
+  lararium::Result<std::unique_ptr<PageShow>> opened = PageShow::Open(kFile);
+  if (!opened.ok()) {
+    return ErrorText(opened.status());
+  }
+  show = *std::move(opened);
+  return nullptr;
+}
+
+EMSCRIPTEN_KEEPALIVE size_t lararium_map_count() { return show->map_count(); }
+
+// Writes address and size of a map.
+EMSCRIPTEN_KEEPALIVE const char* lararium_map(size_t index, uint32_t* address_and_size) {
+  const auto map = show->map(index);
+  if (!map.ok()) {
+    return ErrorText(map.status());
+  }
+  address_and_size[0] = reinterpret_cast<uintptr_t>(map->data());
+  address_and_size[1] = map->size();
+  return nullptr;
+}
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_load(bool reduced_motion) {
+  return ErrorText(show->Load(reduced_motion));
+}
+
+EMSCRIPTEN_KEEPALIVE uint8_t* lararium_new_image(int format, int width, int height) {
+  return show->NewImage(static_cast<PixelFormat>(format), width, height);
+}
+
+EMSCRIPTEN_KEEPALIVE const uint8_t* lararium_luminance() { return show->ComputeLuminance().data; }
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_draw(const double* tracked,
+                                               double seconds,
+                                               float hour,
+                                               double late_ms) {
+  return ErrorText(show->Draw({tracked, PageShow::kTrackedNumbers}, {seconds, hour, late_ms}));
+}
+
+}  // extern "C"

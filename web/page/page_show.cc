@@ -1,0 +1,153 @@
+#include "web/page/page_show.h"
+
+#include <algorithm>
+#include <chrono>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "shared/render/quality.h"
+#include "shared/vision/pose_smoother.h"
+
+namespace lararium::web {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr float kFinest = 0.003f;  // metres
+// The page asks the camera for this rate.
+constexpr double kFramesPerSecond = 30.0;
+
+size_t CoarsestLevel() { return render::QualityLadder().size() - 1; }
+
+// numbers: see PageShow::kTrackedNumbers.
+vision::TrackedFrame ParseTracked(std::span<const double> numbers) {
+  vision::TrackedFrame tracked;
+  tracked.state = static_cast<vision::TrackState>(numbers[0]);
+  tracked.reason = static_cast<vision::TrackReason>(numbers[1]);
+  tracked.followed = numbers[2] != 0.0;
+  tracked.map = static_cast<uint32_t>(numbers[3]);
+  if (tracked.state == vision::TrackState::kTracking) {
+    tracked.camera_from_map = geometry::Rigid3{
+        .rotation = Eigen::Quaterniond(numbers[7], numbers[4], numbers[5], numbers[6]),
+        .translation = Eigen::Vector3d(numbers[8], numbers[9], numbers[10])};
+  }
+  geometry::CameraModel& c = tracked.camera;
+  c.width = static_cast<int>(numbers[11]);
+  c.height = static_cast<int>(numbers[12]);
+  const double* number = &numbers[13];
+  for (double* value : {&c.fx, &c.fy, &c.cx, &c.cy, &c.k1, &c.k2, &c.p1, &c.p2}) {
+    *value = *number++;
+  }
+  return tracked;
+}
+
+}  // namespace
+
+// Gives the smoother the poses that another worker has found.
+class GivenPoses final : public vision::PoseSource {
+ public:
+  vision::TrackedFrame Track(const geometry::Frame& frame) override {
+    next.frame = frame;
+    return std::move(next);
+  }
+
+  vision::TrackedFrame next;
+};
+
+PageShow::PageShow(bundle::Bundle bundle)
+    : bundle_(std::move(bundle)),
+      log_(MakeSilentLog()),
+      quality_(show::QualityOptions::ForCamera(CoarsestLevel() + 1, kFramesPerSecond),
+               CoarsestLevel()) {}
+
+PageShow::~PageShow() = default;
+
+Result<std::unique_ptr<PageShow>> PageShow::Open(const std::filesystem::path& file) {
+  LARARIUM_ASSIGN_OR_RETURN(bundle::Bundle bundle, bundle::Bundle::Open(file));
+  return std::unique_ptr<PageShow>(new PageShow(std::move(bundle)));
+}
+
+Result<std::span<const std::byte>> PageShow::map(size_t index) const {
+  return bundle_->member(bundle_->manifest().places[index].scene);
+}
+
+Status PageShow::Load(bool reduced_motion) {
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
+                            show::LoadShowContent(*bundle_, {}, {}, kFinest));
+  bundle_.reset();
+  // No thread could read finer people.
+  content.finer = {};
+  LARARIUM_ASSIGN_OR_RETURN(context_,
+                            render::CreateOffscreenContext(render::GraphicsApi::kOpenGlEs30));
+  auto given = std::make_unique<GivenPoses>();
+  given_ = given.get();
+  smoothed_ =
+      vision::Smooth(std::move(given), show::Maps(content.places), vision::Smoothing::kSoft);
+  const render::Quality& quality = render::QualityLadder()[quality_.level()];
+  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content, quality));
+  drama::DramaOptions options;
+  options.past = drama::Past::kForgotten;
+  LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), options, *log_));
+  show_->SetTrackingLossFader({});
+  show_->detail().SetQuality(quality);
+  show_->input().SetReducedMotion(reduced_motion);
+  return Status();
+}
+
+uint8_t* PageShow::NewImage(PixelFormat format, int width, int height) {
+  format_ = format;
+  if (format == PixelFormat::kRgba) {
+    pixels_.create(height, width, CV_8UC4);
+  } else {
+    pixels_.create(height + height / 2, width, CV_8UC1);
+  }
+  return pixels_.data;
+}
+
+const cv::Mat& PageShow::ComputeLuminance() {
+  if (format_ == PixelFormat::kRgba) {
+    cv::cvtColor(pixels_, luminance_, cv::COLOR_RGBA2GRAY);
+  } else {
+    luminance_ = pixels_.rowRange(0, pixels_.rows * 2 / 3);
+  }
+  return luminance_;
+}
+
+Status PageShow::SetSize(int width, int height) {
+  if (!target_ || target_->width() != width || target_->height() != height) {
+    LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(width, height));
+    show_->detail().SetPictureSize(width, height);
+  }
+  return Status();
+}
+
+void PageShow::ChooseQuality(double seconds, double work_ms) {
+  if (staged_.camera.camera_from_stage && quality_.AddFrame(seconds, work_ms)) {
+    const render::Quality& quality = render::QualityLadder()[quality_.level()];
+    renderer_->SetQuality(quality);
+    show_->detail().SetQuality(quality);
+  }
+}
+
+Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
+  const Clock::time_point start = Clock::now();
+  const int code = format_ == PixelFormat::kI420   ? cv::COLOR_YUV2BGR_I420
+                   : format_ == PixelFormat::kNv12 ? cv::COLOR_YUV2BGR_NV12
+                                                   : cv::COLOR_RGBA2BGR;
+  // The pixels of the frame before may still be needed.
+  frame_.bgr.release();
+  cv::cvtColor(pixels_, frame_.bgr, code);
+  ++frame_.index;
+  frame_.capture_time = moment.seconds;
+  LARARIUM_RETURN_IF_ERROR(SetSize(frame_.bgr.cols, frame_.bgr.rows));
+  show_->input().SetHour(moment.hour);
+  given_->next = ParseTracked(tracked);
+  show_->StageFrame(smoothed_->Track(frame_), moment.seconds, staged_);
+  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
+  target_->Present(target_->width(), target_->height());
+  const std::chrono::duration<double, std::milli> work = Clock::now() - start;
+  ChooseQuality(moment.seconds, std::max(work.count(), moment.late_ms));
+  return Status();
+}
+
+}  // namespace lararium::web

@@ -1,0 +1,84 @@
+#pragma once
+
+// A show as a page plays it: takes images of the camera with their poses, and draws pictures into
+// the page's canvas.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <span>
+
+#include "shared/bundle/bundle.h"
+#include "shared/core/log.h"
+#include "shared/core/status.h"
+#include "shared/render/gl/graphics_context.h"
+#include "shared/render/gl/render_target.h"
+#include "shared/show/quality_controller.h"
+#include "shared/show/show.h"
+#include "shared/show/show_renderer.h"
+#include "shared/vision/tracked_frame.h"
+
+namespace lararium::web {
+
+// How a browser stores the pixels of an image. Rows have no gaps, and width and height of kI420 and
+// kNv12 are even.
+enum class PixelFormat { kI420, kNv12, kRgba };
+
+class GivenPoses;
+
+class PageShow {
+ public:
+  // Verifies the bundle.
+  static Result<std::unique_ptr<PageShow>> Open(const std::filesystem::path& file);
+  ~PageShow();
+
+  // The maps for the tracker, .larscene files. Load() lets them go.
+  size_t map_count() const { return bundle_->manifest().places.size(); }
+  Result<std::span<const std::byte>> map(size_t index) const;
+
+  // Reads people and things, and prepares drawing.
+  Status Load(bool reduced_motion);
+
+  // The pixels to be filled in for the next luminance() and Draw().
+  uint8_t* NewImage(PixelFormat format, int width, int height);
+  const cv::Mat& ComputeLuminance();
+
+  // What is not in the image.
+  struct Moment {
+    double seconds = 0.0;  // Time of the frame. Time never steps back.
+    float hour = 0.0f;     // Local hour of the day.
+    // Milliseconds since the last frame that was drawn, if the page missed frames of the camera
+    // since then; otherwise 0.
+    double late_ms = 0.0;
+  };
+  // Steps the drama to the image and draws both. tracked: see kTrackedNumbers.
+  Status Draw(std::span<const double> tracked, const Moment& moment);
+
+  // State, reason, `followed` and map, then rotation (x, y, z, w), translation, size and intrinsics
+  // of the camera.
+  static constexpr size_t kTrackedNumbers = 21;
+
+ private:
+  explicit PageShow(bundle::Bundle bundle);
+  Status SetSize(int width, int height);
+  void ChooseQuality(double seconds, double work_ms);
+
+  std::optional<bundle::Bundle> bundle_;  // nullopt after Load().
+  std::shared_ptr<Log> log_;
+  std::optional<render::OffscreenContext> context_;
+  std::optional<render::RenderTarget> target_;
+  std::unique_ptr<show::Show> show_;
+  std::unique_ptr<show::ShowRenderer> renderer_;
+  std::unique_ptr<vision::PoseSource> smoothed_;
+  GivenPoses* given_ = nullptr;  // Owned by smoothed_.
+  show::QualityController quality_;
+  PixelFormat format_ = PixelFormat::kRgba;
+  cv::Mat pixels_;
+  cv::Mat luminance_;
+  geometry::Frame frame_;
+  show::StagedFrame staged_;
+};
+
+}  // namespace lararium::web

@@ -1,0 +1,55 @@
+// The show as a program with memory of its own. It draws into the canvas with the id "lararium".
+import {REASONS, STATES} from './lararium-tracker/lararium-tracker.js';
+import createModule from './module.mjs';
+
+const FORMATS = ['I420', 'NV12', 'RGBA'];
+const FILE = '/show.larshow';
+
+export class Show {
+  // bundle: the bytes of a .larshow file, which must not be used any more.
+  static async open(bundle) {
+    const show = new Show();
+    show.module = await createModule();
+    show.module.FS.writeFile(FILE, bundle, {canOwn: true});
+    show.numbers = show.module._malloc(21 * 8);  // PageShow::kTrackedNumbers doubles.
+    show.check(show.module._lararium_open());
+    return show;
+  }
+
+  check(error) {
+    if (error !== 0) {
+      throw new Error(this.module.UTF8ToString(error));
+    }
+  }
+
+  // Copies of the maps of its places, for the tracker.
+  maps() {
+    return Array.from({length: this.module._lararium_map_count()}, (_, i) => {
+      this.check(this.module._lararium_map(i, this.numbers));
+      const [at, size] = this.module.HEAPU32.subarray(this.numbers / 4, this.numbers / 4 + 2);
+      return this.module.HEAPU8.slice(at, at + size);
+    });
+  }
+
+  load(reducedMotion) {
+    this.check(this.module._lararium_load(reducedMotion));
+    this.module.FS.unlink(FILE);
+  }
+
+  // Takes an image of readImage(), and returns its luminance for the tracker.
+  setImage({format, width, height, data}) {
+    this.module.HEAPU8.set(data, this.module._lararium_new_image(FORMATS.indexOf(format), width, height));
+    const at = this.module._lararium_luminance();
+    return {data: this.module.HEAPU8.slice(at, at + width * height), width, height};
+  }
+
+  // Draws the image that was set last. tracked: what Tracker.track() said about it.
+  draw(tracked, seconds, lateMs) {
+    const {width, height, fx, fy, cx, cy, k1, k2, p1, p2} = tracked.camera;
+    const {map, rotation, translation} = tracked.pose ?? {map: 0, rotation: [0, 0, 0, 1], translation: [0, 0, 0]};
+    this.module.HEAPF64.set([STATES.indexOf(tracked.state), REASONS.indexOf(tracked.reason), Number(tracked.followed), map,
+      ...rotation, ...translation, width, height, fx, fy, cx, cy, k1, k2, p1, p2], this.numbers / 8);
+    const now = new Date();
+    this.check(this.module._lararium_draw(this.numbers, seconds, now.getHours() + now.getMinutes() / 60, lateMs));
+  }
+}

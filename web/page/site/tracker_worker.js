@@ -1,0 +1,48 @@
+// Follows the camera. Takes {maps, search} first, where search is the port to search_worker.js, and says {ready}; then
+// takes {number, image, seconds} and says {number, tracked}. Says {error} if something fails.
+import {Tracker} from './lararium-tracker/lararium-tracker.js';
+
+let maps;
+let search;
+let tracker;
+let size = '';
+let generation = 0;
+
+async function create() {
+  tracker?.close();
+  tracker = await Tracker.create({maps, postSearches: true});
+  ++generation;
+}
+
+async function obey(message) {
+  if (message.maps) {
+    ({maps, search} = message);
+    await create();
+    search.onmessage = ({data: {asked, answer, error}}) => {
+      if (error !== undefined) {
+        postMessage({error});
+      } else if (asked === generation) {
+        tracker.giveAnswer(answer);
+      }
+    };
+    return {ready: true};
+  }
+  const {number, image, seconds} = message;
+  const now = `${image.width}x${image.height}`;
+  if (size !== '' && size !== now) {  // The device was turned.
+    await create();
+  }
+  size = now;
+  const tracked = tracker.track(image, seconds);
+  const question = tracker.takeSearch();
+  if (question !== null) {
+    search.postMessage({asked: generation, question}, [question.image.data.buffer]);
+  }
+  return {number, tracked};
+}
+
+// One message after another, because a new tracker takes a moment.
+let obeyed = Promise.resolve();
+onmessage = ({data}) => {
+  obeyed = obeyed.then(() => obey(data)).catch((error) => ({error: error.message})).then((answer) => postMessage(answer));
+};
