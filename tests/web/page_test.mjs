@@ -1,0 +1,232 @@
+// node page_test.mjs REFERENCE_PROGRAM PAGE CHROMIUM WORK_FOLDER SHOW SCENE.larscene VIDEO
+// A visit in Chromium without a screen, from a server of files without special headers: a video stands for the camera.
+// Checks the sentences for what stands in the way, every pose against the native tracker's, and that the canvas shows
+// the image that was tracked, with people in it. Writes screenshots. Status 77: something that the test needs is absent.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {createReadStream, existsSync, mkdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {createServer} from 'node:http';
+import {extname} from 'node:path';
+import {Chromium} from './chromium.mjs';
+import {distancePx} from './poses.mjs';
+
+const [reference, page, program, work, show, scene, video] = process.argv.slice(2);
+for (const [file, remedy] of [[`${page}/module.wasm`, 'build the preset `web`'],
+  [show, 'run ./demo or the test acceptance/maquette'], [scene, 'run the test acceptance/maquette'],
+  [video, 'set LARARIUM_DATA_DIR'], [program, 'install chromium'], ['/usr/bin/ffmpeg', 'install ffmpeg']]) {
+  if (!existsSync(file)) {
+    console.log(`skipped: ${file} is absent; ${remedy}`);
+    process.exit(77);
+  }
+}
+const FRAMES = 30;  // Images with a pose, before the camera looks elsewhere.
+// The page misses frames of the camera, so its tracker has another past than the native one and another estimate of the
+// lens.
+const MOST_PX = 1;
+const MOST_IMAGE_LEVELS = 2;  // Median difference between the canvas and the image that was tracked, of 255.
+const LEAST_CHANGED = 0.02;  // Share of the picture that people, or the guide, change.
+
+mkdirSync(work, {recursive: true});
+execFileSync(reference, [scene, video, work], {stdio: 'inherit'});
+const native = JSON.parse(readFileSync(`${work}/reference.json`, 'utf8'));
+const {width, height} = native;
+const grey = readFileSync(`${work}/frames.grey`);
+// The software renderer is slow, so the camera is, too: four images a second. After 20 s it looks at something else for
+// 10 s, then it begins again.
+const camera = `${work}/camera.y4m`;
+execFileSync('ffmpeg', ['-v', 'error', '-y', '-i', video, '-f', 'lavfi', '-i', `testsrc2=size=${width}x${height}:rate=4:duration=10`,
+  '-filter_complex', '[0]trim=end_frame=80,setpts=N/4/TB,fps=4[a];[a][1]concat,format=yuv420p', '-f', 'yuv4mpegpipe', camera]);
+
+const TYPES = {'.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm'};
+let missing = true;  // The show, at first.
+const server = createServer((request, response) => {
+  const path = request.url === '/' ? '/index.html' : request.url;
+  const file = path === '/show.larshow' ? show : `${page}${path}`;
+  if (path.includes('..') || !existsSync(file) || (file === show && missing)) {
+    response.writeHead(404).end();
+    return;
+  }
+  response.writeHead(200, {'content-type': TYPES[extname(file)] ?? 'application/octet-stream'});
+  createReadStream(file).pipe(response);
+});
+await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+const origin = `http://127.0.0.1:${server.address().port}`;
+
+// Runs in the page: notes for each image what the tracker said, some pixels of the image, and how the canvas differs
+// from it, as soon as the page has drawn it.
+const STEP = 10;
+function watch(step) {
+  window.noted = [];
+  const Original = Worker;
+  let image;
+  const compare = () => {
+    const {data, width, height} = image;
+    const gl = document.getElementById('lararium').getContext('webgl2');
+    const drawn = new Uint8Array(4 * width * height);
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, drawn);
+    const differences = [];
+    const some = [];
+    for (let y = 0; y < height; ++y) {
+      for (let x = 0; x < width; ++x) {
+        const at = 4 * ((height - 1 - y) * width + x);
+        const luminance = 0.299 * drawn[at] + 0.587 * drawn[at + 1] + 0.114 * drawn[at + 2];
+        const seen = Math.min(255, Math.max(0, (data[y * width + x] - 16) * 255 / 219));
+        differences.push(Math.abs(luminance - seen));
+        if (x % step === 0 && y % step === 0) {
+          some.push(data[y * width + x]);
+        }
+      }
+    }
+    const changed = differences.filter((difference) => difference > 25).length / differences.length;
+    differences.sort((a, b) => a - b);
+    return {some, changed, median: differences[differences.length >> 1]};
+  };
+  window.Worker = class extends Original {
+    constructor(...options) {
+      super(...options);
+      setTimeout(() => this.addEventListener('message', ({data}) => {  // After the page's own listener.
+        if (data.tracked && document.getElementById('card').hidden) {  // The page ignores what comes after its stop.
+          window.noted.push({tracked: data.tracked, milliseconds: performance.now(), ...compare()});
+        }
+      }));
+    }
+    postMessage(message, transfer) {
+      if (message.image) {
+        image = {...message.image, data: message.image.data.slice()};
+      }
+      super.postMessage(message, transfer);
+    }
+  };
+}
+
+const says = (words) => `document.getElementById('text').innerText.includes(${JSON.stringify(words)}) && !document.getElementById('card').hidden`;
+const press = (browser) => browser.evaluate(`document.getElementById('go').click()`);
+
+// The index of the video's frame, by some pixels of its luminance.
+function frameOf(some) {
+  const sums = native.unknown.map((_, i) => {
+    let sum = 0;
+    let at = 0;
+    for (let y = 0; y < height; y += STEP) {
+      for (let x = 0; x < width; x += STEP) {
+        sum += Math.abs(some[at++] - grey[i * width * height + y * width + x]);
+      }
+    }
+    return sum;
+  });
+  return sums.indexOf(Math.min(...sums));
+}
+
+const POSES = 'noted.filter((frame) => frame.tracked.pose).length';
+const shots = [];
+async function shoot(browser, name) {
+  for (const [form, w, h] of [['portrait', 390, 844], ['landscape', 844, 390]]) {
+    writeFileSync(`${work}/${name}_${form}.png`, await browser.screenshot(w, h));
+    shots.push(`${name}_${form}.png`);
+  }
+}
+
+function check(good, text) {
+  console.log(`${good ? 'ok  ' : 'MISS'} ${text}`);
+  assert.ok(good, text);
+}
+
+// Compares what the page has noted with the native tracker.
+function checkPoses(noted, mostPx) {
+  const tracked = noted.filter((frame) => frame.tracked.pose !== null);
+  const worst = Math.max(...tracked.map((frame) => distancePx(frame.tracked, native.unknown[frameOf(frame.some)])));
+  const followed = tracked.filter((frame) => frame.tracked.followed).length;
+  check(tracked.length > 0 && worst <= mostPx,
+    `${tracked.length} of ${noted.length} images have a pose, ${followed} of them followed; largest distance from native ${worst.toFixed(2)} px (bar ${mostPx})`);
+}
+
+const share = (changed) => `${(100 * changed).toFixed(1)} %`;
+
+async function visit(browser) {
+  await browser.open(`${origin}/`, `(${watch})(${STEP})`);
+  await browser.until(`document.getElementById('go')?.onclick`);
+  await shoot(browser, 'title');
+  await browser.setCamera(origin, 'denied');
+  await press(browser);
+  await browser.until(says('not allowed for this page'));
+  await shoot(browser, 'refused');
+  console.log('ok   a refused camera has its sentence');
+
+  await browser.setCamera(origin, 'granted');
+  await press(browser);
+  await browser.until(says('The show does not arrive'));
+  console.log('ok   a missing show has its sentence');
+
+  missing = false;
+  await press(browser);
+  await browser.until(`${POSES} >= ${FRAMES}`, 200);
+  await shoot(browser, 'show');
+  await browser.until(`noted.at(-1).milliseconds - noted.findLast((frame) => frame.tracked.pose).milliseconds > 3000`, 100);
+  await shoot(browser, 'guide');
+  const before = await browser.evaluate(POSES);
+  await browser.until(`${POSES} > ${before}`, 100);
+
+  await browser.setCamera(origin, 'denied');
+  await browser.until(says('The camera has stopped'));
+  await browser.setCamera(origin, 'granted');
+  await press(browser);
+  const count = await browser.evaluate('noted.length');
+  await browser.until(`noted.length >= ${count + 3} && document.getElementById('card').hidden`);
+  console.log('ok   a camera that was taken away has its sentence, and the show goes on');
+
+  const noted = await browser.evaluate('noted');
+  checkPoses(noted, MOST_PX);
+  const shown = noted.filter((frame) => frame.tracked.pose);
+  const median = Math.max(...shown.map((frame) => frame.median));
+  check(median <= MOST_IMAGE_LEVELS,
+    `canvas against the image that was tracked: median difference at most ${median.toFixed(1)} of 255 (bar ${MOST_IMAGE_LEVELS})`);
+  const people = Math.max(...shown.map((frame) => frame.changed));
+  check(noted[0].changed < LEAST_CHANGED / 4 && people >= LEAST_CHANGED, `people and shadows change up to ${share(people)} ` +
+    `of a picture (least ${share(LEAST_CHANGED)}), and the very first picture, without them, ${share(noted[0].changed)}`);
+  const guided = Math.max(...noted.filter((frame) => !frame.tracked.pose).map((frame) => frame.changed));
+  check(guided >= LEAST_CHANGED, `where the camera looks elsewhere, the guide changes ${share(guided)} of the picture`);
+  const intervals = shown.slice(5, FRAMES).map((frame, i) => frame.milliseconds - shown[i + 4].milliseconds).sort((a, b) => a - b);
+  console.log(`     from picture to picture, drawn by the processor: ${Math.round(intervals[intervals.length >> 1])} ms (p50)`);
+
+  // A second tab, whose browser has no planes of images.
+  const first = browser.session;
+  await browser.open(`${origin}/`, `delete globalThis.VideoFrame; (${watch})(${STEP})`);
+  const second = browser.session;
+  browser.session = first;
+  await browser.until(says('The show waits for you'));
+  console.log('ok   a hidden page lets the camera go and says so');
+  browser.session = second;
+  await browser.until(`document.getElementById('go')?.onclick`);
+  await press(browser);
+  await browser.until(`${POSES} >= 3`, 100);
+  checkPoses(await browser.evaluate('noted'), MOST_PX);
+}
+
+async function withBrowser(options, use) {
+  const browser = new Chromium(program, work, options);
+  try {
+    await use(browser);
+  } catch (error) {
+    console.log(browser.console.join('\n'));
+    throw error;
+  } finally {
+    await browser.close();
+  }
+}
+
+try {
+  await withBrowser(['--use-fake-device-for-media-stream', `--use-file-for-fake-video-capture=${camera}`], visit);
+  await withBrowser([], async (browser) => {
+    await browser.setCamera(origin, 'granted');
+    await browser.open(`${origin}/`, '');
+    await browser.until(`document.getElementById('go')?.onclick`);
+    await press(browser);
+    await browser.until(says('no camera that a page can use'));
+    console.log('ok   a device without a camera has its sentence');
+  });
+} finally {
+  server.closeAllConnections();
+  server.close();
+}
+console.log(`     screenshots: ${shots.join(', ')}`);
