@@ -54,6 +54,8 @@ async function trackAll(options, expected, each = () => {}) {
       times.natively.push(native_frame.milliseconds);
     }
     if (tracked.pose) {
+      // The reference has every eighth point.
+      assert.equal(Math.ceil(tracker.seen().length / 3 / 8), native_frame.points.length, `frame ${i}`);
       assert.equal(tracked.followed, native_frame.followed, `frame ${i}`);
       assert.equal(tracked.inliers, native_frame.inliers, `frame ${i}`);
       worst = Math.max(worst, distancePx(tracked, native_frame));

@@ -51,6 +51,8 @@ EMSCRIPTEN_KEEPALIVE uint8_t* lararium_new_image(int format, int width, int heig
 
 EMSCRIPTEN_KEEPALIVE const uint8_t* lararium_luminance() { return show->ComputeLuminance().data; }
 
+EMSCRIPTEN_KEEPALIVE double* lararium_new_seen(size_t count) { return show->NewSeen(count); }
+
 EMSCRIPTEN_KEEPALIVE const char* lararium_draw(const double* tracked,
                                                double seconds,
                                                float hour,

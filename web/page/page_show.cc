@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "shared/core/check.h"
 #include "shared/render/quality.h"
 #include "shared/vision/pose_smoother.h"
 
@@ -113,6 +114,24 @@ const cv::Mat& PageShow::ComputeLuminance() {
   return luminance_;
 }
 
+double* PageShow::NewSeen(size_t count) {
+  seen_numbers_.resize(3 * count);
+  return seen_numbers_.data();
+}
+
+std::array<float, 3> PageShow::EstimateGain(uint32_t map) {
+  const vision::SceneDatabase& database = *show_->content().places[map].map;
+  seen_.clear();
+  for (size_t i = 0; i + 2 < seen_numbers_.size(); i += 3) {
+    const auto point = static_cast<uint32_t>(seen_numbers_[i]);
+    CHECK(point < database.points.size());  // The tracker has the same maps.
+    seen_.push_back(
+        {point, Eigen::Vector2d(seen_numbers_[i + 1], seen_numbers_[i + 2]).cast<float>()});
+  }
+  gain_ = gain_estimator_.Estimate(frame_.bgr, database, seen_).value_or(gain_);
+  return gain_;
+}
+
 Status PageShow::SetSize(int width, int height) {
   if (!target_ || target_->width() != width || target_->height() != height) {
     LARARIUM_ASSIGN_OR_RETURN(target_, render::RenderTarget::Create(width, height));
@@ -141,7 +160,9 @@ Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
   frame_.capture_time = moment.seconds;
   LARARIUM_RETURN_IF_ERROR(SetSize(frame_.bgr.cols, frame_.bgr.rows));
   show_->input().SetHour(moment.hour);
-  given_->next = ParseTracked(tracked);
+  vision::TrackedFrame& next = given_->next;
+  next = ParseTracked(tracked);
+  next.gain = EstimateGain(next.map);
   show_->StageFrame(smoothed_->Track(frame_), moment.seconds, staged_);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   target_->Present(target_->width(), target_->height());

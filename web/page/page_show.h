@@ -3,12 +3,14 @@
 // A show as a page plays it: takes images of the camera with their poses, and draws pictures into
 // the page's canvas.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "shared/bundle/bundle.h"
 #include "shared/core/log.h"
@@ -18,6 +20,7 @@
 #include "shared/show/quality_controller.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
+#include "shared/vision/gain_estimator.h"
 #include "shared/vision/tracked_frame.h"
 
 namespace lararium::web {
@@ -45,6 +48,9 @@ class PageShow {
   uint8_t* NewImage(PixelFormat format, int width, int height);
   const cv::Mat& ComputeLuminance();
 
+  // The numbers of seen points to be filled in for the next Draw(): see TrackerSession::seen().
+  double* NewSeen(size_t count);
+
   // What is not in the image.
   struct Moment {
     double seconds = 0.0;  // Time of the frame. Time never steps back.
@@ -62,6 +68,8 @@ class PageShow {
 
  private:
   explicit PageShow(bundle::Bundle bundle);
+  // Brightness of the image over the map's photometric reference.
+  std::array<float, 3> EstimateGain(uint32_t map);
   Status SetSize(int width, int height);
   void ChooseQuality(double seconds, double work_ms);
 
@@ -74,6 +82,10 @@ class PageShow {
   std::unique_ptr<vision::PoseSource> smoothed_;
   GivenPoses* given_ = nullptr;  // Owned by smoothed_.
   show::QualityController quality_;
+  vision::GainEstimator gain_estimator_;
+  std::array<float, 3> gain_ = {1.0f, 1.0f, 1.0f};
+  std::vector<double> seen_numbers_;
+  std::vector<vision::SeenPoint> seen_;
   PixelFormat format_ = PixelFormat::kRgba;
   cv::Mat pixels_;
   cv::Mat luminance_;

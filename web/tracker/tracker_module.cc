@@ -41,6 +41,13 @@ EMSCRIPTEN_KEEPALIVE const double* lararium_tracked(TrackerSession* session) {
   return session->tracked().data();
 }
 
+// Writes the number of numbers.
+EMSCRIPTEN_KEEPALIVE const double* lararium_seen(TrackerSession* session, size_t* count) {
+  const std::span<const double> seen = session->seen();
+  *count = seen.size();
+  return seen.data();
+}
+
 EMSCRIPTEN_KEEPALIVE void lararium_relocalize(TrackerSession* session) { session->Relocalize(); }
 
 // The number of numbers in the question that waits to be posted; 0 if there is none.

@@ -104,6 +104,19 @@ Status TrackerSession::Track(double seconds) {
   return Status();
 }
 
+std::span<const double> TrackerSession::seen() {
+  numbers_.clear();
+  if (poses_) {
+    poses_->Seen(seen_);
+    for (const vision::SeenPoint& seen : seen_) {
+      numbers_.insert(numbers_.end(),
+                      {static_cast<double>(seen.point), static_cast<double>(seen.pixel.x()),
+                       static_cast<double>(seen.pixel.y())});
+    }
+  }
+  return numbers_;
+}
+
 void TrackerSession::Relocalize() {
   if (poses_) {
     poses_->Relocalize();

@@ -34,7 +34,10 @@ class TrackerSession {
   Status Track(double seconds);
   // The numbers of the last tracked image, in the order in which Tracker.track() of
   // lararium-tracker.js takes them.
+  // They are valid until the next call.
   std::span<const double> tracked() const { return numbers_; }
+  // The map points that support its pose: for each one its index in the map and its pixel (x, y).
+  std::span<const double> seen();
   // Makes the next image be located without a prior.
   void Relocalize();
 
@@ -56,6 +59,7 @@ class TrackerSession {
   PostedSearch* search_ = nullptr;  // Owned by poses_.
   std::unique_ptr<vision::Relocalizer> relocalizer_;
   std::vector<double> numbers_;
+  std::vector<vision::SeenPoint> seen_;
 };
 
 }  // namespace lararium::web

@@ -216,7 +216,7 @@ async function trackFrame(now, {mediaTime, presentedFrames}) {
 }
 
 // Draws the very image that was tracked.
-function drawTracked({number, tracked}) {
+function drawTracked({number, tracked, seen}) {
   if (visit === undefined || number !== image.number) {
     return;
   }
@@ -224,7 +224,7 @@ function drawTracked({number, tracked}) {
     Object.assign(canvas, {width: image.width, height: image.height});
   }
   try {
-    visit.show.draw(tracked, image.seconds, image.lateMs);
+    visit.show.draw(tracked, seen, image.seconds, image.lateMs);
     awaitFrame();
   } catch (error) {
     stop(() => showProblem(error));

@@ -43,12 +43,13 @@ export class Show {
     return {data: this.module.HEAPU8.slice(at, at + width * height), width, height};
   }
 
-  // Draws the image that was set last. tracked: what Tracker.track() said about it.
-  draw(tracked, seconds, lateMs) {
+  // Draws the image that was set last. tracked, seen: what Tracker.track() and seen() said about it.
+  draw(tracked, seen, seconds, lateMs) {
     const {width, height, fx, fy, cx, cy, k1, k2, p1, p2} = tracked.camera;
     const {map, rotation, translation} = tracked.pose ?? {map: 0, rotation: [0, 0, 0, 1], translation: [0, 0, 0]};
     this.module.HEAPF64.set([STATES.indexOf(tracked.state), REASONS.indexOf(tracked.reason), Number(tracked.followed), map,
       ...rotation, ...translation, width, height, fx, fy, cx, cy, k1, k2, p1, p2], this.numbers / 8);
+    this.module.HEAPF64.set(seen, this.module._lararium_new_seen(seen.length / 3) / 8);
     const now = new Date();
     this.check(this.module._lararium_draw(this.numbers, seconds, now.getHours() + now.getMinutes() / 60, lateMs));
   }

@@ -1,5 +1,5 @@
 // Follows the camera. Takes {maps, search} first, where search is the port to search_worker.js, and says {ready}; then
-// takes {number, image, seconds} and says {number, tracked}. Says {error} if something fails.
+// takes {number, image, seconds} and says {number, tracked, seen}. Says {error} if something fails.
 import {Tracker} from './lararium-tracker/lararium-tracker.js';
 
 let maps;
@@ -38,11 +38,12 @@ async function obey(message) {
   if (question !== null) {
     search.postMessage({asked: generation, question}, [question.image.data.buffer]);
   }
-  return {number, tracked};
+  return {number, tracked, seen: tracker.seen()};
 }
 
 // One message after another, because a new tracker takes a moment.
 let obeyed = Promise.resolve();
 onmessage = ({data}) => {
-  obeyed = obeyed.then(() => obey(data)).catch((error) => ({error: error.message})).then((answer) => postMessage(answer));
+  obeyed = obeyed.then(() => obey(data)).catch((error) => ({error: error.message})).then(
+    (answer) => postMessage(answer, answer.seen ? [answer.seen.buffer] : []));
 };

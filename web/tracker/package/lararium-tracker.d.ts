@@ -65,6 +65,8 @@ export class Tracker {
   static create(options: {maps: Uint8Array[]; intrinsics?: Camera; postSearches?: boolean}): Promise<Tracker>;
   /** seconds: time at which the image was taken, on any steady clock. */
   track(image: Luminance, seconds: number): Tracked;
+  /** The map points that support the last pose: for each one its index in the map and its pixel (x, y). */
+  seen(): Float64Array;
   /** Makes the next image be located without a prior. */
   relocalize(): void;
   /** After each track(): what is to be posted to the worker with the Searcher, or null. */

@@ -104,6 +104,13 @@ export class Tracker extends Session {
     };
   }
 
+  seen() {
+    return this.withCopy(new Float64Array(1), (count) => {
+      const at = this.module._lararium_seen(this.handle, count);
+      return this.doubles(at, this.module.HEAPU32[count / 4]);
+    });
+  }
+
   relocalize() {
     this.module._lararium_relocalize(this.handle);
   }
