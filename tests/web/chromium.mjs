@@ -57,10 +57,10 @@ export class Chromium {
     return result.value;
   }
 
-  // Waits until an expression is true.
+  // Waits until an expression is true. While a page is being loaded, it may fail.
   async until(expression, seconds = 60) {
     const end = Date.now() + 1000 * seconds;
-    while (!await this.evaluate(expression)) {
+    while (!await this.evaluate(expression).catch(() => false)) {
       if (Date.now() > end) {
         throw new Error(`not within ${seconds} s: ${expression}; the page says ${await this.evaluate('document.body.innerText')}`);
       }
@@ -70,6 +70,18 @@ export class Chromium {
 
   setCamera(origin, setting) {
     return this.send('Browser.setPermission', {origin, permission: {name: 'camera'}, setting}, null);
+  }
+
+  // Presses a key by its name, its number and the text that it types.
+  async pressKey(key, windowsVirtualKeyCode, text) {
+    await this.send('Input.dispatchKeyEvent', {type: 'keyDown', key, windowsVirtualKeyCode, text});
+    await this.send('Input.dispatchKeyEvent', {type: 'keyUp', key, windowsVirtualKeyCode});
+  }
+
+  // Makes a page the one that is seen; others are hidden.
+  async show(session) {
+    this.session = session;
+    await this.send('Page.bringToFront');
   }
 
   async screenshot(width, height) {
