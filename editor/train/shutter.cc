@@ -121,24 +121,21 @@ std::optional<double> AdjustToBreathing(Reconstruction& reconstruction,
   options.refine_breathing = true;
   options.points_per_image = 150;
   options.max_iterations = 15;
-  bool adjusted = AdjustAll(reconstruction, anchors, options);
-  const bool breathes = adjusted && breath() > kLeast;
-  if (breathes) {
-    options.max_iterations = 50;
-    for (int round = 0; round < kRounds && adjusted; ++round) {
-      FitAgain(reconstruction, mapper);
-      options.points_per_image = round + 1 == kRounds ? kFinalPointsPerImage : 600;
-      adjusted = AdjustAll(reconstruction, anchors, options);
-    }
+  bool breathes = AdjustAll(reconstruction, anchors, options) && breath() > kLeast;
+  options.max_iterations = 50;
+  for (int round = 0; round < kRounds && breathes; ++round) {
     FitAgain(reconstruction, mapper);
+    options.points_per_image = round + 1 == kRounds ? kFinalPointsPerImage : 600;
+    breathes = AdjustAll(reconstruction, anchors, options) && breath() > kLeast;
   }
   const double change = breath();
   log.Info("autofocus has moved the focal length by {:.2f} % (root mean square): {}",
-           100.0 * change, breathes && adjusted ? "taken" : "not taken");
-  if (!breathes || !adjusted) {
+           100.0 * change, breathes ? "taken" : "not taken");
+  if (!breathes) {
     reconstruction = before;
     return std::nullopt;
   }
+  FitAgain(reconstruction, mapper);
   return change;
 }
 
