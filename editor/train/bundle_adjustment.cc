@@ -126,48 +126,45 @@ class TurnedReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 7
   Eigen::Matrix<double, 7, 7> turn_ = Eigen::Matrix<double, 7, 7>::Zero();
 };
 
-// Like ReprojectionCost, for an image in which autofocus has moved the lens. The second block is
+// ReprojectionCost for an image in which autofocus has moved the lens. The second block is
 // the logarithm of the ratio of the focal lengths.
 class BreathingReprojectionCost : public ceres::SizedCostFunction<2, kIntrinsics, 1, 7, 3> {
  public:
   BreathingReprojectionCost(const CameraModel& fixed,
                             const ImageMotion& motion,
                             const Eigen::Vector2d& pixel)
-      : fixed_(fixed), motion_(motion), pixel_(pixel) {}
+      : of_moved_lens_(fixed, motion, pixel) {}
 
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
-    IntrinsicsBlock intrinsics;
-    std::copy_n(parameters[0], kIntrinsics, intrinsics.begin());
+    IntrinsicsBlock moved;
+    std::copy_n(parameters[0], kIntrinsics, moved.begin());
     const double ratio = std::exp(parameters[1][0]);
-    intrinsics[0] *= ratio;
-    double* const by_breath = jacobians != nullptr ? jacobians[1] : nullptr;
-    double* const by_lens = jacobians != nullptr ? jacobians[0] : nullptr;
-    Matrix2xIntrinsics by_intrinsics;
-    const bool wanted = by_breath != nullptr || by_lens != nullptr;
-    if (!ReprojectionResidual(fixed_, motion_, pixel_, intrinsics.data(), parameters[2],
-                              parameters[3], residuals, wanted ? by_intrinsics.data() : nullptr,
-                              jacobians != nullptr ? jacobians[2] : nullptr,
-                              jacobians != nullptr ? jacobians[3] : nullptr)) {
+    moved[0] *= ratio;
+    const std::array<const double*, 3> blocks = {moved.data(), parameters[2], parameters[3]};
+    if (jacobians == nullptr) {
+      return of_moved_lens_.Evaluate(blocks.data(), residuals, nullptr);
+    }
+    Matrix2xIntrinsics by_moved;
+    std::array<double*, 3> by_blocks = {by_moved.data(), jacobians[2], jacobians[3]};
+    if (!of_moved_lens_.Evaluate(blocks.data(), residuals, by_blocks.data())) {
       return false;
     }
-    if (by_breath != nullptr) {
-      Eigen::Map<Eigen::Vector2d> jacobian(by_breath);
-      jacobian = intrinsics[0] * by_intrinsics.col(0);
+    if (jacobians[1] != nullptr) {
+      Eigen::Map<Eigen::Vector2d> by_breath(jacobians[1]);
+      by_breath = moved[0] * by_moved.col(0);
     }
-    if (by_lens != nullptr) {
-      by_intrinsics.col(0) *= ratio;
-      Eigen::Map<Matrix2xIntrinsics> jacobian(by_lens);
-      jacobian = by_intrinsics;
+    if (jacobians[0] != nullptr) {
+      Eigen::Map<Matrix2xIntrinsics> by_lens(jacobians[0]);
+      by_lens = by_moved;
+      by_lens.col(0) *= ratio;
     }
     return true;
   }
 
  private:
-  const CameraModel& fixed_;
-  ImageMotion motion_;
-  Eigen::Vector2d pixel_;
+  ReprojectionCost of_moved_lens_;
 };
 
 // Between two images, autofocus moves little: a random walk.

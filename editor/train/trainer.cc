@@ -37,27 +37,24 @@ class Trainer {
     LARARIUM_RETURN_IF_ERROR(Timed("matching", [&] { return Match(); }));
     LARARIUM_RETURN_IF_ERROR(Timed("mapping", [&] { return Map(); }));
     TrainResult result;
-    LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
-    LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+    LARARIUM_RETURN_IF_ERROR(BuildAndLocate(result.database));
     if (map_.reconstruction->cameras().size() == 1) {
       const bool rolls = AdjustsToShutter();
       const bool breathes = AdjustsToBreathing();
       if (rolls || breathes) {
-        LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
-        LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+        LARARIUM_RETURN_IF_ERROR(BuildAndLocate(result.database));
       }
       // Autofocus that was not known looked like a motion of the camera.
       if (breathes && AdjustsToShutter()) {
-        LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(result.database); }));
-        LARARIUM_RETURN_IF_ERROR(Timed("locating", [&] { return LocateOthers(result.database); }));
+        LARARIUM_RETURN_IF_ERROR(BuildAndLocate(result.database));
       }
     }
     FillReport(result.database);
     if (options_.keep_features) {
       for (const uint32_t image : map_.reconstruction->LocatedImages()) {
-        result.features.push_back(FeaturesIn(result.database.camera,
-                                             map_.reconstruction->camera(image),
-                                             survey_.keyframes[image].features));
+        const vision::Features features = std::move(survey_.keyframes[image].features);
+        result.features.push_back(
+            FeaturesIn(result.database.camera, map_.reconstruction->camera(image), features));
       }
     }
     result.report = std::move(report_);
@@ -154,9 +151,12 @@ class Trainer {
       of_images.push_back(reports[report].camera_motion);
     }
     progress_.Report("shutter", 0.0);
-    report_.shutter = AdjustToShutter(*map_.reconstruction, map_.anchors, std::move(of_images),
-                                      MapperOptions(), Refined(), log_);
-    return report_.shutter.has_value();
+    const std::optional<Shutter> shutter = AdjustToShutter(
+        *map_.reconstruction, map_.anchors, std::move(of_images), MapperOptions(), Refined(), log_);
+    if (shutter) {
+      report_.shutter = shutter;
+    }
+    return shutter.has_value();
   }
 
   // Estimates whether autofocus moved while a film was made. Returns whether the map has changed.
@@ -299,6 +299,11 @@ class Trainer {
     report.features = view.features;
     report.observations = view.observations;
     report.median_error_px = view.median_error_px;
+  }
+
+  Status BuildAndLocate(vision::SceneDatabase& database) {
+    LARARIUM_RETURN_IF_ERROR(Timed("database", [&] { return Build(database); }));
+    return Timed("locating", [&] { return LocateOthers(database); });
   }
 
   Status Build(vision::SceneDatabase& database) {
