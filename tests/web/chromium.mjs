@@ -30,7 +30,7 @@ export class Chromium {
     }
   }
 
-  // sessionId: of a page; null: the browser itself.
+  // sessionId: a page; null: the browser itself.
   send(method, params = {}, sessionId = this.session) {
     const id = ++this.sent;
     return new Promise((resolve, reject) => {
@@ -95,7 +95,7 @@ export class Chromium {
     try {
       process.kill(-this.process.pid);
     } catch {
-      // It has ended by itself.
+      // The browser has ended by itself.
     }
     await new Promise((resolve) => setTimeout(resolve, 500));
     rmSync(this.profile, {recursive: true, force: true, maxRetries: 5});

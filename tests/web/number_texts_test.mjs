@@ -2,13 +2,11 @@
 // Numbers are written and read alike in WebAssembly and natively. Status 77: the program for browsers is absent.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {existsSync, readFileSync} from 'node:fs';
+import {readFileSync} from 'node:fs';
+import {skipWithout} from './needs.mjs';
 
 const [reference, program, node, work] = process.argv.slice(2);
-if (!existsSync(program)) {
-  console.log(`skipped: ${program} is absent; build the preset \`web\``);
-  process.exit(77);
-}
+skipWithout([program, 'build the preset `web`']);
 execFileSync(reference, [`${work}/numbers.native`], {stdio: 'inherit'});
 execFileSync(node, [program, `${work}/numbers.web`], {stdio: 'inherit'});
 const [natively, web] = ['native', 'web'].map((name) => readFileSync(`${work}/numbers.${name}`, 'utf8').split('\n'));

@@ -4,27 +4,22 @@
 // the image that was tracked, with people in it. Writes screenshots. Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {createReadStream, existsSync, mkdirSync, readFileSync, writeFileSync} from 'node:fs';
-import {createServer} from 'node:http';
-import {extname} from 'node:path';
+import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {Chromium} from './chromium.mjs';
+import {serve, skipWithout} from './needs.mjs';
 import {distancePx, pixel} from './poses.mjs';
 
 const [reference, page, program, work, show, scene, video] = process.argv.slice(2);
-for (const [file, remedy] of [[`${page}/module.wasm`, 'build the preset `web`'],
-  [show, 'run ./demo or the test acceptance/maquette'], [scene, 'run the test acceptance/maquette'],
-  [video, 'set LARARIUM_DATA_DIR'], [program, 'install chromium'], ['/usr/bin/ffmpeg', 'install ffmpeg']]) {
-  if (!existsSync(file)) {
-    console.log(`skipped: ${file} is absent; ${remedy}`);
-    process.exit(77);
-  }
-}
-const FRAMES = 30;  // Images with a pose, before the camera looks elsewhere.
+skipWithout(
+  [`${page}/module.wasm`, 'build the preset `web`'], [show, 'run ./demo or the test acceptance/maquette'],
+  [scene, 'run the test acceptance/maquette'], [video, 'set LARARIUM_DATA_DIR'], [program, 'install chromium'],
+  ['/usr/bin/ffmpeg', 'install ffmpeg']);
+const FRAMES = 30;  // This many images have a pose before the camera looks elsewhere.
 // The page misses frames of the camera and sees the video again and again, so its tracker and the native one know the lens
 // from different images; the native one begins with a guess.
 const MOST_PX = 3;
-const MOST_IMAGE_LEVELS = 2;  // Median difference between the canvas and the image that was tracked, of 255.
-const LEAST_CHANGED = 0.02;  // Share of the picture that people, or the guide, change.
+const MOST_IMAGE_LEVELS = 2;  // The canvas and the image that was tracked differ by this median, of 255.
+const LEAST_CHANGED = 0.02;  // People, or the guide, change this share of the picture.
 
 mkdirSync(work, {recursive: true});
 execFileSync(reference, [scene, video, work], {stdio: 'inherit'});
@@ -37,20 +32,14 @@ const camera = `${work}/camera.y4m`;
 execFileSync('ffmpeg', ['-v', 'error', '-y', '-i', video, '-f', 'lavfi', '-i', `testsrc2=size=${width}x${height}:rate=4:duration=10`,
   '-filter_complex', '[0]trim=end_frame=80,setpts=N/4/TB,fps=4[a];[a][1]concat,format=yuv420p', '-f', 'yuv4mpegpipe', camera]);
 
-const TYPES = {'.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm'};
-let missing = true;  // The show, at first.
-const server = createServer((request, response) => {
-  const path = request.url === '/' ? '/index.html' : request.url;
-  const file = path === '/show.larshow' ? show : `${page}${path}`;
-  if (path.includes('..') || !existsSync(file) || (file === show && missing)) {
-    response.writeHead(404).end();
-    return;
+let missing = true;  // The server has no show at first.
+const server = await serve((path) => {
+  if (path === '/show.larshow') {
+    return missing ? undefined : show;
   }
-  response.writeHead(200, {'content-type': TYPES[extname(file)] ?? 'application/octet-stream'});
-  createReadStream(file).pipe(response);
+  return path.includes('..') ? undefined : `${page}${path === '/' ? '/index.html' : path}`;
 });
-await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-const origin = `http://127.0.0.1:${server.address().port}`;
+const {origin} = server;
 
 // Runs in the page: notes for each image what the tracker said, some pixels of the image, and how the canvas differs
 // from it, as soon as the page has drawn it.
@@ -85,7 +74,8 @@ function watch(step) {
   window.Worker = class extends Original {
     constructor(...options) {
       super(...options);
-      setTimeout(() => this.addEventListener('message', ({data}) => {  // After the page's own listener.
+      // The page's own listener comes first.
+      setTimeout(() => this.addEventListener('message', ({data}) => {
         if (data.tracked && document.getElementById('card').hidden) {  // The page ignores what comes after its stop.
           window.noted.push({tracked: data.tracked, milliseconds: performance.now(), ...compare()});
         }
@@ -260,7 +250,6 @@ try {
     console.log('ok   a device without a camera has its sentence');
   });
 } finally {
-  server.closeAllConnections();
   server.close();
 }
 console.log(`     screenshots: ${shots.join(', ')}`);

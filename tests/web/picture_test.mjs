@@ -3,18 +3,14 @@
 // the native one in OpenGL ES 3.0. Prints the calls and bytes that a frame hands to WebGL. Status 77: something that the
 // test needs is absent.
 import assert from 'node:assert/strict';
-import {execFileSync, spawn} from 'node:child_process';
-import {createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {createServer} from 'node:http';
+import {execFileSync} from 'node:child_process';
+import {readFileSync, writeFileSync} from 'node:fs';
+import {Chromium} from './chromium.mjs';
+import {serve, skipWithout} from './needs.mjs';
 
 const [reference, web, chromium, work, show, seconds] = process.argv.slice(2);
-for (const [file, remedy] of [[`${web}/draw_moment.wasm`, 'build the preset `web`'], [show, 'run ./demo'],
-  [chromium, 'install chromium']]) {
-  if (!existsSync(file)) {
-    console.log(`skipped: ${file} is absent; ${remedy}`);
-    process.exit(77);
-  }
-}
+skipWithout(
+  [`${web}/draw_moment.wasm`, 'build the preset `web`'], [show, 'run ./demo'], [chromium, 'install chromium']);
 const LEAST_DB = 40;
 const MOST_DRAWS = 200;
 const MOST_BYTES = 4e6;
@@ -42,7 +38,7 @@ async function draw(seconds) {
       frame.draws += name.startsWith('draw') && name !== 'drawBuffers' ? 1 : 0;
       frame.bytes += bytesOf[name]?.(args) ?? (/^uniform.*v$/.test(name) ? 4 * args.at(-1) : 0);
       const result = value.apply(this, args);
-      if (name === 'finish') {  // The end of a frame.
+      if (name === 'finish') {  // A frame ends here.
         frames.push({calls: 0, draws: 0, bytes: 0});
       }
       return result;
@@ -58,68 +54,34 @@ async function draw(seconds) {
     said.push(`status ${status} after ${Math.round(performance.now() - start)} ms`);
     const context = document.getElementById('lararium').getContext('webgl2');
     said.push(`error ${context.getError()}`);
-    await fetch('/picture', {method: 'POST', body: program.FS.readFile('/picture')});
+    window.picture = Array.from(program.FS.readFile('/picture'));
   } catch (error) {
     said.push(`${error}`);
   }
-  await fetch('/report', {method: 'POST', body: JSON.stringify({frames, said})});
+  window.report = {frames, said};
 }
 
-const page = `<!doctype html><meta charset=utf-8><title>picture</title><canvas id=lararium width=640 height=480></canvas>
-<script src=/draw_moment.js></script><script>(${draw})(${JSON.stringify(seconds)})</script>`;
-const files = {
-  '/draw_moment.js': [`${web}/draw_moment.js`, 'text/javascript'],
-  '/draw_moment.wasm': [`${web}/draw_moment.wasm`, 'application/wasm'],
-  '/show': [show, 'application/octet-stream'],
-};
-const posted = {};
-let finish;
-const finished = new Promise((resolve) => finish = resolve);
-const server = createServer(async (request, response) => {
-  if (request.method === 'POST') {
-    const parts = [];
-    for await (const part of request) {
-      parts.push(part);
-    }
-    posted[request.url] = Buffer.concat(parts);
-    response.end();
-    if (request.url === '/report') {
-      finish();
-    }
-  } else if (request.url === '/') {
-    response.writeHead(200, {'content-type': 'text/html'}).end(page);
-  } else if (files[request.url]) {
-    response.writeHead(200, {'content-type': files[request.url][1]});
-    createReadStream(files[request.url][0]).pipe(response);
-  } else {
-    response.writeHead(404).end();
-  }
-});
-await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-const profile = mkdtempSync(`${work}/chromium`);
-const browser = spawn(chromium, ['--headless=new', '--no-sandbox', '--no-first-run', '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader', `--user-data-dir=${profile}`, `http://127.0.0.1:${server.address().port}/`],
-{stdio: 'ignore', detached: true});
-browser.on('exit', () => finish());
-const limit = setTimeout(() => finish(), 500000);
-await finished;
-clearTimeout(limit);
+const page = `${work}/picture.html`;
+writeFileSync(page, `<!doctype html><meta charset=utf-8><title>picture</title><canvas id=lararium width=640 height=480></canvas>
+<script src=/draw_moment.js></script><script>(${draw})(${JSON.stringify(seconds)})</script>`);
+const server = await serve((path) => ({'/': page, '/show': show, '/draw_moment.js': `${web}/draw_moment.js`,
+  '/draw_moment.wasm': `${web}/draw_moment.wasm`})[path]);
+const browser = new Chromium(chromium, work, []);
+let report, drawn;
 try {
-  process.kill(-browser.pid);
-} catch {
-  // It has ended by itself.
+  await browser.open(server.origin, '');
+  await browser.until('window.report !== undefined', 500);
+  [report, drawn] = await browser.evaluate('[report, window.picture]');
+} finally {
+  await browser.close();
+  server.close();
 }
-server.closeAllConnections();
-server.close();
-await new Promise((resolve) => setTimeout(resolve, 500));
-rmSync(profile, {recursive: true, force: true, maxRetries: 5});
-assert.ok(posted['/report'], 'the page has not reported');
-const report = JSON.parse(posted['/report']);
 console.log(`     the page says: ${report.said.join('; ')}`);
-assert.ok(posted['/picture'], 'the page has drawn nothing');
+assert.ok(drawn, 'the page has drawn nothing');
+drawn = Buffer.from(drawn);
 
 execFileSync(reference, [show, seconds, `${work}/picture.bgr`], {stdio: 'inherit', env: {...process.env, LIBGL_ALWAYS_SOFTWARE: '1'}});
-const [drawn, expected] = [posted['/picture'], readFileSync(`${work}/picture.bgr`)];
+const expected = readFileSync(`${work}/picture.bgr`);
 writeFileSync(`${work}/picture_web.bgr`, drawn);
 assert.equal(drawn.length, expected.length);
 assert.equal(drawn.length, 3 * 640 * 480);

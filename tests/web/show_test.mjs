@@ -4,15 +4,11 @@
 // on what else the machine does. Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {existsSync, mkdirSync, readFileSync} from 'node:fs';
+import {mkdirSync, readFileSync} from 'node:fs';
+import {skipWithout} from './needs.mjs';
 
 const [reference, program, node, work, show, frames, seconds] = process.argv.slice(2);
-for (const [file, remedy] of [[program, 'build the preset `web`'], [show, 'run ./demo or the test acceptance/maquette']]) {
-  if (!existsSync(file)) {
-    console.log(`skipped: ${file} is absent; ${remedy}`);
-    process.exit(77);
-  }
-}
+skipWithout([program, 'build the preset `web`'], [show, 'run ./demo or the test acceptance/maquette']);
 // Largest difference that is allowed: metres; of light a share, or of dim light one of light of strength 1. The two
 // standard libraries' sines differ in their last bit, which hair and cloth carry on from frame to frame and enlarge where
 // they touch the body. Native light uses fused multiplication, which WebAssembly lacks, and rounds to 16 bits on its way;

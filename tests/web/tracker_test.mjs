@@ -4,19 +4,15 @@
 // Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {existsSync, readFileSync} from 'node:fs';
+import {readFileSync} from 'node:fs';
 import {pathToFileURL} from 'node:url';
+import {skipWithout} from './needs.mjs';
 import {distancePx, pixel} from './poses.mjs';
 
 const [reference, folder, scene, video, work] = process.argv.slice(2);
-for (const [file, remedy] of [
+skipWithout(
   [`${folder}/module.wasm`, 'build the preset `web`'], [scene, 'run the test acceptance/maquette'],
-  [video, 'set LARARIUM_DATA_DIR']]) {
-  if (!existsSync(file)) {
-    console.log(`skipped: ${file} is absent; ${remedy}`);
-    process.exit(77);
-  }
-}
+  [video, 'set LARARIUM_DATA_DIR']);
 const MOST_PX = 1e-6;
 // Poses that begin from features instead of from the pose before.
 const MOST_FOUND_PX = 1e-5;
