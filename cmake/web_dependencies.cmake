@@ -37,7 +37,7 @@ set(include ${LARARIUM_WEB_LIBRARIES}/include)
 lararium_web_library(JPEG::JPEG INCLUDE ${include} LIBRARIES ${lib}/libjpeg.a)
 lararium_web_library(ZLIB::ZLIB INCLUDE ${include} LIBRARIES ${lib}/libz.a)
 lararium_web_library(PNG::PNG INCLUDE ${include} LIBRARIES ${lib}/libpng.a ${lib}/libz.a)
-# Its names are those of C++ (shared/drama/lua_api.h).
+# The names in this Lua are those of C++ (shared/drama/lua_api.h).
 lararium_web_library(PkgConfig::lua INCLUDE ${include}/lua LIBRARIES ${lib}/liblua.a DEFINITIONS LARARIUM_LUA_NAMES_OF_CXX)
 lararium_web_library(PkgConfig::sodium INCLUDE ${include} LIBRARIES ${lib}/libsodium.a)
 lararium_web_library(recast_imported INCLUDE ${include}/recastnavigation LIBRARIES ${lib}/librecast.a)

@@ -120,7 +120,7 @@ build_libpng1.6() {
     install -D -m 644 -t "$folder/include" "$1"/{png,pngconf}.h "$1/build/pnglibconf.h"
 }
 
-# As C++, so that Lua's errors are exceptions.
+# Lua is compiled as C++, so that its errors are exceptions.
 build_lua5.4() {
   cd "$1/src" &&
     sed -i '/lua5.4-deb-multiarch.h/d; s/DEB_HOST_MULTIARCH/""/' luaconf.h &&
@@ -167,7 +167,7 @@ build_libvorbis() {
     cmake --install "$1/build"
 }
 
-# Its archive lacks a file that its CMakeLists.txt includes.
+# The archive of Opus lacks a file that its CMakeLists.txt includes.
 build_opus() {
   local sources
   cd "$1" &&

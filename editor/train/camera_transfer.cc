@@ -25,7 +25,8 @@ void Resample(CameraModel from, const CameraModel& to, std::span<cv::Mat* const>
   if (from == to || std::ranges::all_of(images, [](const cv::Mat* i) { return i->empty(); })) {
     return;
   }
-  const bool average_first = from.Focal() > 1.5 * to.Focal();  // Against aliasing.
+  // Images that become much smaller are averaged, against aliasing.
+  const bool average_first = from.Focal() > 1.5 * to.Focal();
   if (average_first) {
     from = from.Resized(
         std::max(1, static_cast<int>(std::lround(from.width * to.Focal() / from.Focal()))),

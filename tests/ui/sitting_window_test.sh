@@ -173,7 +173,7 @@ kiosk=$!
 wait_for 60 titled "tavern$" || fail "the kiosk did not open"
 sleep 3
 xdotool windowfocus "$(xdotool search --name "^tavern$" | tail -1)" sleep 0.5
-# Whoever opens it in the wrong moment looks past it, and opens it again when it has gone.
+# A visitor who opens it in the wrong moment looks past it, and opens it again when it has gone.
 look_at_menu() {
   press m
   shot menu

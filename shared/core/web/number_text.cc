@@ -43,7 +43,7 @@ bool Take(std::string_view& text, T& value, std::string_view digits, const std::
 template <typename T>
 std::string Format(T value) {
   char digits[400];
-  int precision = 0;  // Digits behind the first one.
+  int precision = 0;  // The number of digits behind the first one.
   for (; precision < 17; ++precision) {
     std::snprintf(digits, sizeof(digits), "%.*e", precision, static_cast<double>(value));
     if (Read(digits, nullptr, T()) == value) {
@@ -53,7 +53,7 @@ std::string Format(T value) {
   const std::string scientific = digits;
   const size_t at = scientific.find('e');
   if (at == std::string::npos) {
-    return scientific;  // Infinite, or not a number.
+    return scientific;  // The value is infinite or not a number.
   }
   const int behind_point = precision - std::atoi(scientific.c_str() + at + 1);
   std::snprintf(digits, sizeof(digits), "%.*f", behind_point > 0 ? behind_point : 0,

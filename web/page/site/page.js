@@ -139,7 +139,8 @@ async function start() {
   let mine;
   try {
     const loaded = loadOnce();
-    loaded.catch(() => {});  // It is awaited below, unless the camera fails before.
+    // If the camera fails, nothing waits for `loaded`, whose error must not count as unhandled then.
+    loaded.catch(() => {});
     const stream = await openCamera();
     try {
       visit = mine = {...await loaded, stream, begun: undefined, presented: 0};
@@ -160,7 +161,8 @@ async function start() {
       awaitFrame();
     }
   } catch (error) {
-    if (mine === visit) {  // Otherwise a sentence says already why it was stopped.
+    // If another visit plays or this one was stopped, a sentence says so already.
+    if (mine === visit) {
       stop(() => showProblem(error));
     }
   }
@@ -191,7 +193,8 @@ async function trackFrame(now, {mediaTime, presentedFrames}) {
   if (current === undefined) {
     return;
   }
-  if (video.readyState < HTMLMediaElement.HAVE_CURRENT_DATA) {  // A camera that is just being closed or opened.
+  // A camera that is just being closed or opened has no image.
+  if (video.readyState < HTMLMediaElement.HAVE_CURRENT_DATA) {
     awaitFrame();
     return;
   }

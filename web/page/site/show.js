@@ -11,7 +11,7 @@ export class Show {
     const show = new Show();
     show.module = await createModule();
     show.module.FS.writeFile(FILE, bundle, {canOwn: true});
-    show.numbers = show.module._malloc(21 * 8);  // PageShow::kTrackedNumbers doubles.
+    show.numbers = show.module._malloc(21 * 8);  // The program reads PageShow::kTrackedNumbers of them.
     show.check(show.module._lararium_open());
     return show;
   }
