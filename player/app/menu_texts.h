@@ -1,6 +1,6 @@
 #pragma once
 
-// The texts of the visitor's menu in all languages of the program.
+// The texts of the visitor's menu in all languages of the program (show/visitor_texts.json).
 
 #include <array>
 #include <string>
@@ -13,22 +13,22 @@ namespace lararium::player {
 // The texts live as long as the program. The menu shows the current choice behind the name of an
 // item, after a colon.
 struct MenuTexts {
-  std::string_view louder;
-  std::string_view quieter;
-  std::string_view language;  // followed by the name of the spoken language
-  std::string_view captions;  // followed by the name of the captions' language, or by `off`
-  std::string_view off;
-  std::string_view caption_size;
-  std::array<std::string_view, 3> sizes;  // index: render::CaptionSize
-  std::string_view contrast;
-  std::array<std::string_view, 2> contrasts;  // index: render::CaptionContrast
-  std::string_view descriptions;
-  std::array<std::string_view, 2> switches;  // descriptions off, on
-  std::string_view motion;
-  std::array<std::string_view, 2> motions;  // full motion, reduced motion
-  std::string_view restart;
-  std::string_view find_anew;
-  std::string_view close;
+  std::string louder;
+  std::string quieter;
+  std::string language;  // followed by the name of the spoken language
+  std::string captions;  // followed by the name of the captions' language, or by `off`
+  std::string off;
+  std::string caption_size;
+  std::array<std::string, 3> sizes;  // index: render::CaptionSize
+  std::string contrast;
+  std::array<std::string, 2> contrasts;  // index: render::CaptionContrast
+  std::string descriptions;
+  std::array<std::string, 2> switches;  // descriptions off, on
+  std::string motion;
+  std::array<std::string, 2> motions;  // full motion, reduced motion
+  std::string restart;
+  std::string find_anew;
+  std::string close;
 };
 
 // Returns English if the program does not know a language or the font lacks letters for it.

@@ -33,8 +33,8 @@ std::vector<MenuItem> ItemsOf(const show::ShowContent& content, const Choices& c
   const auto chosen = [](const std::string& choice, const std::vector<std::string>& all) {
     return choice.empty() ? all.front() : choice;
   };
-  items.push_back({Action::kLouder, std::string(texts.louder), true});
-  items.push_back({Action::kQuieter, std::string(texts.quieter), true});
+  items.push_back({Action::kLouder, texts.louder, true});
+  items.push_back({Action::kQuieter, texts.quieter, true});
   if (content.spoken_languages.size() > 1) {
     const std::string language = chosen(choices.language, content.spoken_languages);
     items.push_back({Action::kLanguage, Chosen(texts.language, NameOfLanguage(language, font))});
@@ -42,12 +42,12 @@ std::vector<MenuItem> ItemsOf(const show::ShowContent& content, const Choices& c
   if (!content.caption_languages.empty()) {
     const std::string language = chosen(choices.captions, content.caption_languages);
     const std::string name =
-        language == show::kNoCaptions ? std::string(texts.off) : NameOfLanguage(language, font);
+        language == show::kNoCaptions ? texts.off : NameOfLanguage(language, font);
     items.push_back({Action::kCaptions, Chosen(texts.captions, name)});
-    items.push_back(
-        {Action::kCaptionSize, Chosen(texts.caption_size, NameOf(texts.sizes, style.size))});
+    items.push_back({Action::kCaptionSize,
+                     Chosen(texts.caption_size, texts.sizes[static_cast<size_t>(style.size)])});
     items.push_back({Action::kCaptionContrast,
-                     Chosen(texts.contrast, NameOf(texts.contrasts, style.contrast))});
+                     Chosen(texts.contrast, texts.contrasts[style.is_high() ? 1 : 0])});
   }
   if (content.has_descriptions) {
     const std::string_view choice = texts.switches[choices.descriptions ? 1 : 0];
@@ -55,9 +55,9 @@ std::vector<MenuItem> ItemsOf(const show::ShowContent& content, const Choices& c
   }
   items.push_back({Action::kReducedMotion,
                    Chosen(texts.motion, texts.motions[choices.reduced_motion ? 1 : 0])});
-  items.push_back({Action::kRestart, std::string(texts.restart), false, true});
-  items.push_back({Action::kFindAnew, std::string(texts.find_anew), false, true});
-  items.push_back({std::nullopt, std::string(texts.close), false, true});
+  items.push_back({Action::kRestart, texts.restart, false, true});
+  items.push_back({Action::kFindAnew, texts.find_anew, false, true});
+  items.push_back({std::nullopt, texts.close, false, true});
   return items;
 }
 

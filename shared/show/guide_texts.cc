@@ -48,12 +48,13 @@ bool CanWrite(const render::CaptionFont& font, std::string_view text) {
   return true;
 }
 
-GuideTexts BuiltInGuide(std::string_view language, const render::CaptionFont& font) {
+GuideTexts BuiltInGuide(std::string_view language, const render::CaptionFont* font) {
   const std::string_view plain = language.substr(0, language.find('-'));
   const auto* known = std::find_if(std::begin(kKnown), std::end(kKnown),
                                    [&](const Known& k) { return k.language == plain; });
-  if (known == std::end(kKnown) || !CanWrite(font, known->look) || !CanWrite(font, known->dark) ||
-      !CanWrite(font, known->farewell)) {
+  if (known == std::end(kKnown) ||
+      (font != nullptr && !(CanWrite(*font, known->look) && CanWrite(*font, known->dark) &&
+                            CanWrite(*font, known->farewell)))) {
     known = std::begin(kKnown);
   }
   return {std::string(known->look), std::string(known->dark), std::string(known->farewell)};

@@ -18,8 +18,9 @@ struct GuideTexts {
 };
 
 // The texts in a language; in English if the program does not know it or the font lacks a glyph.
-// language: for example "la" or "en-GB"; the part after a hyphen is ignored.
-GuideTexts BuiltInGuide(std::string_view language, const render::CaptionFont& font);
+// language: for example "la" or "en-GB"; the part after a hyphen is ignored. font: nullptr: the
+// texts are not drawn with a show's font.
+GuideTexts BuiltInGuide(std::string_view language, const render::CaptionFont* font);
 
 // Whether a font has glyphs for a whole text.
 bool CanWrite(const render::CaptionFont& font, std::string_view text);

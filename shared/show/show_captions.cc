@@ -34,11 +34,14 @@ std::string TrackingText(const StagedFrame& staged) {
 Result<std::unique_ptr<ShowCaptions>> ShowCaptions::Create(const ShowContent& content) {
   std::unique_ptr<ShowCaptions> captions(new ShowCaptions());
   captions->texts_ = TextsOf(content);
-  for (const ShowPlace& place : content.places) {
-    captions->guides_.push_back(place.guide);
+  captions->guides_.resize(content.places.size());
+  if (content.caption_font) {  // Nothing is written without letters.
+    for (size_t i = 0; i < content.places.size(); ++i) {
+      captions->guides_[i] = content.places[i].guide;
+    }
+    captions->dark_guide_ = content.dark_guide;
+    captions->farewell_ = content.farewell;
   }
-  captions->dark_guide_ = content.dark_guide;
-  captions->farewell_ = content.farewell;
   LARARIUM_ASSIGN_OR_RETURN(
       captions->painter_,
       render::CaptionPainter::Create(content.caption_font.value_or(render::CaptionFont())));

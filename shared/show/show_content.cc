@@ -305,10 +305,8 @@ std::string FirstCaption(const CaptionBooks& books,
 
 // Guide and farewell texts are shown even if captions are off.
 void LoadGuide(const CaptionBooks& books, std::string_view language, ShowContent& content) {
-  if (!content.caption_font) {
-    return;
-  }
-  const GuideTexts known = BuiltInGuide(language, *content.caption_font);
+  const GuideTexts known =
+      BuiltInGuide(language, content.caption_font ? &*content.caption_font : nullptr);
   content.dark_guide = known.dark;
   content.farewell = FirstCaption(books, "farewell", language);
   if (content.farewell.empty()) {

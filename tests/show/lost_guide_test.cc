@@ -117,17 +117,17 @@ TEST(BuiltInGuide, IsInTheLanguageWhereTheFontHasItsLetters) {
   }
   const render::CaptionFont plain = Letters(ascii);
   const render::CaptionFont accented = Letters(ascii + "éÈÎîô");
-  const std::string english = BuiltInGuide("en", plain).look;
-  EXPECT_NE(BuiltInGuide("la", plain).look, english);
-  EXPECT_NE(BuiltInGuide("de", plain).look, english);
-  EXPECT_EQ(BuiltInGuide("fr", plain).look, english);
-  EXPECT_NE(BuiltInGuide("fr-CH", accented).look, english);
-  EXPECT_EQ(BuiltInGuide("xx", plain).look, english);
-  EXPECT_EQ(BuiltInGuide("", plain).look, english);
+  const std::string english = BuiltInGuide("en", &plain).look;
+  EXPECT_NE(BuiltInGuide("la", &plain).look, english);
+  EXPECT_NE(BuiltInGuide("de", &plain).look, english);
+  EXPECT_EQ(BuiltInGuide("fr", &plain).look, english);
+  EXPECT_NE(BuiltInGuide("fr-CH", &accented).look, english);
+  EXPECT_EQ(BuiltInGuide("xx", &plain).look, english);
+  EXPECT_EQ(BuiltInGuide("", &plain).look, english);
   for (const char* language : {"en", "la", "de", "nl"}) {
-    EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, plain).look)) << language;
-    EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, plain).dark)) << language;
-    EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, plain).farewell)) << language;
+    EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, &plain).look)) << language;
+    EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, &plain).dark)) << language;
+    EXPECT_TRUE(CanWrite(plain, BuiltInGuide(language, &plain).farewell)) << language;
   }
 }
 
