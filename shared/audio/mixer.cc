@@ -41,9 +41,10 @@ float Loudness(const Voice& voice, const Listener& listener) {
 }  // namespace
 
 Status MixerOptions::Validate() const {
-  if (!(max_lead > 0.0 && max_lag > 0.0 && late_start >= 0.0 && late_start <= max_lag)) {
+  if (!(max_lead > 0.0 && max_lag > 0.0 && late_start >= 0.0 && late_start <= max_lag &&
+        block_frames > 0)) {
     return Status::Error("sound",
-                         "max_lead and max_lag must be positive, and late_start "
+                         "max_lead, max_lag and block_frames must be positive, and late_start "
                          "must be 0 to max_lag");
   }
   return Status();
@@ -285,8 +286,8 @@ void Mixer::RenderBlock(const SoundScene& scene, double begin, std::span<float> 
 }
 
 void Mixer::Render(const SoundScene& scene, double begin, std::span<float> stereo) {
-  for (size_t frame = 0; frame < stereo.size() / 2; frame += kBlockFrames) {
-    const size_t count = std::min(kBlockFrames, stereo.size() / 2 - frame);
+  for (size_t frame = 0; frame < stereo.size() / 2; frame += options_.block_frames) {
+    const size_t count = std::min(options_.block_frames, stereo.size() / 2 - frame);
     RenderBlock(scene, begin + static_cast<double>(frame) / kRate,
                 stereo.subspan(2 * frame, 2 * count));
   }

@@ -25,6 +25,8 @@ struct MixerOptions {
   // A voice that is new within this time after its beginning is played from its beginning, so that
   // it keeps its onset. Seconds, at most max_lag.
   double late_start = 0.1;
+  // Gains and positions change linearly within a block of samples.
+  size_t block_frames = 480;
 
   // Options for files, which are rendered up to a known time: every sample is exactly in place.
   static MixerOptions ForFiles() { return {.max_lead = 0.002, .max_lag = 0.002, .late_start = 0}; }
@@ -40,8 +42,7 @@ inline constexpr std::array<float, 4> kDescribedDb = {-6.0f, -8.0f, -9.0f, 0.0f}
 class Mixer {
  public:
   static constexpr int kRate = SoundGraph::kRate;
-  // Gains and positions change linearly within a block.
-  static constexpr size_t kBlockFrames = 480;
+  static constexpr size_t kBlockFrames = MixerOptions().block_frames;
 
   static Result<std::unique_ptr<Mixer>> Create(std::shared_ptr<const SoundLibrary> library,
                                                const MixerOptions& options);

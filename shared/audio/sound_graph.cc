@@ -4,48 +4,20 @@
 #include <AL/al.h>
 #include <AL/alc.h>
 #include <AL/alext.h>
-#include <AL/efx-presets.h>
 #include <AL/efx.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "shared/audio/clip_stream.h"
 #include "shared/audio/decibels.h"
+#include "shared/audio/sound_damping.h"
 #include "shared/core/check.h"
 
 namespace lararium::audio {
 namespace {
 
-constexpr size_t kPieceFrames = 4096;  // Frames per queued piece of a streamed sound.
-constexpr size_t kPieces = 3;          // Pieces queued in advance.
-constexpr float kReferenceDistance = 1.0f;
-constexpr float kMaxDistance = 200.0f;
-constexpr float kMaxGain = 8.0f;
-// Attenuation behind an occluder, decibels: overall, and additionally at 5 kHz. Reverberation gets
-// half of it.
-constexpr float kObstructedDb = -9.0f;
-constexpr float kObstructedHighDb = -18.0f;
-// Attenuation of a voice behind the speaker (Chu & Warnock, "Detailed directivity of sound fields
-// around human talkers", NRC-IRC RR-104, 2002: a few decibels at middle frequencies of speech, more
-// than ten at 5 kHz).
-constexpr float kBehindDb = -4.0f;
-constexpr float kBehindHighDb = -10.0f;
-constexpr float kMouthConeDeg = 90.0f;  // Full level within this cone.
-
-const EFXEAXREVERBPROPERTIES& PresetOf(stage::Reverb reverb) {
-  static constexpr std::array<EFXEAXREVERBPROPERTIES, 9> kPresets = {{
-      EFX_REVERB_PRESET_GENERIC,  // Not used: kNone has no reverberation.
-      EFX_REVERB_PRESET_LIVINGROOM,
-      EFX_REVERB_PRESET_WOODEN_SMALLROOM,
-      EFX_REVERB_PRESET_CASTLE_SMALLROOM,
-      EFX_REVERB_PRESET_CASTLE_SHORTPASSAGE,
-      EFX_REVERB_PRESET_CASTLE_MEDIUMROOM,
-      EFX_REVERB_PRESET_CASTLE_HALL,
-      EFX_REVERB_PRESET_CASTLE_COURTYARD,
-      EFX_REVERB_PRESET_CITY_STREETS,
-  }};
-  return kPresets[static_cast<size_t>(reverb)];
-}
+constexpr size_t kPieces = 3;  // Pieces of a streamed sound that are queued in advance.
 
 // Makes our context current on the calling thread, within a scope.
 class Entered {
@@ -83,35 +55,14 @@ void SetEffect(ALuint effect, const EFXEAXREVERBPROPERTIES& p, float db) {
   alEffecti(effect, AL_EAXREVERB_DECAY_HFLIMIT, p.iDecayHFLimit);
 }
 
-// Converts to stereo, where both ears get a mono sound, or to mono, where a stereo sound becomes
-// one point.
-void Convert(std::span<const int16_t> samples,
-             const Clip& clip,
-             bool to_stereo,
-             std::vector<int16_t>& converted) {
-  converted.clear();
-  if (to_stereo) {
-    for (const int16_t sample : samples) {
-      converted.insert(converted.end(), clip.channels == 1 ? 2 : 1, sample);
-    }
-    return;
-  }
-  const int sign = clip.has_opposed_channels ? -1 : 1;
-  for (size_t i = 0; i < samples.size(); i += static_cast<size_t>(clip.channels)) {
-    converted.push_back(clip.channels == 1
-                            ? samples[i]
-                            : static_cast<int16_t>((samples[i] + sign * samples[i + 1]) / 2));
-  }
-}
+Channels ChannelsOf(bool head_locked) { return head_locked ? Channels::kStereo : Channels::kMono; }
 
 void GiveSamples(ALuint buffer,
                  std::span<const int16_t> samples,
                  const Clip& clip,
-                 bool to_stereo,
-                 std::vector<int16_t>& scratch) {
-  Convert(samples, clip, to_stereo, scratch);
-  alBufferData(buffer, to_stereo ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, scratch.data(),
-               static_cast<ALsizei>(scratch.size() * sizeof(int16_t)), clip.rate);
+                 bool head_locked) {
+  alBufferData(buffer, head_locked ? AL_FORMAT_STEREO16 : AL_FORMAT_MONO16, samples.data(),
+               static_cast<ALsizei>(samples.size_bytes()), clip.rate);
 }
 
 }  // namespace
@@ -141,19 +92,26 @@ struct SoundGraph::Source {
   bool loops = false;
   bool head_locked = false;
   // Used by streamed clips only.
-  std::optional<SoundReader> reader;
+  std::optional<ClipStream> stream;
   std::array<ALuint, kPieces> pieces = {};
   bool drained = false;  // The stream has ended.
+
+  // Queues the next piece of the stream; the stream has ended if there is none.
+  void Fill(const Clip& played, ALuint buffer) {
+    const std::span<const int16_t> piece = stream->Next();
+    drained = piece.empty();
+    if (!drained) {
+      GiveSamples(buffer, piece, played, head_locked);
+      alSourceQueueBuffers(id, 1, &buffer);
+    }
+  }
 };
 
 SoundGraph::SoundGraph(std::shared_ptr<const SoundLibrary> library, std::unique_ptr<Device> device)
     : library_(std::move(library)),
       device_(std::move(device)),
       buffers_(library_->clips().size()),
-      sources_(kSources),
-      piece_(2 * kPieceFrames) {
-  widened_.reserve(2 * kPieceFrames);
-}
+      sources_(kSources) {}
 
 // OpenAL's objects are destroyed with their device.
 SoundGraph::~SoundGraph() = default;
@@ -228,42 +186,23 @@ uint32_t SoundGraph::BufferOf(int clip, bool head_locked) {
   uint32_t& buffer = head_locked ? buffers.stereo : buffers.mono;
   if (buffer == 0) {
     const Clip& source = library_->clips()[static_cast<size_t>(clip)];
-    std::vector<int16_t> scratch;
+    std::vector<int16_t> samples;
+    Convert(source.samples, source, ChannelsOf(head_locked), samples);
     alGenBuffers(1, &buffer);
-    GiveSamples(buffer, source.samples, source, head_locked, scratch);
+    GiveSamples(buffer, samples, source, head_locked);
   }
   return buffer;
 }
 
-bool SoundGraph::FillBuffer(Source& source, uint32_t buffer) {
-  const Clip& clip = library_->clips()[static_cast<size_t>(source.clip)];
-  const auto channels = static_cast<size_t>(clip.channels);
-  const std::span<int16_t> piece = std::span(piece_).first(kPieceFrames * channels);
-  size_t frames = source.reader->Read(piece);
-  if (frames < kPieceFrames && source.loops) {
-    // Continue at the beginning. A file that yields nothing even from there is damaged.
-    if (source.reader->Seek(0)) {
-      frames += source.reader->Read(piece.subspan(frames * channels));
-    }
-  }
-  if (frames == 0) {
-    return false;
-  }
-  GiveSamples(buffer, piece.first(frames * channels), clip, source.head_locked, widened_);
-  alSourceQueueBuffers(source.id, 1, &buffer);
-  return true;
-}
-
 bool SoundGraph::StartStream(Source& source, const Clip& clip, int64_t frame) {
-  Result<SoundReader> reader = SoundReader::Open(clip.data.bytes, clip.name);
-  if (!reader.ok() || (frame > 0 && !reader->Seek(frame))) {
+  source.stream = ClipStream::Open(clip, frame, source.loops, ChannelsOf(source.head_locked));
+  if (!source.stream) {
     return false;
   }
-  source.reader = std::move(*reader);
   source.drained = false;
   for (const ALuint piece : source.pieces) {
     if (!source.drained) {
-      source.drained = !FillBuffer(source, piece);
+      source.Fill(clip, piece);
     }
   }
   return true;
@@ -301,7 +240,7 @@ void SoundGraph::Stop(size_t index) {
   Source& source = sources_[index];
   alSourceRewind(source.id);
   alSourcei(source.id, AL_BUFFER, 0);
-  source.reader.reset();
+  source.stream.reset();
   source.clip = -1;
 }
 
@@ -370,14 +309,16 @@ void SoundGraph::Feed(Source& source) {
   for (; played > 0; --played) {
     ALuint buffer = 0;
     alSourceUnqueueBuffers(source.id, 1, &buffer);
-    source.drained = source.drained || !FillBuffer(source, buffer);
+    if (!source.drained) {
+      source.Fill(library_->clips()[static_cast<size_t>(source.clip)], buffer);
+    }
   }
 }
 
 void SoundGraph::Render(std::span<float> stereo) {
   const Entered entered(device_->context);
   for (Source& source : sources_) {
-    if (source.reader) {
+    if (source.stream) {
       Feed(source);
     }
   }

@@ -4,8 +4,12 @@
 // request. Head-related transfer functions (HRTF), distance, occlusion and reverberation are
 // therefore the same for headphones and for files, and do not depend on a sound card.
 //
+// In browsers Web Audio renders (web/sound_graph.cc), into the node that a page gives as
+// `Module.audioOut`. There the samples of Render() are silence, and what they would contain is
+// scheduled at the context's time, from that of Create() on. A page has one graph at a time.
+//
 // Distance model: inverse; the reference distance is 1 m, and nearer sources are not louder.
-// OpenAL's axes are those of the stage: Y up, -Z forward, metres.
+// The axes are those of the stage: Y up, -Z forward, metres.
 
 #include <array>
 #include <cstdint>
@@ -43,7 +47,7 @@ class SoundGraph {
   SoundGraph& operator=(const SoundGraph&) = delete;
 
   const SoundLibrary& library() const { return *library_; }
-  // False if no HRTF data are installed.
+  // False if no HRTF data are installed. Browsers have their own.
   bool hrtf() const { return hrtf_; }
 
   // Starts a clip at one of its frames, with the next sample that is rendered. Stops what the
@@ -74,17 +78,14 @@ class SoundGraph {
   SoundGraph(std::shared_ptr<const SoundLibrary> library, std::unique_ptr<Device> device);
   uint32_t BufferOf(int clip, bool head_locked);
   bool StartStream(Source& source, const Clip& clip, int64_t frame);
-  // Queues the next piece of a streamed sound in OpenAL; returns false at its end.
-  bool FillBuffer(Source& source, uint32_t buffer);
+  // Queues the next pieces of a streamed sound.
   void Feed(Source& source);
 
   std::shared_ptr<const SoundLibrary> library_;
   std::unique_ptr<Device> device_;
   bool hrtf_ = false;
-  std::vector<Buffers> buffers_;  // OpenAL buffers of each clip; 0: not created yet.
+  std::vector<Buffers> buffers_;  // Buffers of each clip; 0: not created yet.
   std::vector<Source> sources_;
-  std::vector<int16_t> piece_;    // A piece of a stream, decoded.
-  std::vector<int16_t> widened_;  // The piece in the channel count for OpenAL.
 };
 
 }  // namespace lararium::audio

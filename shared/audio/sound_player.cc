@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace lararium::audio {
 namespace {
@@ -11,25 +10,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kAskAgain(2);
 constexpr std::chrono::milliseconds kStale(333);
-// Clock difference beyond which the drama has jumped, and share of a smaller one that is corrected
-// in each block.
-constexpr double kJumpSeconds = 0.25;
-constexpr double kEvenOut = 0.02;
 
 }  // namespace
-
-double SoundClock::Next(double scene_time,
-                        Clock::time_point shown,
-                        Clock::time_point heard,
-                        double block_seconds) {
-  const double wanted = scene_time + std::chrono::duration<double>(heard - shown).count();
-  if (!next_ || std::abs(wanted - *next_) > kJumpSeconds) {
-    next_ = wanted;
-  }
-  const double now = *next_ + kEvenOut * (wanted - *next_);
-  next_ = now + block_seconds;
-  return now;
-}
 
 SoundPlayer::SoundPlayer(std::unique_ptr<Mixer> mixer, OpenOut open, Log& log)
     : mixer_(std::move(mixer)),
