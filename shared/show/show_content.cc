@@ -432,4 +432,19 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
   return content;
 }
 
+Result<ShowContent> LoadInLanguages(const bundle::Bundle& bundle,
+                                    const LanguageChoice& languages,
+                                    const ShowContent& content) {
+  ShowContent other = content;
+  other.speech.clear();
+  other.sounds.clear();
+  other.has_descriptions = false;
+  for (CastMember& member : other.cast) {
+    member.title.clear();
+  }
+  LARARIUM_RETURN_IF_ERROR(LoadLines(bundle, languages, other));
+  LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, other.sounds));
+  return other;
+}
+
 }  // namespace lararium::show

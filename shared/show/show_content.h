@@ -152,4 +152,10 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
                                     const LanguageChoice& languages = {},
                                     float finest = 0.0f);
 
+// Returns the show in other languages, whose people, places and objects are those of `content`.
+// Reads lines, texts and sounds only. content: may have given its sounds away (Show::content()).
+Result<ShowContent> LoadInLanguages(const bundle::Bundle& bundle,
+                                    const LanguageChoice& languages,
+                                    const ShowContent& content);
+
 }  // namespace lararium::show

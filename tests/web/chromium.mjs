@@ -49,8 +49,9 @@ export class Chromium {
     await this.send('Page.navigate', {url});
   }
 
-  async evaluate(expression) {
-    const {result, exceptionDetails} = await this.send('Runtime.evaluate', {expression, returnByValue: true, awaitPromise: true});
+  // userGesture: as if a visitor had tapped, which browsers ask for before they let sound begin.
+  async evaluate(expression, userGesture = false) {
+    const {result, exceptionDetails} = await this.send('Runtime.evaluate', {expression, userGesture, returnByValue: true, awaitPromise: true});
     if (exceptionDetails !== undefined) {
       throw new Error(JSON.stringify(exceptionDetails));
     }

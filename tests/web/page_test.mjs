@@ -1,15 +1,15 @@
-// node page_test.mjs REFERENCE_PROGRAM PAGE CHROMIUM WORK_FOLDER SHOW SCENE.larscene VIDEO
+// node page_test.mjs REFERENCE_PROGRAM PAGE CHROMIUM WORK_FOLDER SHOW SCENE.larscene VIDEO AXE
 // A visit in Chromium without a screen, from a server of files without special headers: a video stands for the camera.
 // Checks the sentences for what stands in the way, every pose against the native tracker's, and that the canvas shows
 // the image that was tracked, with people in it. Writes screenshots. Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
-import {Chromium} from './chromium.mjs';
+import {mkdirSync, readFileSync} from 'node:fs';
 import {serve, skipWithout} from './needs.mjs';
 import {distancePx, pixel} from './poses.mjs';
+import {cameraOptions, press, READY, says, Screens, withBrowser, writeCamera} from './visitor.mjs';
 
-const [reference, page, program, work, show, scene, video] = process.argv.slice(2);
+const [reference, page, program, work, show, scene, video, axe] = process.argv.slice(2);
 skipWithout(
   [`${page}/module.wasm`, 'build the preset `web`'], [show, 'run ./demo or the test acceptance/maquette'],
   [scene, 'run the test acceptance/maquette'], [video, 'set LARARIUM_DATA_DIR'], [program, 'install chromium'],
@@ -26,11 +26,8 @@ execFileSync(reference, [scene, video, work], {stdio: 'inherit'});
 const native = JSON.parse(readFileSync(`${work}/reference.json`, 'utf8'));
 const {width, height} = native;
 const grey = readFileSync(`${work}/frames.grey`);
-// The software renderer is slow, so the camera is, too: four images a second. After 20 s it looks at something else for
-// 10 s, then it begins again.
 const camera = `${work}/camera.y4m`;
-execFileSync('ffmpeg', ['-v', 'error', '-y', '-i', video, '-f', 'lavfi', '-i', `testsrc2=size=${width}x${height}:rate=4:duration=10`,
-  '-filter_complex', '[0]trim=end_frame=80,setpts=N/4/TB,fps=4[a];[a][1]concat,format=yuv420p', '-f', 'yuv4mpegpipe', camera]);
+writeCamera(video, width, height, camera);
 
 let missing = true;  // The server has no show at first.
 const server = await serve((path) => {
@@ -90,9 +87,6 @@ function watch(step) {
   };
 }
 
-const says = (words) => `document.getElementById('text')?.innerText.includes(${JSON.stringify(words)}) && !document.getElementById('card').hidden`;
-const press = (browser) => browser.evaluate(`document.getElementById('go').click()`);
-
 // The part of the video's image that a camera of this width shows, from its left edge on: it cuts both sides off.
 const leftOf = (camera) => (width - camera.width) / 2;
 
@@ -124,13 +118,7 @@ function distanceFromNative(frame) {
 }
 
 const POSES = 'noted.filter((frame) => frame.tracked.pose).length';
-const shots = [];
-async function shoot(browser, name) {
-  for (const [form, w, h] of [['portrait', 390, 844], ['landscape', 844, 390]]) {
-    writeFileSync(`${work}/${name}_${form}.png`, await browser.screenshot(w, h));
-    shots.push(`${name}_${form}.png`);
-  }
-}
+const screens = new Screens(work, axe);
 
 function check(good, text) {
   console.log(`${good ? 'ok  ' : 'MISS'} ${text}`);
@@ -150,12 +138,12 @@ const share = (changed) => `${(100 * changed).toFixed(1)} %`;
 
 async function visit(browser) {
   await browser.open(`${origin}/`, `(${watch})(${STEP})`);
-  await browser.until(`document.getElementById('go')?.onclick`);
-  await shoot(browser, 'title');
+  await browser.until(READY);
+  await screens.take(browser, 'title');
   await browser.setCamera(origin, 'denied');
   await press(browser);
   await browser.until(says('not allowed for this page'));
-  await shoot(browser, 'refused');
+  await screens.take(browser, 'refused');
   console.log('ok   a refused camera has its sentence');
 
   await browser.setCamera(origin, 'granted');
@@ -166,9 +154,9 @@ async function visit(browser) {
   missing = false;
   await press(browser);
   await browser.until(`${POSES} >= ${FRAMES}`, 200);
-  await shoot(browser, 'show');
+  await screens.take(browser, 'show');
   await browser.until(`noted.at(-1).milliseconds - noted.findLast((frame) => frame.tracked.pose).milliseconds > 3000`, 100);
-  await shoot(browser, 'guide');
+  await screens.take(browser, 'guide');
   const before = await browser.evaluate(POSES);
   await browser.until(`${POSES} > ${before}`, 100);
 
@@ -197,7 +185,7 @@ async function visit(browser) {
   // The device is turned: the camera gives images of another size from now on.
   await browser.evaluate('noted.length = 0, document.getElementById("video").srcObject.getVideoTracks()[0].applyConstraints({width: 360, height: 480})');
   await browser.until(`noted.filter((frame) => frame.tracked.pose && frame.tracked.camera.width === 360).length >= 8`, 100);
-  await shoot(browser, 'turned');
+  await screens.take(browser, 'turned');
   checkPoses(await browser.evaluate('noted.filter((frame) => frame.tracked.camera.width === 360)'));
 
   // A second tab, whose browser has no planes of images.
@@ -212,7 +200,7 @@ async function visit(browser) {
   await browser.until('noted.length >= 3', 100);
   console.log('ok   a hidden page lets the camera go and says so, and the show goes on');
   await browser.show(second);
-  await browser.until(`document.getElementById('go')?.onclick`);
+  await browser.until(READY);
   await browser.evaluate('addEventListener("keydown", () => window.pressed = performance.now(), true)');
   await browser.pressKey('Tab', 9);
   await browser.pressKey('Enter', 13, '\r');
@@ -227,24 +215,12 @@ async function visit(browser) {
   console.log('ok   a lost drawing context has its sentence, and the page is loaded again');
 }
 
-async function withBrowser(options, use) {
-  const browser = new Chromium(program, work, options);
-  try {
-    await use(browser);
-  } catch (error) {
-    console.log(browser.console.join('\n'));
-    throw error;
-  } finally {
-    await browser.close();
-  }
-}
-
 try {
-  await withBrowser(['--use-fake-device-for-media-stream', `--use-file-for-fake-video-capture=${camera}`], visit);
-  await withBrowser([], async (browser) => {
+  await withBrowser(program, work, cameraOptions(camera), visit);
+  await withBrowser(program, work, [], async (browser) => {
     await browser.setCamera(origin, 'granted');
     await browser.open(`${origin}/`, '');
-    await browser.until(`document.getElementById('go')?.onclick`);
+    await browser.until(READY);
     await press(browser);
     await browser.until(says('no camera that a page can use'));
     console.log('ok   a device without a camera has its sentence');
@@ -252,4 +228,4 @@ try {
 } finally {
   server.close();
 }
-console.log(`     screenshots: ${shots.join(', ')}`);
+console.log(`     screenshots: ${screens.shots.join(', ')}`);

@@ -41,9 +41,29 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_map(size_t index, uint32_t* address_an
   return nullptr;
 }
 
-EMSCRIPTEN_KEEPALIVE const char* lararium_load(bool reduced_motion) {
-  return ErrorText(show->Load(reduced_motion));
+// An empty language is the author's choice.
+EMSCRIPTEN_KEEPALIVE const char* lararium_load(const char* spoken, const char* captions) {
+  return ErrorText(show->Load({spoken, captions}));
 }
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_set_languages(const char* spoken, const char* captions) {
+  return ErrorText(show->SetLanguages({spoken, captions}));
+}
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_open_sound() { return ErrorText(show->OpenSound()); }
+
+EMSCRIPTEN_KEEPALIVE double lararium_length() { return show->length(); }
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_language() { return show->language().c_str(); }
+
+EMSCRIPTEN_KEEPALIVE void lararium_choose(bool descriptions, bool reduced_motion) {
+  show->input().SetDescriptions(descriptions);
+  show->input().SetReducedMotion(reduced_motion);
+}
+
+EMSCRIPTEN_KEEPALIVE void lararium_restart() { show->input().RestartAt(0.0); }
+
+EMSCRIPTEN_KEEPALIVE void lararium_forget_pose() { show->input().ForgetPose(); }
 
 EMSCRIPTEN_KEEPALIVE uint8_t* lararium_new_image(int format, int width, int height) {
   return show->NewImage(static_cast<PixelFormat>(format), width, height);
@@ -53,11 +73,18 @@ EMSCRIPTEN_KEEPALIVE const uint8_t* lararium_luminance() { return show->ComputeL
 
 EMSCRIPTEN_KEEPALIVE double* lararium_new_seen(size_t count) { return show->NewSeen(count); }
 
-EMSCRIPTEN_KEEPALIVE const char* lararium_draw(const double* tracked,
-                                               double seconds,
-                                               float hour,
-                                               double late_ms) {
-  return ErrorText(show->Draw({tracked, PageShow::kTrackedNumbers}, {seconds, hour, late_ms}));
+EMSCRIPTEN_KEEPALIVE const char* lararium_draw(
+    const double* tracked, double seconds, float hour, double late_ms, float shown) {
+  return ErrorText(
+      show->Draw({tracked, PageShow::kTrackedNumbers}, {seconds, hour, late_ms, shown}));
+}
+
+EMSCRIPTEN_KEEPALIVE double lararium_time() { return show->time(); }
+
+// Returns PageShow::TakeTexts() as JSON.
+EMSCRIPTEN_KEEPALIVE const char* lararium_texts() {
+  const std::string* texts = show->TakeTexts();
+  return texts == nullptr ? nullptr : texts->c_str();
 }
 
 }  // extern "C"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shared/core/check.h"
+#include "shared/core/json.h"
 #include "shared/render/quality.h"
 #include "shared/vision/pose_smoother.h"
 
@@ -69,29 +70,63 @@ Result<std::unique_ptr<PageShow>> PageShow::Open(const std::filesystem::path& fi
 }
 
 Result<std::span<const std::byte>> PageShow::map(size_t index) const {
-  return bundle_->member(bundle_->manifest().places[index].scene);
+  return bundle_.member(bundle_.manifest().places[index].scene);
 }
 
-Status PageShow::Load(bool reduced_motion) {
+Result<std::unique_ptr<show::Show>> PageShow::Make(show::ShowContent content) {
+  drama::DramaOptions options;
+  options.past = drama::Past::kForgotten;
+  return show::Show::Create(std::move(content), options, *log_);
+}
+
+void PageShow::Begin(std::unique_ptr<show::Show> show) {
+  sound_.reset();
+  show_ = std::move(show);
+  show_->SetTrackingLossFader({});
+  show_->detail().SetQuality(render::QualityLadder()[quality_.level()]);
+  if (target_) {
+    show_->detail().SetPictureSize(target_->width(), target_->height());
+  }
+  texts_ = show::TextsOf(show_->content());
+  told_texts_.clear();
+}
+
+Status PageShow::Load(const show::LanguageChoice& languages) {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
-                            show::LoadShowContent(*bundle_, {}, {}, kFinest));
-  bundle_.reset();
+                            show::LoadShowContent(bundle_, {}, languages, kFinest));
   // No thread could read finer people.
   content.finer = {};
+  // The page writes the texts itself, so that they have the browser's letters, directions and
+  // sizes.
+  content.caption_font.reset();
   LARARIUM_ASSIGN_OR_RETURN(context_,
                             render::CreateOffscreenContext(render::GraphicsApi::kOpenGlEs30));
   auto given = std::make_unique<GivenPoses>();
   given_ = given.get();
   smoothed_ =
       vision::Smooth(std::move(given), show::Maps(content.places), vision::Smoothing::kSoft);
-  const render::Quality& quality = render::QualityLadder()[quality_.level()];
-  LARARIUM_ASSIGN_OR_RETURN(renderer_, show::ShowRenderer::Create(content, quality));
-  drama::DramaOptions options;
-  options.past = drama::Past::kForgotten;
-  LARARIUM_ASSIGN_OR_RETURN(show_, show::Show::Create(std::move(content), options, *log_));
-  show_->SetTrackingLossFader({});
-  show_->detail().SetQuality(quality);
-  show_->input().SetReducedMotion(reduced_motion);
+  LARARIUM_ASSIGN_OR_RETURN(
+      renderer_, show::ShowRenderer::Create(content, render::QualityLadder()[quality_.level()]));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
+  Begin(std::move(show));
+  return Status();
+}
+
+Status PageShow::SetLanguages(const show::LanguageChoice& languages) {
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
+                            show::LoadInLanguages(bundle_, languages, show_->content()));
+  content.caption_font.reset();
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
+  LARARIUM_RETURN_IF_ERROR(show->ResumeFrom(*show_));
+  Begin(std::move(show));
+  return Status();
+}
+
+Status PageShow::OpenSound() {
+  sound_.reset();
+  if (!show_->sounds()->clips().empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(sound_, PageSound::Create(show_->sounds()));
+  }
   return Status();
 }
 
@@ -164,11 +199,44 @@ Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
   next = ParseTracked(tracked);
   next.gain = EstimateGain(next.map);
   show_->StageFrame(smoothed_->Track(frame_), moment.seconds, staged_);
+  staged_.camera.opacity *= moment.shown;
+  if (sound_) {
+    sound_->Show(staged_.sound);
+  }
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   target_->Present(target_->width(), target_->height());
   const std::chrono::duration<double, std::milli> work = Clock::now() - start;
   ChooseQuality(moment.seconds, std::max(work.count(), moment.late_ms));
   return Status();
+}
+
+Json PageShow::DescribeTexts() {
+  show::CollectCaptions(texts_, staged_, captions_);
+  Json captions = Json::array();
+  for (const render::Caption& caption : captions_) {
+    captions.push_back({{"speaker", caption.speaker},
+                        {"colour", {caption.colour.r, caption.colour.g, caption.colour.b}},
+                        {"side", caption.side},
+                        {"text", caption.text}});
+  }
+  const show::StagedGuide& guide = staged_.camera.guide;
+  Json described = {{"captions", std::move(captions)}, {"guide", ""}, {"hint", ""}};
+  if (guide.opacity > 0.0f) {
+    const bool dark = guide.says == show::StagedGuide::Says::kDark;
+    described["guide"] = dark ? "dark" : "look";
+    described["hint"] =
+        dark ? show_->content().dark_guide : show_->content().places[staged_.camera.place].guide;
+  }
+  return described;
+}
+
+const std::string* PageShow::TakeTexts() {
+  std::string texts = DescribeTexts().dump();
+  if (texts == told_texts_) {
+    return nullptr;
+  }
+  told_texts_ = std::move(texts);
+  return &told_texts_;
 }
 
 }  // namespace lararium::web

@@ -13,15 +13,19 @@
 #include <vector>
 
 #include "shared/bundle/bundle.h"
+#include "shared/core/json_fwd.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/render_target.h"
+#include "shared/render/text/captions.h"
+#include "shared/show/caption_texts.h"
 #include "shared/show/quality_controller.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
 #include "shared/vision/gain_estimator.h"
 #include "shared/vision/tracked_frame.h"
+#include "web/page/page_sound.h"
 
 namespace lararium::web {
 
@@ -37,12 +41,23 @@ class PageShow {
   static Result<std::unique_ptr<PageShow>> Open(const std::filesystem::path& file);
   ~PageShow();
 
-  // The maps for the tracker, .larscene files. Load() lets them go.
-  size_t map_count() const { return bundle_->manifest().places.size(); }
+  // The maps for the tracker, .larscene files.
+  size_t map_count() const { return bundle_.manifest().places.size(); }
   Result<std::span<const std::byte>> map(size_t index) const;
 
-  // Reads people and things, and prepares drawing.
-  Status Load(bool reduced_motion);
+  // Reads people and things, and prepares drawing. Call the functions below only after it.
+  Status Load(const show::LanguageChoice& languages);
+  // Continues the show at the same moment in other languages. Sound must be opened again.
+  Status SetLanguages(const show::LanguageChoice& languages);
+  // Plays the show's sound from now on, in the page's output for sound (SoundGraph). Without such
+  // an output the show is silent.
+  Status OpenSound();
+
+  // What the show is, for the page: its length in seconds (0: not known) and the language of its
+  // texts.
+  double length() const { return show_->drama().settings().length; }
+  const std::string& language() const { return show_->content().language; }
+  show::VisitorInput& input() { return show_->input(); }
 
   // The pixels to be filled in for the next luminance() and Draw().
   uint8_t* NewImage(PixelFormat format, int width, int height);
@@ -58,9 +73,17 @@ class PageShow {
     // Milliseconds since the last frame that was drawn, if the page missed frames of the camera
     // since then; otherwise 0.
     double late_ms = 0.0;
+    float shown = 1.0f;  // Factor on the visibility of people, 0 to 1.
   };
   // Steps the drama to the image and draws both. tracked: see kTrackedNumbers.
   Status Draw(std::span<const double> tracked, const Moment& moment);
+
+  // Time of the drama in the last picture, seconds.
+  double time() const { return staged_.time; }
+  // The texts to show over the last picture: {"captions": [{"speaker", "colour", "side", "text"}],
+  // "guide": "look", "dark" or "", "hint": text of the guide}. The newest caption comes first.
+  // Returns nullptr if they are those of the picture before.
+  const std::string* TakeTexts();
 
   // State, reason, `followed` and map, then rotation (x, y, z, w), translation, size and intrinsics
   // of the camera.
@@ -72,13 +95,21 @@ class PageShow {
   std::array<float, 3> EstimateGain(uint32_t map);
   Status SetSize(int width, int height);
   void ChooseQuality(double seconds, double work_ms);
+  // Makes the show of a content; its options are those of every show of the page.
+  Result<std::unique_ptr<show::Show>> Make(show::ShowContent content);
+  void Begin(std::unique_ptr<show::Show> show);
+  Json DescribeTexts();
 
-  std::optional<bundle::Bundle> bundle_;  // nullopt after Load().
+  bundle::Bundle bundle_;
   std::shared_ptr<Log> log_;
   std::optional<render::OffscreenContext> context_;
   std::optional<render::RenderTarget> target_;
   std::unique_ptr<show::Show> show_;
+  std::unique_ptr<PageSound> sound_;  // nullptr: the show is silent.
   std::unique_ptr<show::ShowRenderer> renderer_;
+  show::CaptionTexts texts_;
+  std::vector<render::Caption> captions_;
+  std::string told_texts_;
   std::unique_ptr<vision::PoseSource> smoothed_;
   GivenPoses* given_ = nullptr;  // Owned by smoothed_.
   show::QualityController quality_;

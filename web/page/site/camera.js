@@ -1,23 +1,26 @@
 // The camera of the device, and the images of its video as pixels.
+import {sentence} from './texts.js';
 
-// An error whose message is for visitors: what has happened, and what they can do.
-export class Problem extends Error {}
+// An error for visitors: what has happened, and what they can do.
+export class Problem extends Error {
+  // name: of a sentence in texts.js.
+  constructor(name, detail = '') {
+    super(`${sentence(name)}${detail}`);
+  }
+}
 
-const PROBLEMS = {
-  NotAllowedError: 'The camera is not allowed for this page. Allow it in the browser, at the address of the page or in its settings, then try again.',
-  NotFoundError: 'This device has no camera that a page can use. Open the page on a phone or a tablet.',
-  NotReadableError: 'Another program or another tab uses the camera. Close it there, then try again.',
-};
+const PROBLEMS = {NotAllowedError: 'refused', NotFoundError: 'no_camera', NotReadableError: 'busy'};
 
 export async function openCamera() {
   if (navigator.mediaDevices === undefined) {
-    throw new Problem('A page gets the camera from a secure address only. Open the address that begins with https.');
+    throw new Problem('insecure');
   }
   try {
     return await navigator.mediaDevices.getUserMedia({video: {
       facingMode: {ideal: 'environment'}, width: {ideal: 1280}, height: {ideal: 960}, frameRate: {ideal: 30}}});
   } catch (error) {
-    throw new Problem(PROBLEMS[error.name] ?? `The camera does not start (${error.name}). Try again, or start the device again.`);
+    const known = PROBLEMS[error.name];
+    throw known === undefined ? new Problem('camera_fails', ` (${error.name})`) : new Problem(known);
   }
 }
 

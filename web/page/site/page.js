@@ -1,18 +1,40 @@
-// A visit: title, permission, show, and what stands in its way.
+// A visit: title, permission, show, end, and what stands in its way.
+import {parseAbout, readAbout} from './about.js';
 import {openCamera, Problem, readImage} from './camera.js';
+import {showTexts} from './captions.js';
+import {Choices, OFF} from './choices.js';
+import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
 import {Show} from './show.js';
+import {Sound} from './sound.js';
+import {firstKnown, KNOWN, menuText, sentence, setLanguage} from './texts.js';
 
+const SHOW = 'show.larshow';
 const FRAME_SECONDS = 1 / 30;
+const FADE_SECONDS = 2;  // People and sound fade for so long when the story is over, as in the player.
 const element = (id) => document.getElementById(id);
 const [card, text, progress, go, video, canvas] = ['card', 'text', 'progress', 'go', 'video', 'lararium'].map(element);
 
 // --- Screens
 
+function setPlaying(playing) {
+  card.hidden = playing;
+  document.body.classList.toggle('playing', playing);
+  element('open_menu').hidden = !playing;
+  element('over').hidden = !playing;
+  if (playing) {
+    element('open_menu').focus();
+  } else {
+    closeMenu();
+  }
+}
+
 // Shows a sentence over the picture, and a button that goes on; without `act` there is no button.
 function showCard(sentence, label, act) {
+  setPlaying(false);
   text.textContent = sentence;
-  card.hidden = false;
   progress.hidden = true;
+  element('sound').hidden = true;
+  element('language_row').hidden = true;
   go.hidden = act === undefined;
   if (act !== undefined) {
     go.textContent = label;
@@ -32,17 +54,110 @@ function showProgress(share) {
 
 function showProblem(error) {
   if (error instanceof Problem) {
-    showCard(error.message, 'Try again', start);
+    showCard(error.message, sentence('again'), start);
   } else {
     console.error(error);
-    showCard(`The show cannot go on: ${error.message}`, 'Load the page again', () => location.reload());
+    showCard(`${sentence('failed')} ${error.message}`, sentence('reload'), () => location.reload());
+  }
+}
+
+function showTitle() {
+  setPlaying(false);
+  text.textContent = sentence('intro');
+  go.textContent = sentence('start');
+  go.onclick = start;
+  element('sound').hidden = about !== undefined && !about.sounds;
+  const languages = about?.captions.length > 0 ? about.captions : KNOWN;
+  const {values} = choices;
+  const chosen = languages.find((language) => language === (values.captions || values.page)) ?? languages[0];
+  fillSelect(element('language'), languages.map(languageOption), chosen);
+  element('language_row').hidden = languages.length < 2;
+}
+
+function showEnd() {
+  showCard(sentence('over'), menuText('restart'), () => {
+    visitable?.show.restart();
+    start();
+  });
+}
+
+// --- Choices
+
+const choices = new Choices();
+const sound = new Sound();
+let about;  // What the show is (about.js); undefined: not known yet.
+
+// Writes everything in the language that was chosen.
+function writeTexts() {
+  const {values} = choices;
+  setLanguage(values.page);
+  if (about === undefined) {
+    element('title').textContent = sentence('title');
+    return;
+  }
+  document.title = element('title').textContent = about.title;
+  fillMenu(about, {...values, ...choices.languagesFor(about)}, {change, restart, findAnew});
+}
+
+function applyChoices() {
+  const {values} = choices;
+  Object.assign(document.documentElement.dataset, {size: values.size, contrast: values.contrast});
+  visitable?.show.choose(values);
+  sound.setVolume(values.volume);
+}
+
+// The page's own texts are in the captions' language, where it is known.
+function change(values) {
+  const page = values.captions && values.captions !== OFF ? firstKnown([values.captions]) : '';
+  choices.change(page === '' ? values : {...values, page});
+  applyChoices();
+  if ('spoken' in values || 'captions' in values) {
+    writeTexts();
+    if (visitable !== undefined) {
+      changeLanguages();
+    }
+  }
+}
+
+// Loads the texts and voices of other languages, while the picture stands.
+async function changeLanguages() {
+  element('hint').textContent = sentence('changing');
+  await new Promise((resolve) => setTimeout(resolve, 50));  // The page is drawn before it is busy.
+  try {
+    const {show} = visitable;
+    show.setLanguages(choices.languagesFor(about));
+    openSound(show);
+    show.choose(choices.values);
+    element('hint').textContent = '';
+  } catch (error) {
+    stop(() => showProblem(error));
+  }
+}
+
+function restart() {
+  visitable.show.restart();
+}
+
+function findAnew() {
+  visitable.place.relocalize();
+  visitable.show.forgetPose();
+}
+
+// Without sound the show goes on.
+function openSound(show) {
+  if (sound.out !== undefined) {
+    try {
+      show.openSound(sound.out);
+    } catch (error) {
+      console.warn(error);
+    }
   }
 }
 
 // --- Loading
 
 async function download(url) {
-  const problem = new Problem('The show does not arrive. Look whether the device has a network, then try again.');
+  const problem = new Problem('no_show');
   try {
     const response = await fetch(url);
     if (!response.ok) {
@@ -85,7 +200,7 @@ class Place {
           this.onerror(new Error(data.error));
         } else if (data.ready) {
           resolve();
-        } else {
+        } else if (data.tracked) {
           this.ontracked(data);
         }
       };
@@ -96,20 +211,32 @@ class Place {
   track(number, image, seconds) {
     this.tracker.postMessage({number, image, seconds}, [image.data.buffer]);
   }
+
+  relocalize() {
+    this.tracker.postMessage({relocalize: true});
+  }
 }
 
 async function load() {
-  const show = await Show.open(await download('show.larshow'));
+  const bundle = await download(SHOW);
+  about = parseAbout(bundle);
+  const show = await Show.open(bundle);
   const place = new Place(show.maps());
   showProgress(1);
   await new Promise((resolve) => setTimeout(resolve));  // The page is drawn before it is busy.
-  show.load(matchMedia('(prefers-reduced-motion: reduce)').matches);
+  show.load(choices.languagesFor(about));
   await place.ready;
   place.ontracked = drawTracked;
   place.onerror = (error) => stop(() => showProblem(error));
-  return {show, place};
+  visitable = {show, place};
+  writeTexts();
+  applyChoices();
+  openSound(show);
+  return visitable;
 }
 
+// The show and its place, as soon as they are loaded.
+let visitable;
 let loading;
 function loadOnce() {
   loading ??= load().catch((error) => {
@@ -135,7 +262,9 @@ function awaitFrame() {
 }
 
 async function start() {
-  showCard('The show is loading. Allow the camera when the browser asks.');
+  sound.begin();
+  sound.setVolume(choices.values.volume);
+  showCard(sentence('loading'));
   let mine;
   try {
     const loaded = loadOnce();
@@ -149,15 +278,14 @@ async function start() {
       throw error;
     }
     const [track] = stream.getVideoTracks();
-    track.onended = track.onmute = () => stop(() => showCard(
-      'The camera has stopped: its permission was taken back, or a call or another program uses it.', 'Try again', start));
+    track.onended = track.onmute = () => stop(() => showCard(sentence('stopped'), sentence('again'), start));
     video.srcObject = stream;
     await video.play();
     navigator.wakeLock?.request('screen').catch(() => {});
     if (document.hidden) {
       pause();
     } else if (visit === mine) {
-      card.hidden = true;
+      setPlaying(true);
       awaitFrame();
     }
   } catch (error) {
@@ -181,11 +309,12 @@ function stop(show) {
     });
     video.srcObject = null;
   }
+  sound.suspend();
   show();
 }
 
 function pause() {
-  stop(() => showCard('The show waits for you, and the camera is off.', 'Go on', start));
+  stop(() => showCard(sentence('waits'), sentence('go_on'), start));
 }
 
 async function trackFrame(now, {mediaTime, presentedFrames}) {
@@ -218,6 +347,11 @@ async function trackFrame(now, {mediaTime, presentedFrames}) {
   }
 }
 
+// Share of people and sound that is left when the story is over.
+function shareLeft({length, time}) {
+  return length > 0 ? Math.min(1, Math.max(0, 1 - (time - length) / FADE_SECONDS)) : 1;
+}
+
 // Draws the very image that was tracked.
 function drawTracked({number, tracked, seen}) {
   if (visit === undefined || number !== image.number) {
@@ -227,8 +361,19 @@ function drawTracked({number, tracked, seen}) {
     Object.assign(canvas, {width: image.width, height: image.height});
   }
   try {
-    visit.show.draw(tracked, seen, image.seconds, image.lateMs);
-    awaitFrame();
+    const {show} = visit;
+    const left = shareLeft(show);
+    show.draw(tracked, seen, image.seconds, image.lateMs, left);
+    sound.setVolume(choices.values.volume * left);
+    const texts = show.takeTexts();
+    if (texts !== undefined) {
+      showTexts(texts, show.language);
+    }
+    if (shareLeft(show) === 0) {
+      stop(showEnd);
+    } else {
+      awaitFrame();
+    }
   } catch (error) {
     stop(() => showProblem(error));
   }
@@ -239,5 +384,22 @@ document.addEventListener('visibilitychange', () => {
     pause();
   }
 });
-canvas.addEventListener('webglcontextlost', () => stop(() => showProblem(new Error('the browser has taken its drawing back'))));
-go.onclick = start;
+canvas.addEventListener('webglcontextlost', () => stop(() => showProblem(new Error(sentence('drawing_lost')))));
+element('open_menu').onclick = openMenu;
+element('close_menu').onclick = closeMenu;
+element('language').onchange = ({target}) => {
+  change({captions: target.value});
+  showTitle();
+};
+writeTexts();
+applyChoices();
+showTitle();
+readAbout(SHOW).then((read) => {
+  if (about === undefined && read !== undefined) {
+    about = read;
+    writeTexts();
+    if (go.onclick === start && visit === undefined && loading === undefined) {
+      showTitle();
+    }
+  }
+});

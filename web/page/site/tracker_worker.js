@@ -1,5 +1,6 @@
 // Follows the camera. Takes {maps, search} first, where search is the port to search_worker.js, and says {ready}; then
-// takes {number, image, seconds} and says {number, tracked, seen}. Says {error} if something fails.
+// takes {number, image, seconds} and says {number, tracked, seen}. {relocalize} makes it find the place again without what
+// it knows. Says {error} if something fails.
 import {Tracker} from './lararium-tracker/lararium-tracker.js';
 
 let maps;
@@ -26,6 +27,10 @@ async function obey(message) {
       }
     };
     return {ready: true};
+  }
+  if (message.relocalize) {
+    tracker.relocalize();
+    return {};
   }
   const {number, image, seconds} = message;
   const now = `${image.width}x${image.height}`;

@@ -1,0 +1,39 @@
+// Captions and the guide's words, over the picture.
+import {sentence} from './texts.js';
+
+const hex = (colour) => `rgb(${colour.map((part) => Math.round(255 * part)).join(' ')})`;
+
+function lineOf({speaker, colour, side, text}) {
+  const line = document.createElement('p');
+  line.dir = 'auto';
+  if (speaker !== '') {
+    const name = document.createElement('b');
+    name.textContent = speaker;
+    name.style.color = hex(colour);
+    line.append(name, ' ');
+    const where = [undefined, 'left', 'right'][side];  // In the order of render::CaptionSide.
+    if (where !== undefined) {
+      const arrow = document.createElement('span');
+      arrow.className = 'side';
+      arrow.textContent = where === 'left' ? '◀ ' : '▶ ';
+      arrow.role = 'img';
+      arrow.ariaLabel = sentence(where);
+      line.prepend(arrow);
+    }
+  }
+  line.append(text);
+  return line;
+}
+
+// texts: see PageShow::TakeTexts(). language: of the show's texts; '' if it has none.
+export function showTexts({captions, guide, hint}, language) {
+  const [lines, words] = ['captions', 'hint'].map((id) => document.getElementById(id));
+  for (const element of [lines, words]) {
+    element.lang = language;
+  }
+  lines.replaceChildren(...captions.map(lineOf).reverse());
+  if (words.textContent !== hint) {
+    words.textContent = hint;
+  }
+  words.className = guide;
+}
