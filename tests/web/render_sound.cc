@@ -1,10 +1,12 @@
-// render_sound FILE
-// Mixes scenes of one second each, one after the other, and writes the samples (32-bit floats, left
-// and right by turns). It is compiled for both systems: in a browser, Web Audio renders instead.
+// render_sound FILE REVERB
+// Mixes scenes of one second each and writes the samples (32-bit floats, left and right by turns).
+// REVERB: number of a stage::Reverb. It is compiled for both systems: in a browser, Web Audio
+// renders after the program has scheduled everything, so one run has one reverberation.
 
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <numbers>
@@ -76,6 +78,8 @@ std::vector<float> Click() {
   return samples;
 }
 
+constexpr int kClick = 10;
+
 // What is heard in each scene. The page test (sound_test.mjs) names them in the same order.
 void AddVoices(const SoundLibrary& library, int scene, double began, SoundScene& out) {
   const auto add = [&](const char* clip, const glm::vec3& position) -> Voice& {
@@ -127,15 +131,16 @@ void AddVoices(const SoundLibrary& library, int scene, double began, SoundScene&
       voice.began = 0.0;
       break;
     }
-    default:
+    case kClick:
       add("click", front).began = began + 0.25;
-      out.reverb = stage::Reverb::kVault;
+      break;
+    default:
       break;
   }
 }
-constexpr int kScenes = 11;
+constexpr int kScenes = kClick + 1;
 
-Status RenderScenes(const std::filesystem::path& file) {
+Status RenderScenes(const std::filesystem::path& file, stage::Reverb reverb) {
   LARARIUM_ASSIGN_OR_RETURN(
       const std::shared_ptr<const SoundLibrary> library,
       SoundLibrary::Load({Sound("noise", 1, Noise(0.9)), Sound("long", 2, Tone(6.0, 1000.0, 2)),
@@ -151,11 +156,11 @@ Status RenderScenes(const std::filesystem::path& file) {
   for (int i = 0; i < kBlocksPerScene * (kScenes + 1); ++i) {
     SoundScene scene;
     scene.time = i * static_cast<double>(kBlockFrames) / SoundGraph::kRate;
+    scene.reverb = reverb;
     const int number = i / kBlocksPerScene;
-    if (number < kScenes) {
+    // A room answers the click only.
+    if (number < kScenes && (reverb == stage::Reverb::kNone || number == kClick)) {
       AddVoices(*library, number, number * kScene, scene);
-    } else {
-      scene.reverb = stage::Reverb::kVault;  // It dies away.
     }
     mixer->Render(scene, scene.time, block);
     samples.append(reinterpret_cast<const char*>(block.data()), block.size() * sizeof(float));
@@ -167,11 +172,12 @@ Status RenderScenes(const std::filesystem::path& file) {
 }  // namespace lararium::audio
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: render_sound FILE\n");
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: render_sound FILE REVERB\n");
     return 2;
   }
-  const lararium::Status status = lararium::audio::RenderScenes(argv[1]);
+  const lararium::Status status = lararium::audio::RenderScenes(
+      argv[1], static_cast<lararium::stage::Reverb>(std::atoi(argv[2])));
   if (!status.ok()) {
     std::fprintf(stderr, "%s\n", status.message().c_str());
     return 1;

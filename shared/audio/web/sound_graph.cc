@@ -38,6 +38,11 @@ constexpr int kPiecesAtOnce = 8;
 // Changes below this are not handed over: factors, decibels and parts of a unit vector.
 constexpr float kLeastChange = 5e-4f;
 constexpr float kLongestReverb = 3.0f;  // Seconds.
+// Factors that make the levels of panners and of a room's answer those of OpenAL, from
+// tests/web/sound_test.mjs in Chromium.
+constexpr float kPannerLevel = 1.38f;
+constexpr float kLateLevel = 0.4f;
+constexpr float kEarlyLevel = 0.5f;
 constexpr float kQuarter = std::numbers::pi_v<float> / 2.0f;
 
 // What one source is given: the parameters of web_audio.js, in its order.
@@ -56,6 +61,10 @@ bool Differ(const Values& a, const Values& b) {
   return !std::equal(x, x + kValues, y,
                      [](float p, float q) { return std::abs(p - q) <= kLeastChange; });
 }
+
+// OpenAL gives the level of what is high at the filter's frequency, which is the middle of its
+// slope; Web Audio gives it beyond the slope.
+constexpr float kBeyondSlope = 2.0f;
 
 // Share, 0 to 1, of the attenuation behind a speaker's head that a listener gets.
 float BehindShare(const glm::vec3& facing, const glm::vec3& listener_from_source) {
@@ -91,9 +100,10 @@ Values ValuesOf(const SourceState& state, bool head_locked, const Listener& list
       20.0f * std::log10(1.0f + behind * (AmplitudeFromDecibels(kBehindHighDb) - 1.0f));
   const float near = std::clamp(distance, kReferenceDistance, kMaxDistance);
   values.reverb_gain = values.gain * cone * AmplitudeFromDecibels(0.5f * blocked * kObstructedDb);
-  values.reverb_high_db = cone_high_db + 0.5f * blocked * kObstructedHighDb;
-  values.gain *= kReferenceDistance / near * cone * AmplitudeFromDecibels(blocked * kObstructedDb);
-  values.high_db = cone_high_db + blocked * kObstructedHighDb;
+  values.reverb_high_db = kBeyondSlope * (cone_high_db + 0.5f * blocked * kObstructedHighDb);
+  values.gain *= kPannerLevel * kReferenceDistance / near * cone *
+                 AmplitudeFromDecibels(blocked * kObstructedDb);
+  values.high_db = kBeyondSlope * (cone_high_db + blocked * kObstructedHighDb);
   return values;
 }
 
@@ -119,22 +129,22 @@ std::vector<float> ResponseOf(const EFXEAXREVERBPROPERTIES& p, float db, double 
     float low = 0.0f;
     float low_gain = 1.0f;
     float high_gain = p.flGainHF;
-    double energy = 0.0;
+    double energy = 0.0;  // Of the noise before what is high is lowered.
     for (size_t i = late; i < frames; ++i) {
       const auto noise = static_cast<float>(random.Uniform(-1.0, 1.0));
       low += mix * (noise - low);
       out[i] = low_gain * low + high_gain * (noise - low);
+      energy += static_cast<double>(low_gain) * static_cast<double>(low_gain) / 3.0;
       low_gain *= low_fade;
       high_gain *= high_fade;
-      energy += static_cast<double>(out[i]) * static_cast<double>(out[i]);
     }
-    const float scale =
-        gain * p.flLateReverbGain / static_cast<float>(std::sqrt(std::max(energy, 1e-12)));
+    const float scale = kLateLevel * gain * p.flLateReverbGain /
+                        static_cast<float>(std::sqrt(std::max(energy, 1e-12)));
     for (float& sample : out) {
       sample *= scale;
     }
     constexpr int kReflections = 4;
-    const float reflection = gain * p.flReflectionsGain / std::sqrt(1.0f * kReflections);
+    const float reflection = kEarlyLevel * gain * p.flReflectionsGain;
     for (int i = 0; i < kReflections; ++i) {
       const double at = random.Uniform(0.0, std::max<double>(p.flLateReverbDelay, 0.003) * rate);
       out[first + static_cast<size_t>(at)] += i % 2 == 0 ? reflection : -reflection;

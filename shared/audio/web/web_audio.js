@@ -183,8 +183,9 @@ mergeInto(LibraryManager.library, {
 
   lararium_audio_times__deps: ['$webAudio'],
   lararium_audio_times: function(times) {
+    // The limiter looks ahead by six milliseconds.
     const graph = webAudio.graph;
     const context = graph.context;
-    HEAPF64.set([graph.head, context.currentTime, context.outputLatency || context.baseLatency || 0], times >> 3);
+    HEAPF64.set([graph.head, context.currentTime, (context.outputLatency || context.baseLatency || 0) + 0.006], times >> 3);
   },
 });
