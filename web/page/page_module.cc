@@ -79,6 +79,20 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_draw(
       show->Draw({tracked, PageShow::kTrackedNumbers}, {seconds, hour, late_ms, shown}));
 }
 
+EMSCRIPTEN_KEEPALIVE size_t lararium_view_count() { return show->view_count(); }
+
+// Writes width and height of a view's picture.
+EMSCRIPTEN_KEEPALIVE void lararium_view_size(size_t index, uint32_t* width_and_height) {
+  const cv::Mat& picture = show->view_picture(index);
+  width_and_height[0] = static_cast<uint32_t>(picture.cols);
+  width_and_height[1] = static_cast<uint32_t>(picture.rows);
+}
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_draw_view(
+    size_t index, double seconds, float hour, double late_ms, float shown) {
+  return ErrorText(show->DrawView(index, {seconds, hour, late_ms, shown}));
+}
+
 EMSCRIPTEN_KEEPALIVE double lararium_time() { return show->time(); }
 
 // Returns PageShow::TakeTexts() as JSON.

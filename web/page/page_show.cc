@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 #include <utility>
 
 #include "shared/core/check.h"
@@ -109,6 +110,7 @@ Status PageShow::Load(const show::LanguageChoice& languages) {
       renderer_, show::ShowRenderer::Create(content, render::QualityLadder()[quality_.level()]));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
   Begin(std::move(show));
+  FindViews();
   return Status();
 }
 
@@ -183,6 +185,23 @@ void PageShow::ChooseQuality(double seconds, double work_ms) {
   }
 }
 
+Status PageShow::Present(vision::TrackedFrame tracked,
+                         const Moment& moment,
+                         Clock::time_point start) {
+  LARARIUM_RETURN_IF_ERROR(SetSize(frame_.bgr.cols, frame_.bgr.rows));
+  show_->input().SetHour(moment.hour);
+  show_->StageFrame(std::move(tracked), moment.seconds, staged_);
+  staged_.camera.opacity *= moment.shown;
+  if (sound_) {
+    sound_->Show(staged_.sound);
+  }
+  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
+  target_->Present(target_->width(), target_->height());
+  const std::chrono::duration<double, std::milli> work = Clock::now() - start;
+  ChooseQuality(moment.seconds, std::max(work.count(), moment.late_ms));
+  return Status();
+}
+
 Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
   const Clock::time_point start = Clock::now();
   const int code = format_ == PixelFormat::kI420   ? cv::COLOR_YUV2BGR_I420
@@ -193,21 +212,53 @@ Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
   cv::cvtColor(pixels_, frame_.bgr, code);
   ++frame_.index;
   frame_.capture_time = moment.seconds;
-  LARARIUM_RETURN_IF_ERROR(SetSize(frame_.bgr.cols, frame_.bgr.rows));
-  show_->input().SetHour(moment.hour);
   vision::TrackedFrame& next = given_->next;
   next = ParseTracked(tracked);
   next.gain = EstimateGain(next.map);
-  show_->StageFrame(smoothed_->Track(frame_), moment.seconds, staged_);
-  staged_.camera.opacity *= moment.shown;
-  if (sound_) {
-    sound_->Show(staged_.sound);
+  if (std::exchange(view_, std::nullopt)) {
+    show_->input().ForgetPose();
   }
-  LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
-  target_->Present(target_->width(), target_->height());
-  const std::chrono::duration<double, std::milli> work = Clock::now() - start;
-  ChooseQuality(moment.seconds, std::max(work.count(), moment.late_ms));
-  return Status();
+  return Present(smoothed_->Track(frame_), moment, start);
+}
+
+void PageShow::FindViews() {
+  const std::vector<show::ShowPlace>& places = show_->content().places;
+  for (uint32_t place = 0; place < places.size(); ++place) {
+    const std::vector<vision::Keyframe>& keyframes = places[place].map->keyframes;
+    for (size_t i = 0; i < keyframes.size(); ++i) {
+      if (!keyframes[i].grey.empty()) {
+        views_.push_back({place, i});
+      }
+    }
+  }
+  std::stable_sort(views_.begin(), views_.end(), [this](const View& a, const View& b) {
+    const auto order = [this](const View& view) {
+      const vision::Keyframe& keyframe = KeyframeOf(view);
+      return std::tuple(view.place, keyframe.session, keyframe.frame_index);
+    };
+    return order(a) < order(b);
+  });
+}
+
+Status PageShow::DrawView(size_t index, const Moment& moment) {
+  const Clock::time_point start = Clock::now();
+  const vision::Keyframe& keyframe = KeyframeOf(views_[index]);
+  frame_.bgr.release();
+  cv::cvtColor(keyframe.grey, frame_.bgr, cv::COLOR_GRAY2BGR);
+  ++frame_.index;
+  frame_.capture_time = moment.seconds;
+  vision::TrackedFrame tracked;
+  tracked.frame = frame_;
+  tracked.state = vision::TrackState::kTracking;
+  tracked.followed = true;
+  tracked.map = views_[index].place;
+  tracked.camera = show_->content().places[tracked.map].map->camera;
+  tracked.camera_from_map = keyframe.camera_from_map;
+  tracked.gain = keyframe.gain;
+  if (std::exchange(view_, index) != index) {
+    show_->input().ForgetPose();
+  }
+  return Present(std::move(tracked), moment, start);
 }
 
 Json PageShow::DescribeTexts() {

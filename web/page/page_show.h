@@ -4,6 +4,7 @@
 // the page's canvas.
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -78,6 +79,13 @@ class PageShow {
   // Steps the drama to the image and draws both. tracked: see kTrackedNumbers.
   Status Draw(std::span<const double> tracked, const Moment& moment);
 
+  // Views for a page without a camera: the keyframes of all places that have a picture, in the
+  // order of the training videos.
+  size_t view_count() const { return views_.size(); }
+  const cv::Mat& view_picture(size_t index) const { return KeyframeOf(views_[index]).grey; }
+  // Steps the drama and draws it as it is seen from there.
+  Status DrawView(size_t index, const Moment& moment);
+
   // Time of the drama in the last picture, seconds.
   double time() const { return staged_.time; }
   // The texts to show over the last picture: {"captions": [{"speaker", "colour", "side", "text"}],
@@ -90,7 +98,20 @@ class PageShow {
   static constexpr size_t kTrackedNumbers = 21;
 
  private:
+  struct View {
+    uint32_t place = 0;
+    size_t keyframe = 0;  // Index into SceneDatabase::keyframes.
+  };
+
   explicit PageShow(bundle::Bundle bundle);
+  void FindViews();
+  const vision::Keyframe& KeyframeOf(const View& view) const {
+    return show_->content().places[view.place].map->keyframes[view.keyframe];
+  }
+  // Stages and draws an image that is in frame_ already. start: when work on it began.
+  Status Present(vision::TrackedFrame tracked,
+                 const Moment& moment,
+                 std::chrono::steady_clock::time_point start);
   // Brightness of the image over the map's photometric reference.
   std::array<float, 3> EstimateGain(uint32_t map);
   Status SetSize(int width, int height);
@@ -115,6 +136,8 @@ class PageShow {
   show::QualityController quality_;
   vision::GainEstimator gain_estimator_;
   std::array<float, 3> gain_ = {1.0f, 1.0f, 1.0f};
+  std::vector<View> views_;
+  std::optional<size_t> view_;  // The view of the last picture; nullopt: it was the camera's.
   std::vector<double> seen_numbers_;
   std::vector<vision::SeenPoint> seen_;
   PixelFormat format_ = PixelFormat::kRgba;

@@ -27,7 +27,7 @@ class PageSound {
 
   std::unique_ptr<audio::Mixer> mixer_;
   audio::SoundClock clock_;
-  std::vector<float> silence_;  // What Mixer::Render() fills here.
+  std::vector<float> silence_;  // Mixer::Render() fills it with silence.
 };
 
 }  // namespace lararium::web

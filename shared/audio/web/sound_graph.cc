@@ -129,7 +129,7 @@ std::vector<float> ResponseOf(const EFXEAXREVERBPROPERTIES& p, float db, double 
     float low = 0.0f;
     float low_gain = 1.0f;
     float high_gain = p.flGainHF;
-    double energy = 0.0;  // Of the noise before what is high is lowered.
+    double energy = 0.0;  // Energy of the noise before GainHF.
     for (size_t i = late; i < frames; ++i) {
       const auto noise = static_cast<float>(random.Uniform(-1.0, 1.0));
       low += mix * (noise - low);

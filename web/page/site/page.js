@@ -36,6 +36,7 @@ function showCard(sentence, label, act) {
   element('sound').hidden = true;
   element('language_row').hidden = true;
   go.hidden = act === undefined;
+  element('without_camera').hidden = act !== start;
   if (act !== undefined) {
     go.textContent = label;
     go.onclick = act;
@@ -66,6 +67,7 @@ function showTitle() {
   text.textContent = sentence('intro');
   go.textContent = sentence('start');
   go.onclick = start;
+  element('without_camera').hidden = false;
   element('sound').hidden = about !== undefined && !about.sounds;
   const languages = about?.captions.length > 0 ? about.captions : KNOWN;
   const {values} = choices;
@@ -76,8 +78,8 @@ function showTitle() {
 
 function showEnd() {
   showCard(sentence('over'), menuText('restart'), () => {
-    visitable?.show.restart();
-    start();
+    visitable.show.restart();
+    begin();
   });
 }
 
@@ -248,8 +250,10 @@ function loadOnce() {
 
 // --- Playing
 
-// What plays now: show, place, and the camera's stream. undefined: nothing plays.
+// What plays now: show, place, and the camera's stream, which a walk does not have. undefined: nothing plays.
 let visit;
+// What goes on after an interruption: start or startWalk.
+let begin = start;
 // The image that is being tracked: {number, seconds, lateMs}.
 let image = {number: 0};
 // Seconds of the show's frames, which go on where they were when the camera starts again.
@@ -261,9 +265,14 @@ function awaitFrame() {
   awaited = video.requestVideoFrameCallback(trackFrame);
 }
 
-async function start() {
+function beginSound() {
   sound.begin();
   sound.setVolume(choices.values.volume);
+}
+
+async function start() {
+  begin = start;
+  beginSound();
   showCard(sentence('loading'));
   let mine;
   try {
@@ -281,13 +290,7 @@ async function start() {
     track.onended = track.onmute = () => stop(() => showCard(sentence('stopped'), sentence('again'), start));
     video.srcObject = stream;
     await video.play();
-    navigator.wakeLock?.request('screen').catch(() => {});
-    if (document.hidden) {
-      pause();
-    } else if (visit === mine) {
-      setPlaying(true);
-      awaitFrame();
-    }
+    play(mine, awaitFrame);
   } catch (error) {
     // If another visit plays or this one was stopped, a sentence says so already.
     if (mine === visit) {
@@ -296,13 +299,64 @@ async function start() {
   }
 }
 
+function play(mine, next) {
+  navigator.wakeLock?.request('screen').catch(() => {});
+  if (document.hidden) {
+    pause();
+  } else if (visit === mine) {
+    element('walk').hidden = mine.stream !== undefined;
+    setPlaying(true);
+    next();
+  }
+}
+
+// Plays the show as it is seen from the map's keyframes, one of which a slider chooses.
+async function startWalk() {
+  begin = startWalk;
+  beginSound();
+  showCard(sentence('progress'));
+  let mine;
+  try {
+    const loaded = await loadOnce();
+    const {viewCount} = loaded.show;
+    if (viewCount === 0) {
+      throw new Problem('no_camera');
+    }
+    element('view').max = viewCount - 1;
+    visit = mine = {...loaded, stream: undefined, begun: undefined};
+    play(mine, () => requestAnimationFrame((now) => drawWalk(mine, now)));
+  } catch (error) {
+    if (mine === visit) {
+      stop(() => showProblem(error));
+    }
+  }
+}
+
+function drawWalk(mine, now) {
+  if (mine !== visit) {
+    return;
+  }
+  mine.begun ??= now / 1000 - (seconds === 0 ? 0 : seconds + FRAME_SECONDS);
+  const time = Math.max(seconds, now / 1000 - mine.begun);
+  const passed = time - seconds;
+  if (seconds > 0 && passed < 0.9 * FRAME_SECONDS) {
+    requestAnimationFrame((next) => drawWalk(mine, next));  // The display is faster than the show.
+    return;
+  }
+  seconds = time;
+  const {show} = mine;
+  const view = element('view').valueAsNumber;
+  drawPicture(show.viewSize(view), (left) => show.drawView(view, seconds, passed > 2 * FRAME_SECONDS ? 1000 * passed : 0, left),
+    () => requestAnimationFrame((next) => drawWalk(mine, next)));
+}
+
 // Lets the camera go, and shows what has happened.
 function stop(show) {
   const stopped = visit;
   visit = undefined;
   video.cancelVideoFrameCallback(awaited);
   ++image.number;  // The answer to the image under way is ignored.
-  if (stopped !== undefined) {
+  if (stopped?.stream !== undefined) {
     stopped.stream.getVideoTracks().forEach((track) => {
       track.onended = track.onmute = null;
       track.stop();
@@ -314,7 +368,7 @@ function stop(show) {
 }
 
 function pause() {
-  stop(() => showCard(sentence('waits'), sentence('go_on'), start));
+  stop(() => showCard(sentence('waits'), sentence('go_on'), begin));
 }
 
 async function trackFrame(now, {mediaTime, presentedFrames}) {
@@ -352,18 +406,15 @@ function shareLeft({length, time}) {
   return length > 0 ? Math.min(1, Math.max(0, 1 - (time - length) / FADE_SECONDS)) : 1;
 }
 
-// Draws the very image that was tracked.
-function drawTracked({number, tracked, seen}) {
-  if (visit === undefined || number !== image.number) {
-    return;
-  }
-  if (canvas.width !== image.width || canvas.height !== image.height) {
-    Object.assign(canvas, {width: image.width, height: image.height});
+// Draws a picture with its texts and goes on, or ends the visit. draw: takes the share of people that is left.
+function drawPicture({width, height}, draw, next) {
+  if (canvas.width !== width || canvas.height !== height) {
+    Object.assign(canvas, {width, height});
   }
   try {
     const {show} = visit;
     const left = shareLeft(show);
-    show.draw(tracked, seen, image.seconds, image.lateMs, left);
+    draw(left);
     sound.setVolume(choices.values.volume * left);
     const texts = show.takeTexts();
     if (texts !== undefined) {
@@ -372,10 +423,18 @@ function drawTracked({number, tracked, seen}) {
     if (shareLeft(show) === 0) {
       stop(showEnd);
     } else {
-      awaitFrame();
+      next();
     }
   } catch (error) {
     stop(() => showProblem(error));
+  }
+}
+
+// Draws the very image that was tracked.
+function drawTracked({number, tracked, seen}) {
+  if (visit !== undefined && number === image.number) {
+    const {show} = visit;
+    drawPicture(image, (left) => show.draw(tracked, seen, image.seconds, image.lateMs, left), awaitFrame);
   }
 }
 
@@ -385,6 +444,7 @@ document.addEventListener('visibilitychange', () => {
   }
 });
 canvas.addEventListener('webglcontextlost', () => stop(() => showProblem(new Error(sentence('drawing_lost')))));
+element('without_camera').onclick = startWalk;
 element('open_menu').onclick = openMenu;
 element('close_menu').onclick = closeMenu;
 element('language').onchange = ({target}) => {

@@ -5,6 +5,11 @@ import createModule from './module.mjs';
 const FORMATS = ['I420', 'NV12', 'RGBA'];
 const FILE = '/show.larshow';
 
+function hourNow() {
+  const now = new Date();
+  return now.getHours() + now.getMinutes() / 60;
+}
+
 export class Show {
   time = 0;
 
@@ -84,9 +89,24 @@ export class Show {
     this.module.HEAPF64.set([STATES.indexOf(tracked.state), REASONS.indexOf(tracked.reason), Number(tracked.followed), map,
       ...rotation, ...translation, width, height, fx, fy, cx, cy, k1, k2, p1, p2], this.numbers / 8);
     this.module.HEAPF64.set(seen, this.module._lararium_new_seen(seen.length / 3) / 8);
-    const now = new Date();
-    this.check(this.module._lararium_draw(this.numbers, seconds, now.getHours() + now.getMinutes() / 60, lateMs, shown));
+    this.check(this.module._lararium_draw(this.numbers, seconds, hourNow(), lateMs, shown));
     this.time = this.module._lararium_time();  // Of the drama, seconds.
+  }
+
+  // Draws a keyframe of the map, which needs no camera (PageShow::DrawView()).
+  drawView(index, seconds, lateMs, shown) {
+    this.check(this.module._lararium_draw_view(index, seconds, hourNow(), lateMs, shown));
+    this.time = this.module._lararium_time();
+  }
+
+  get viewCount() {
+    return this.module._lararium_view_count();
+  }
+
+  viewSize(index) {
+    this.module._lararium_view_size(index, this.numbers);
+    const [width, height] = this.module.HEAPU32.subarray(this.numbers / 4, this.numbers / 4 + 2);
+    return {width, height};
   }
 
   // The texts over the picture (PageShow::TakeTexts()); undefined if they have not changed.
