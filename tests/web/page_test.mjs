@@ -7,7 +7,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync} from 'node:fs';
 import {serve, skipWithout} from './needs.mjs';
 import {distancePx, pixel} from './poses.mjs';
-import {cameraOptions, press, READY, says, Screens, withBrowser, writeCamera} from './visitor.mjs';
+import {cameraOptions, focus, press, READY, says, Screens, type, withBrowser, writeCamera} from './visitor.mjs';
 
 const [reference, page, program, work, show, scene, video, axe] = process.argv.slice(2);
 skipWithout(
@@ -202,8 +202,8 @@ async function visit(browser) {
   await browser.show(second);
   await browser.until(READY);
   await browser.evaluate('addEventListener("keydown", () => window.pressed = performance.now(), true)');
-  await browser.pressKey('Tab', 9);
-  await browser.pressKey('Enter', 13, '\r');
+  await focus(browser, 'go');
+  await type(browser, 'Enter');
   await browser.until(`${POSES} >= 3`, 100);
   checkPoses(await browser.evaluate('noted'));
   console.log('ok   a keyboard starts the show');

@@ -5,7 +5,7 @@
 import assert from 'node:assert/strict';
 import {mkdirSync} from 'node:fs';
 import {serve, skipWithout} from './needs.mjs';
-import {cameraOptions, PLAYS, press, READY, says, Screens, withBrowser, writeCamera} from './visitor.mjs';
+import {cameraOptions, focus, FOCUSED, PLAYS, press, READY, says, Screens, type, withBrowser, writeCamera} from './visitor.mjs';
 
 const [page, program, work, show, video, axe] = process.argv.slice(2);
 skipWithout(
@@ -51,25 +51,8 @@ function prepare() {
 
 const ok = (text) => console.log(`ok   ${text}`);
 const CAPTIONS = `document.getElementById('captions').innerText`;
-const FOCUSED = `document.activeElement.id || document.activeElement.dataset.key`;
 const LANGUAGE = 'document.documentElement.lang';
 const AUDIBLE = `level() > ${LEAST_LEVEL}`;
-const keys = {Tab: [9], Enter: [13, '\r'], Escape: [27], ArrowDown: [40], ArrowUp: [38], Home: [36], End: [35], ' ': [32, ' ']};
-const type = async (browser, ...names) => {
-  for (const name of names) {
-    await browser.pressKey(name, ...keys[name]);
-  }
-};
-
-// Presses Tab until an element has the focus, which must be seen.
-async function focus(browser, id) {
-  for (let i = 0; i < 20 && await browser.evaluate(FOCUSED) !== id; ++i) {
-    await type(browser, 'Tab');
-  }
-  assert.equal(await browser.evaluate(FOCUSED), id);
-  assert.notEqual(await browser.evaluate('getComputedStyle(document.activeElement).outlineStyle'), 'none', `the focus on ${id} is seen`);
-}
-
 // Chooses with the keyboard in a list that has the focus.
 async function choose(browser, value) {
   await type(browser, 'Home');

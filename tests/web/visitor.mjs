@@ -30,6 +30,23 @@ export const READY = `document.getElementById('go')?.onclick`;
 export const PLAYS = `document.getElementById('card').hidden`;
 export const press = (browser, id = 'go') => browser.evaluate(`document.getElementById('${id}').click()`, true);
 
+export const FOCUSED = `document.activeElement.id || document.activeElement.dataset.key`;
+const KEYS = {Tab: [9], Enter: [13, '\r'], Escape: [27], ArrowDown: [40], Home: [36], End: [35]};
+export const type = async (browser, ...names) => {
+  for (const name of names) {
+    await browser.pressKey(name, ...KEYS[name]);
+  }
+};
+
+// Presses Tab until an element has the focus, which must be seen.
+export async function focus(browser, id) {
+  for (let i = 0; i < 20 && await browser.evaluate(FOCUSED) !== id; ++i) {
+    await type(browser, 'Tab');
+  }
+  assert.equal(await browser.evaluate(FOCUSED), id);
+  assert.notEqual(await browser.evaluate('getComputedStyle(document.activeElement).outlineStyle'), 'none', `the focus on ${id} is seen`);
+}
+
 // Takes screenshots of a screen, and checks it with axe-core where that is given.
 export class Screens {
   constructor(work, axe) {
