@@ -46,7 +46,8 @@ class ShowContentTest : public ::testing::Test {
                                                 {"wall.larmesh", wall_},
                                                 {"cup.larprop", cup_},
                                                 {"keeper.larhuman", human_},
-                                                {"hello.json", std::as_bytes(std::span(hello_))}});
+                                                {"hello.json", std::as_bytes(std::span(hello_))},
+                                                {"book.json", std::as_bytes(std::span(book_))}});
     LARARIUM_RETURN_IF_ERROR(written);
     LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(path));
     return LoadShowContent(bundle, place, {}, finest);
@@ -60,6 +61,10 @@ class ShowContentTest : public ::testing::Test {
   std::vector<std::byte> cup_ = stage::SerializeProp(test::MakeCup());
   std::vector<std::byte> human_ = human::SerializeHuman(human::RichHuman());
   std::string hello_ = R"({"schema": 1, "duration": 0.5, "visemes": [{"t": 0, "viseme": "aa"}]})";
+  std::string book_ =
+      R"({"schema": 1, "names": {"keeper": {"en": "Keeper", "it": "Oste"}}, "lines": {
+      "hello": {"en": [{"begin": 0, "end": 1, "text": "Welcome"}],
+                "it": [{"begin": 0, "end": 1, "text": "Benvenuti"}]}}})";
 };
 
 TEST_F(ShowContentTest, ObjectsOfOneMemberShareTheirModel) {
@@ -200,6 +205,30 @@ TEST_F(ShowContentTest, DescriptionsAreInTheLanguageThatIsRead) {
   const auto actors = Load();
   ASSERT_TRUE(actors.ok()) << actors.message();
   EXPECT_FALSE(actors->has_descriptions);
+}
+
+TEST_F(ShowContentTest, OtherLanguagesShareThePeople) {
+  manifest_.cast = {{"keeper", "keeper.larhuman"}};
+  manifest_.lines = {{"hello", "keeper", {{"la", {"hello.json", ""}}}}};
+  manifest_.spoken = {{"la", "book.json"}};
+  manifest_.captions = {"en", "it"};
+  const auto english = Load();
+  ASSERT_TRUE(english.ok()) << english.message();
+  EXPECT_EQ(english->speech[0].captions[0].text, "Welcome");
+  const auto bundle = bundle::Bundle::Open(folder_ / "a.larshow");
+  ASSERT_TRUE(bundle.ok()) << bundle.message();
+  const auto italian = LoadInLanguages(*bundle, {"", "it"}, *english);
+  ASSERT_TRUE(italian.ok()) << italian.message();
+  ASSERT_EQ(italian->speech.size(), 1u);
+  EXPECT_EQ(italian->speech[0].captions[0].text, "Benvenuti");
+  EXPECT_EQ(italian->cast[0].title, "Oste");
+  EXPECT_EQ(italian->language, "it");
+  EXPECT_EQ(italian->cast[0].human, english->cast[0].human) << "read only once";
+  const auto silent = LoadInLanguages(*bundle, {"", std::string(kNoCaptions)}, *italian);
+  ASSERT_TRUE(silent.ok()) << silent.message();
+  EXPECT_TRUE(silent->speech[0].captions.empty());
+  EXPECT_EQ(silent->cast[0].title, "");
+  EXPECT_THAT(LoadInLanguages(*bundle, {"", "fr"}, *english).message(), HasSubstr("fr"));
 }
 
 }  // namespace

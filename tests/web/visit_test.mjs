@@ -162,6 +162,17 @@ async function visit(browser) {
   await browser.until(`${READY} && ${LANGUAGE} === 'la' && document.documentElement.dataset.size === '2' && document.documentElement.dataset.contrast === '1'`);
   ok('the browser remembers the choices');
 
+  // A new visitor gets what the system prefers.
+  await browser.evaluate('localStorage.clear()');
+  await browser.send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-contrast', value: 'more'}, {name: 'prefers-reduced-motion', value: 'reduce'}]});
+  const {userAgent} = await browser.send('Browser.getVersion', {}, null);
+  await browser.send('Emulation.setUserAgentOverride', {userAgent, acceptLanguage: 'fi,it-CH'});
+  await browser.evaluate('location.reload()');
+  await browser.until(`${READY} && document.title.includes('thermopolium') && ${LANGUAGE} === 'it'`);
+  assert.deepEqual(await browser.evaluate(`[document.documentElement.dataset.size, document.documentElement.dataset.contrast,
+    ...['captions', 'reducedMotion'].map((key) => document.querySelector('[data-key=' + key + ']').value)]`), ['0', '1', 'it', '1']);
+  ok('a new visitor gets the language, contrast and motion that the system prefers');
+
   // Without a camera.
   await browser.send('Emulation.setDeviceMetricsOverride', {width: 390, height: 844, deviceScaleFactor: 1, mobile: true});
   await focus(browser, 'without_camera');

@@ -16,8 +16,8 @@ function lineOf({speaker, colour, side, text}) {
       const arrow = document.createElement('span');
       arrow.className = 'side';
       arrow.textContent = where === 'left' ? '◀ ' : '▶ ';
-      arrow.role = 'img';
-      arrow.ariaLabel = sentence(where);
+      arrow.setAttribute('role', 'img');
+      arrow.setAttribute('aria-label', sentence(where));
       line.prepend(arrow);
     }
   }
