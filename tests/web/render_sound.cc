@@ -4,10 +4,8 @@
 // renders after the program has scheduled everything, so one run has one reverberation.
 
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -15,7 +13,7 @@
 
 #include "shared/audio/mixer.h"
 #include "shared/core/file.h"
-#include "shared/core/random.h"
+#include "tests/web/wav.h"
 
 namespace lararium::audio {
 namespace {
@@ -23,43 +21,6 @@ namespace {
 constexpr size_t kBlockFrames = 1920;
 constexpr int kBlocksPerScene = SoundGraph::kRate / static_cast<int>(kBlockFrames);
 constexpr double kScene = 1.0;
-
-// A sound as a WAV file of 16 bits.
-SoundData Sound(const std::string& name, uint16_t channels, const std::vector<float>& samples) {
-  auto bytes = std::make_shared<std::vector<std::byte>>();
-  const auto put = [&](const void* data, size_t size) {
-    const auto* begin = static_cast<const std::byte*>(data);
-    bytes->insert(bytes->end(), begin, begin + size);
-  };
-  const auto put16 = [&](uint16_t value) { put(&value, 2); };
-  const auto put32 = [&](uint32_t value) { put(&value, 4); };
-  const auto size = static_cast<uint32_t>(2 * samples.size());
-  put("RIFF", 4);
-  put32(36 + size);
-  put("WAVEfmt ", 8);
-  put32(16);
-  put16(1);
-  put16(channels);
-  put32(SoundGraph::kRate);
-  put32(2u * channels * SoundGraph::kRate);
-  put16(static_cast<uint16_t>(2 * channels));
-  put16(16);
-  put("data", 4);
-  put32(size);
-  for (const float sample : samples) {
-    put16(static_cast<uint16_t>(std::lround(sample * 32767.0f)));
-  }
-  return {name, *bytes, bytes};
-}
-
-std::vector<float> Noise(double seconds) {
-  Random random(11);
-  std::vector<float> samples(static_cast<size_t>(seconds * SoundGraph::kRate));
-  for (float& sample : samples) {
-    sample = static_cast<float>(random.Uniform(-0.25, 0.25));
-  }
-  return samples;
-}
 
 std::vector<float> Tone(double seconds, double hertz, int channels) {
   std::vector<float> samples;
@@ -143,9 +104,10 @@ constexpr int kScenes = kClick + 1;
 Status RenderScenes(const std::filesystem::path& file, stage::Reverb reverb) {
   LARARIUM_ASSIGN_OR_RETURN(
       const std::shared_ptr<const SoundLibrary> library,
-      SoundLibrary::Load({Sound("noise", 1, Noise(0.9)), Sound("long", 2, Tone(6.0, 1000.0, 2)),
-                          Sound("low", 2, Tone(1.0, 400.0, 2)),
-                          Sound("speech", 1, Tone(0.9, 2000.0, 1)), Sound("click", 1, Click())}));
+      SoundLibrary::Load(
+          {test::Wav("noise", 1, test::WavNoise(0.9)), test::Wav("long", 2, Tone(6.0, 1000.0, 2)),
+           test::Wav("low", 2, Tone(1.0, 400.0, 2)), test::Wav("speech", 1, Tone(0.9, 2000.0, 1)),
+           test::Wav("click", 1, Click())}));
   MixerOptions options;
   options.block_frames = kBlockFrames;
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<Mixer> made, Mixer::Create(library, options));

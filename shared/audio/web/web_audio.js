@@ -70,7 +70,8 @@ mergeInto(LibraryManager.library, {
       const context = webAudio.graph.context;
       const source = webAudio.graph.sources[index];
       const late = context.currentTime - when;
-      const skipped = late > 0 && !(keepsOnset && late <= 0.1) ? late : 0;
+      // With MixerOptions::late_start, this is max_lag.
+      const skipped = late > 0 && !(keepsOnset && late <= 0.025) ? late : 0;
       if (!loop && offset + skipped >= buffer.duration) {
         return;
       }
