@@ -1,6 +1,7 @@
 // play_lines SECONDS
 // Plays scenes of a drama at uneven times, as a page does whose pictures take longer at times: a
-// spoken line of one second every 1.3 seconds, and ambience.
+// spoken line of one second every 1.3 seconds, and ambience. Prints the clock's time at which the
+// drama begins, seconds.
 
 #include <chrono>
 #include <cmath>
@@ -28,6 +29,7 @@ Status PlayLines(double seconds) {
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<PageSound> sound, PageSound::Create(library));
   Random random(3);
   const Clock::time_point begin = Clock::now();
+  std::printf("%.6f\n", std::chrono::duration<double>(begin.time_since_epoch()).count());
   double stall = 2.0;  // Time of the next long frame, seconds.
   while (true) {
     audio::SoundScene scene;

@@ -38,7 +38,6 @@ mergeInto(LibraryManager.library, {
     change: (entry, value, begin, end, fresh) => {
       const param = entry.param;
       if (fresh) {
-        param.cancelScheduledValues(begin);
         param.setValueAtTime(value, begin);
         end = begin;
       } else if (value !== entry.value) {
