@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <new>
 
 #include "shared/bundle/member_name.h"
 #include "shared/bundle/zip_layout.h"
@@ -11,6 +12,8 @@
 
 namespace lararium::bundle {
 namespace {
+
+constexpr size_t kPieceAlignment = 64;
 
 // The manifest contains the hashes of all other members. The manifest itself is checked by the
 // archive's CRC-32, which detects every change of a few bytes.
@@ -34,16 +37,16 @@ bool IsWhole(const ZipMember& member, size_t size) {
 }
 
 // Checks the signature before the content of the manifest is used.
-Status CheckSignature(const ZipMember& manifest,
-                      const ZipMember* signature,
+Status CheckSignature(std::span<const std::byte> manifest,
+                      std::span<const std::byte> signature,
                       const PublicKey& trusted,
                       const std::string& where) {
   constexpr char kAsk[] =
       "ask the makers of the show for a bundle that is signed with the museum's key";
-  if (signature == nullptr) {
+  if (signature.empty()) {
     return Status::Error(where, "the bundle is not signed", kAsk);
   }
-  if (!Verifies(manifest.data, signature->data, trusted)) {
+  if (!Verifies(manifest, signature, trusted)) {
     return Status::Error(where, "the bundle is not signed with the trusted key, or was altered",
                          kAsk);
   }
@@ -77,6 +80,11 @@ Status CheckListing(const ShowManifest& manifest,
   return Status();
 }
 
+Status Changed(const std::string& where, std::string_view name) {
+  return Status::Error(where, "the bundle is damaged: '" + std::string(name) + "' was changed",
+                       kCopyAgain);
+}
+
 Status CheckHashes(const ShowManifest& manifest,
                    std::span<const ZipMember> members,
                    const std::string& where) {
@@ -86,9 +94,7 @@ Status CheckHashes(const ShowManifest& manifest,
   });
   for (size_t i = 0; i < members.size(); ++i) {
     if (intact[i] == 0) {
-      return Status::Error(where,
-                           "the bundle is damaged: '" + manifest.members[i].name + "' was changed",
-                           kCopyAgain);
+      return Changed(where, manifest.members[i].name);
     }
   }
   return Status();
@@ -96,18 +102,29 @@ Status CheckHashes(const ShowManifest& manifest,
 
 }  // namespace
 
+Piece::Piece(size_t size)
+    : bytes_(static_cast<std::byte*>(
+          ::operator new(std::max<size_t>(size, 1), std::align_val_t(kPieceAlignment)))),
+      size_(size) {}
+
+void Piece::Free::operator()(std::byte* bytes) const {
+  ::operator delete(bytes, std::align_val_t(kPieceAlignment));
+}
+
 Result<Bundle> Bundle::Open(const std::filesystem::path& path, const OpenOptions& options) {
   const std::string place = path.string();
-  LARARIUM_ASSIGN_OR_RETURN(MappedFile file, MappedFile::Open(path));
-  Bundle bundle(place, std::move(file));
-  LARARIUM_ASSIGN_OR_RETURN(const std::vector<ZipMember> all, ReadZip(bundle.file_.bytes(), place));
+  Bundle bundle(place);
+  LARARIUM_ASSIGN_OR_RETURN(bundle.file_, MappedFile::Open(path));
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<ZipMember> all,
+                            ReadZip(bundle.file_->bytes(), place));
   if (all.empty()) {
     return Status::Error(place, "the bundle has no members", kCopyAgain);
   }
   bundle.is_signed_ = all.size() > 1 && all[1].name == kSignatureName;
   if (options.trusted) {
     LARARIUM_RETURN_IF_ERROR(
-        CheckSignature(all[0], bundle.is_signed_ ? &all[1] : nullptr, *options.trusted, place));
+        CheckSignature(all[0].data, bundle.is_signed_ ? all[1].data : std::span<const std::byte>(),
+                       *options.trusted, place));
   }
   if (bundle.is_signed_ && !IsWhole(all[1], std::tuple_size_v<Signature>)) {
     return Status::Error(place, "the bundle is damaged: its signature was changed", kCopyAgain);
@@ -122,6 +139,43 @@ Result<Bundle> Bundle::Open(const std::filesystem::path& path, const OpenOptions
   return bundle;
 }
 
+Result<Bundle> Bundle::FromManifest(std::string_view manifest,
+                                    std::span<const std::byte> signature,
+                                    const PublicKey& trusted,
+                                    const std::string& where) {
+  const std::span<const char> text(manifest.data(), manifest.size());
+  LARARIUM_RETURN_IF_ERROR(CheckSignature(std::as_bytes(text), signature, trusted, where));
+  Bundle bundle(where);
+  bundle.is_signed_ = true;
+  LARARIUM_ASSIGN_OR_RETURN(bundle.manifest_,
+                            ParseShowManifest(manifest, where + ": " + std::string(kManifestName)));
+  return bundle;
+}
+
+Status Bundle::Add(std::string_view name, Piece piece) {
+  CHECK(!file_);
+  const auto listed = std::find_if(manifest_.members.begin(), manifest_.members.end(),
+                                   [&](const Member& member) { return member.name == name; });
+  if (listed == manifest_.members.end()) {
+    return Status::Error(place_, "the manifest does not list '" + std::string(name) + "'",
+                         kCopyAgain);
+  }
+  if (piece.bytes().size() != listed->size || ComputeSha256(piece.bytes()) != listed->sha256) {
+    return Changed(place_, name);
+  }
+  members_.insert_or_assign(listed->name, piece.bytes());
+  pieces_.insert_or_assign(listed->name, std::move(piece));
+  return Status();
+}
+
+void Bundle::Remove(std::string_view name) {
+  const auto piece = pieces_.find(name);
+  if (piece != pieces_.end()) {
+    members_.erase(members_.find(name));
+    pieces_.erase(piece);
+  }
+}
+
 Result<std::span<const std::byte>> Bundle::member(std::string_view name) const {
   const auto found = members_.find(name);
   if (found == members_.end()) {
@@ -131,11 +185,12 @@ Result<std::span<const std::byte>> Bundle::member(std::string_view name) const {
 }
 
 Result<StoredMember> Bundle::stored(std::string_view name) const {
+  CHECK(file_);
   LARARIUM_ASSIGN_OR_RETURN(const std::span<const std::byte> bytes, member(name));
   const auto listed = std::find_if(manifest_.members.begin(), manifest_.members.end(),
                                    [&](const Member& member) { return member.name == name; });
   return StoredMember{place_, listed->name,
-                      static_cast<uint64_t>(bytes.data() - file_.bytes().data()), bytes.size(),
+                      static_cast<uint64_t>(bytes.data() - file_->bytes().data()), bytes.size(),
                       listed->sha256};
 }
 

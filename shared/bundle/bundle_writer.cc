@@ -87,30 +87,38 @@ Status WriteArchive(const std::filesystem::path& path, const std::vector<Source>
 
 }  // namespace
 
+Result<ContentBytes> ContentBytes::Open(const std::vector<MemberContent>& contents) {
+  ContentBytes opened;
+  for (const MemberContent& content : contents) {
+    if (const auto* file = std::get_if<std::filesystem::path>(&content.content)) {
+      LARARIUM_ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::Open(*file));
+      opened.bytes_.push_back(mapped.bytes());
+      opened.files_.push_back(std::move(mapped));
+    } else {
+      opened.bytes_.push_back(std::get<std::span<const std::byte>>(content.content));
+    }
+  }
+  return opened;
+}
+
+Result<std::string> FormatChecked(const ShowManifest& manifest, const std::string& where) {
+  std::string text = FormatShowManifest(manifest);
+  LARARIUM_RETURN_IF_ERROR(ParseShowManifest(text, where + ": manifest.json").status());
+  return text;
+}
+
 Status WriteBundle(const std::filesystem::path& path,
                    ShowManifest manifest,
                    const std::vector<MemberContent>& members,
                    const SecretKey* key) {
-  std::vector<MappedFile> files;
+  LARARIUM_ASSIGN_OR_RETURN(const ContentBytes bytes, ContentBytes::Open(members));
   std::vector<Source> sources = {{std::string(kManifestName), {}}};
   manifest.members.clear();
-  for (const MemberContent& member : members) {
-    std::span<const std::byte> bytes;
-    if (const auto* file = std::get_if<std::filesystem::path>(&member.content)) {
-      LARARIUM_ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::Open(*file));
-      bytes = mapped.bytes();
-      files.push_back(std::move(mapped));
-    } else {
-      bytes = std::get<std::span<const std::byte>>(member.content);
-    }
-    sources.push_back({member.name, bytes});
-    manifest.members.push_back({member.name, bytes.size(), ComputeSha256(bytes)});
+  for (size_t i = 0; i < members.size(); ++i) {
+    sources.push_back({members[i].name, bytes[i]});
+    manifest.members.push_back({members[i].name, bytes[i].size(), ComputeSha256(bytes[i])});
   }
-  const std::string text = FormatShowManifest(manifest);
-  if (const auto parsed = ParseShowManifest(text, path.string() + ": manifest.json");
-      !parsed.ok()) {
-    return parsed.status();
-  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text, FormatChecked(manifest, path.string()));
   sources[0].bytes = std::as_bytes(std::span(text));
   Signature signature = {};
   if (key != nullptr) {

@@ -185,6 +185,7 @@ void ManifestDescription::ListedMember(bundle::Member& member) {
     fields_.Require(hash.has_value(), "the field \"sha256\" is not 64 hexadecimal digits");
     member.sha256 = hash.value_or(Sha256{});
   }
+  fields_.Integer(Optional("packed", member.packed > 0), member.packed, 1, kMaxBundleBytes);
 }
 
 void ManifestDescription::Describe(ShowManifest& manifest) {
@@ -222,6 +223,8 @@ void ManifestDescription::Describe(ShowManifest& manifest) {
   OptionalMember("paradata", manifest.paradata);
   NamedList("members", manifest.members, kMaxMembers - 1,
             [this](bundle::Member& member) { ListedMember(member); });
+  NamedList(Optional("page", !manifest.page.empty()), manifest.page, kMaxMembers - 1,
+            [this](bundle::Member& file) { ListedMember(file); });
   fields_.Require(!manifest.places.empty(), "the show has no place", "export the bundle again");
   std::set<std::string_view> listed;
   for (const bundle::Member& member : manifest.members) {

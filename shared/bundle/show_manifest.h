@@ -24,6 +24,9 @@ struct Member {
   std::string name;
   uint64_t size = 0;
   Sha256 sha256 = {};
+  // Size of the member's file in a folder for browsers, compressed with gzip. Zero: it is stored as
+  // it is.
+  uint64_t packed = 0;
 };
 
 struct OccluderEntry {
@@ -113,6 +116,7 @@ struct ShowManifest {
   std::vector<SoundEntry> sounds;  // names are unique
   std::string paradata;            // member, JSON: stage::ParseParadata; empty: none
   std::vector<Member> members;     // same order as in the file
+  std::vector<Member> page;        // Files of the page, in folders for browsers; otherwise empty.
 };
 
 // True if a line of the manifest is an audio description for visitors who do not see well.

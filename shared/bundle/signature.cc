@@ -107,8 +107,12 @@ Result<SecretKey> LoadSecretKey(const std::filesystem::path& path) {
   return key;
 }
 
+std::string FormatPublicKey(const PublicKey& key) {
+  return std::string(kPublic) + Hex(key.bytes) + "\n";
+}
+
 Status SavePublicKey(const std::filesystem::path& path, const PublicKey& key) {
-  return WriteFileAtomically(path, std::string(kPublic) + Hex(key.bytes) + "\n");
+  return WriteFileAtomically(path, FormatPublicKey(key));
 }
 
 Status SaveSecretKey(const std::filesystem::path& path, const SecretKey& key) {

@@ -38,6 +38,8 @@ Result<PublicKey> LoadPublicKey(const std::filesystem::path& path);
 // Errors call the text `where`.
 Result<PublicKey> ParsePublicKey(std::string_view text, const std::string& where);
 Result<SecretKey> LoadSecretKey(const std::filesystem::path& path);
+// The content of a public key's file.
+std::string FormatPublicKey(const PublicKey& key);
 Status SavePublicKey(const std::filesystem::path& path, const PublicKey& key);
 Status SaveSecretKey(const std::filesystem::path& path, const SecretKey& key);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -323,39 +324,75 @@ void LoadGuide(const CaptionBooks& books, std::string_view language, ShowContent
   }
 }
 
-Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, ShowContent& content) {
-  const bundle::ShowManifest& manifest = bundle.manifest();
+std::vector<std::string> SpokenLanguages(const bundle::ShowManifest& manifest) {
   std::vector<std::string> spoken;
   for (const bundle::SpokenLanguage& language : manifest.spoken) {
     spoken.push_back(language.name);
   }
-  content.spoken_languages = spoken;
-  content.caption_languages = manifest.captions;
-  LanguageChoice languages;
-  LARARIUM_ASSIGN_OR_RETURN(languages.spoken,
-                            ChooseLanguage(spoken, choice.spoken, "speech", bundle.place()));
+  return spoken;
+}
+
+// The languages of a show in place of the defaults.
+struct Languages {
+  LanguageChoice chosen;  // Captions are empty if there are none.
+  std::string read;       // Language of the guide and of audio descriptions.
+
+  // The languages in which a line is said.
+  LanguageChoice Of(bool describes) const {
+    return describes ? LanguageChoice{read, chosen.captions} : chosen;
+  }
+};
+
+Result<Languages> ResolveLanguages(const bundle::ShowManifest& manifest,
+                                   const LanguageChoice& choice,
+                                   const std::string& where) {
+  Languages languages;
+  LARARIUM_ASSIGN_OR_RETURN(
+      languages.chosen.spoken,
+      ChooseLanguage(SpokenLanguages(manifest), choice.spoken, "speech", where));
   if (choice.captions != kNoCaptions) {
-    LARARIUM_ASSIGN_OR_RETURN(languages.captions, ChooseLanguage(manifest.captions, choice.captions,
-                                                                 "captions", bundle.place()));
+    LARARIUM_ASSIGN_OR_RETURN(
+        languages.chosen.captions,
+        ChooseLanguage(manifest.captions, choice.captions, "captions", where));
   }
-  std::string read = languages.captions;
-  if (read.empty()) {
-    read = manifest.captions.empty() ? languages.spoken : manifest.captions.front();
+  languages.read = languages.chosen.captions;
+  if (languages.read.empty()) {
+    languages.read =
+        manifest.captions.empty() ? languages.chosen.spoken : manifest.captions.front();
   }
+  return languages;
+}
+
+// The show's languages for this kind of line.
+const std::vector<bundle::SpokenLanguage>& SaidIn(const bundle::ShowManifest& manifest,
+                                                  bool describes) {
+  return describes ? manifest.descriptions : manifest.spoken;
+}
+
+Status LoadLines(const bundle::Bundle& bundle, const Languages& languages, ShowContent& content) {
+  const bundle::ShowManifest& manifest = bundle.manifest();
   LARARIUM_ASSIGN_OR_RETURN(const CaptionBooks books, LoadCaptionBooks(bundle, manifest.spoken));
   LARARIUM_ASSIGN_OR_RETURN(const CaptionBooks descriptions,
                             LoadCaptionBooks(bundle, manifest.descriptions));
   for (const bundle::LineEntry& entry : manifest.lines) {
     const bool describes = bundle::Describes(manifest, entry);
     LARARIUM_ASSIGN_OR_RETURN(
-        Speech line, describes ? LoadLine(bundle, entry, manifest.descriptions,
-                                          {read, languages.captions}, descriptions)
-                               : LoadLine(bundle, entry, manifest.spoken, languages, books));
+        Speech line, LoadLine(bundle, entry, SaidIn(manifest, describes), languages.Of(describes),
+                              describes ? descriptions : books));
     line.describes = describes;
     content.has_descriptions = content.has_descriptions || describes;
     content.speech.push_back(std::move(line));
   }
-  NameSpeakers(books, languages, content);
+  NameSpeakers(books, languages.chosen, content);
+  return Status();
+}
+
+Status LoadTexts(const bundle::Bundle& bundle, const Languages& languages, ShowContent& content) {
+  const bundle::ShowManifest& manifest = bundle.manifest();
+  content.title = manifest.title;
+  content.spoken_languages = SpokenLanguages(manifest);
+  content.caption_languages = manifest.captions;
+  LARARIUM_ASSIGN_OR_RETURN(const CaptionBooks books, LoadCaptionBooks(bundle, manifest.spoken));
   // The font is needed without captions too, for guide and evidence view.
   if (manifest.caption_font) {
     LARARIUM_ASSIGN_OR_RETURN(const std::string metrics,
@@ -366,8 +403,8 @@ Status LoadLines(const bundle::Bundle& bundle, const LanguageChoice& choice, Sho
         render::ParseCaptionFont(metrics, atlas,
                                  bundle.place() + ": " + manifest.caption_font->metrics));
   }
-  content.language = read;
-  LoadGuide(books, read, content);
+  content.language = languages.read;
+  LoadGuide(books, languages.read, content);
   return Status();
 }
 
@@ -400,13 +437,71 @@ Result<std::string> ChooseLanguage(std::span<const std::string> languages,
                        known.empty() ? "it has none at all" : "choose one of: " + known);
 }
 
+Result<NeededMembers> FindNeededMembers(const bundle::ShowManifest& manifest,
+                                        const LanguageChoice& choice,
+                                        const std::string& where) {
+  LARARIUM_ASSIGN_OR_RETURN(const Languages languages, ResolveLanguages(manifest, choice, where));
+  NeededMembers needed;
+  for (const bundle::PlaceEntry& place : manifest.places) {
+    needed.guide.push_back(place.scene);
+    for (const bundle::OccluderEntry& occluder : place.occluders) {
+      needed.guide.push_back(occluder.mesh);
+    }
+    needed.guide.insert(needed.guide.end(), place.glossy.begin(), place.glossy.end());
+  }
+  for (const bundle::SpokenLanguage& language : manifest.spoken) {
+    needed.language.push_back(language.captions);
+  }
+  if (manifest.caption_font) {
+    needed.language.push_back(manifest.caption_font->metrics);
+    needed.language.push_back(manifest.caption_font->atlas);
+  }
+  // Captions of all languages are in one file, and tell the guide's texts.
+  needed.guide.insert(needed.guide.end(), needed.language.begin(), needed.language.end());
+  for (const bundle::SpokenLanguage& language : manifest.descriptions) {
+    needed.language.push_back(language.captions);
+  }
+  for (const bundle::LineEntry& line : manifest.lines) {
+    const bool describes = bundle::Describes(manifest, line);
+    if (const auto* spoken =
+            FindSpoken(SaidIn(manifest, describes), line, languages.Of(describes).spoken)) {
+      needed.language.push_back(spoken->second.visemes);
+      needed.language.push_back(spoken->second.sound);
+    }
+  }
+  for (const bundle::SoundEntry& sound : manifest.sounds) {
+    needed.language.push_back(sound.file);
+  }
+  needed.rest = {manifest.drama, manifest.paradata};
+  for (const bundle::CastEntry& cast : manifest.cast) {
+    needed.rest.push_back(cast.human);
+  }
+  for (const bundle::ObjectEntry& object : manifest.objects) {
+    needed.rest.push_back(object.prop);
+  }
+  for (std::vector<std::string>* list : {&needed.guide, &needed.language, &needed.rest}) {
+    std::set<std::string> known = {""};
+    std::erase_if(*list, [&known](const std::string& name) { return !known.insert(name).second; });
+  }
+  return needed;
+}
+
+Result<ShowContent> LoadGuideContent(const bundle::Bundle& bundle, const LanguageChoice& choice) {
+  ShowContent content;
+  LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, {}));
+  LARARIUM_ASSIGN_OR_RETURN(const Languages languages,
+                            ResolveLanguages(bundle.manifest(), choice, bundle.place()));
+  LARARIUM_RETURN_IF_ERROR(LoadTexts(bundle, languages, content));
+  content.drama_file = bundle.manifest().drama;
+  return content;
+}
+
 Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
                                     std::string_view place,
-                                    const LanguageChoice& languages,
+                                    const LanguageChoice& choice,
                                     float finest) {
   const bundle::ShowManifest& manifest = bundle.manifest();
   ShowContent content;
-  content.title = manifest.title;
   LARARIUM_ASSIGN_OR_RETURN(content.places, LoadShowPlaces(bundle, place));
   for (const bundle::PlaceEntry& entry : manifest.places) {
     if (!place.empty() && entry.name != place) {
@@ -420,6 +515,9 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
     LARARIUM_ASSIGN_OR_RETURN(content.finer, ReadsAgain(bundle, textures));
   }
   LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, *textures, content.objects));
+  LARARIUM_ASSIGN_OR_RETURN(const Languages languages,
+                            ResolveLanguages(manifest, choice, bundle.place()));
+  LARARIUM_RETURN_IF_ERROR(LoadTexts(bundle, languages, content));
   LARARIUM_RETURN_IF_ERROR(LoadLines(bundle, languages, content));
   LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, content.sounds));
   LARARIUM_ASSIGN_OR_RETURN(content.drama, LoadText(bundle, manifest.drama));
@@ -433,8 +531,10 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
 }
 
 Result<ShowContent> LoadInLanguages(const bundle::Bundle& bundle,
-                                    const LanguageChoice& languages,
+                                    const LanguageChoice& choice,
                                     const ShowContent& content) {
+  LARARIUM_ASSIGN_OR_RETURN(const Languages languages,
+                            ResolveLanguages(bundle.manifest(), choice, bundle.place()));
   ShowContent other = content;
   other.speech.clear();
   other.sounds.clear();
@@ -442,6 +542,7 @@ Result<ShowContent> LoadInLanguages(const bundle::Bundle& bundle,
   for (CastMember& member : other.cast) {
     member.title.clear();
   }
+  LARARIUM_RETURN_IF_ERROR(LoadTexts(bundle, languages, other));
   LARARIUM_RETURN_IF_ERROR(LoadLines(bundle, languages, other));
   LARARIUM_RETURN_IF_ERROR(LoadSounds(bundle, other.sounds));
   return other;

@@ -139,9 +139,23 @@ std::vector<vision::OccluderMesh> OccludersInMap(const stage::Place& place);
 // Passes the places' occluders to a tracker that was created with Maps().
 void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses);
 
+// The members that a show needs in these languages, the most important first.
+struct NeededMembers {
+  std::vector<std::string> guide;     // LoadGuideContent() reads these.
+  std::vector<std::string> language;  // LoadInLanguages() reads these.
+  std::vector<std::string> rest;      // LoadShowContent() reads these and all others.
+};
+Result<NeededMembers> FindNeededMembers(const bundle::ShowManifest& manifest,
+                                        const LanguageChoice& languages,
+                                        const std::string& where);
+
 // Loads all places of the bundle, or only the named one. Each member's reader validates it.
 Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
                                               std::string_view place = {});
+
+// Loads a show without people, objects and drama, which only guides visitors to its places.
+Result<ShowContent> LoadGuideContent(const bundle::Bundle& bundle,
+                                     const LanguageChoice& languages = {});
 
 // Loads a show from a bundle at all of its places, or only at the named one. Each member's reader
 // validates it. A line without the chosen language uses the show's first language that it has.

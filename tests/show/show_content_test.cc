@@ -2,8 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+#include <utility>
+
 #include "shared/bundle/bundle_writer.h"
 #include "shared/core/file.h"
+#include "shared/core/log.h"
+#include "shared/show/show.h"
 #include "shared/stage/mesh_file.h"
 #include "tests/human/rich_human.h"
 #include "tests/stage/test_props.h"
@@ -229,6 +234,105 @@ TEST_F(ShowContentTest, OtherLanguagesShareThePeople) {
   EXPECT_TRUE(silent->speech[0].captions.empty());
   EXPECT_EQ(silent->cast[0].title, "");
   EXPECT_THAT(LoadInLanguages(*bundle, {"", "fr"}, *english).message(), HasSubstr("fr"));
+}
+
+// As in a browser, where members arrive one by one.
+class ArrivingShowTest : public ShowContentTest {
+ protected:
+  void SetUp() override {
+    ShowContentTest::SetUp();
+    manifest_.cast = {{"keeper", "keeper.larhuman"}};
+    manifest_.objects = {{"cup", "cup.larprop", {}}};
+    manifest_.lines = {{"hello", "keeper", {{"la", {"la.json", ""}}, {"en", {"en.json", ""}}}},
+                       {"only_la", "keeper", {{"la", {"only_la.json", ""}}}},
+                       {"d",
+                        bundle::LineEntry::kDescription,
+                        {{"it", {"d_it.json", ""}}, {"en", {"d_en.json", ""}}}}};
+    manifest_.spoken = {{"la", ""}, {"en", ""}};
+    manifest_.captions = {"it", "en"};
+    manifest_.descriptions = {{"it", ""}, {"en", ""}};
+    members_ = {{"drama.lua", Bytes("function main() end\n")},
+                {"bar.larscene", bar_},
+                {"yard.larscene", yard_},
+                {"wall.larmesh", wall_},
+                {"cup.larprop", cup_},
+                {"keeper.larhuman", human_}};
+    for (const char* name : {"la.json", "en.json", "only_la.json", "d_it.json", "d_en.json"}) {
+      members_.emplace(name, Bytes(hello_));
+    }
+  }
+
+  static std::span<const std::byte> Bytes(std::string_view text) {
+    return std::as_bytes(std::span(text));
+  }
+
+  bundle::Bundle Empty() {
+    manifest_.members.clear();
+    for (const auto& [name, bytes] : members_) {
+      manifest_.members.push_back({name, bytes.size(), bundle::ComputeSha256(bytes)});
+    }
+    const std::string text = bundle::FormatShowManifest(manifest_);
+    const bundle::SecretKey key = bundle::MakeSecretKey();
+    const bundle::Signature signature = Sign(Bytes(text), key);
+    auto opened = bundle::Bundle::FromManifest(text, std::as_bytes(std::span(signature)),
+                                               key.public_key(), "show");
+    CHECK(opened.ok());
+    return std::move(*opened);
+  }
+
+  void Add(const std::vector<std::string>& names, bundle::Bundle& bundle) {
+    for (const std::string& name : names) {
+      bundle::Piece piece(members_.at(name).size());
+      std::copy(members_.at(name).begin(), members_.at(name).end(), piece.bytes().begin());
+      ASSERT_TRUE(bundle.Add(name, std::move(piece)).ok()) << name;
+    }
+  }
+
+  std::map<std::string, std::span<const std::byte>> members_;
+};
+
+TEST_F(ArrivingShowTest, TheGuideNeedsOnlyThePlaces) {
+  bundle::Bundle bundle = Empty();
+  const auto needed = FindNeededMembers(bundle.manifest(), {}, "show");
+  ASSERT_TRUE(needed.ok()) << needed.message();
+  EXPECT_THAT(needed->guide,
+              ::testing::ElementsAre("bar.larscene", "yard.larscene", "wall.larmesh"));
+  EXPECT_FALSE(LoadGuideContent(bundle).ok());
+  Add(needed->guide, bundle);
+  const auto guide = LoadGuideContent(bundle);
+  ASSERT_TRUE(guide.ok()) << guide.message();
+  EXPECT_EQ(guide->places.size(), 2u);
+  EXPECT_TRUE(guide->cast.empty() && guide->objects.empty() && guide->drama.empty());
+  EXPECT_TRUE(Show::Create(std::move(guide).value(), {}, *MakeSilentLog()).ok());
+}
+
+TEST_F(ArrivingShowTest, IsLoadedFromWhatItNeedsInItsLanguages) {
+  const auto pieces_of = [&](const LanguageChoice& languages) {
+    bundle::Bundle bundle = Empty();
+    const auto needed = FindNeededMembers(bundle.manifest(), languages, "show");
+    EXPECT_TRUE(needed.ok()) << needed.message();
+    Add(needed->guide, bundle);
+    Add(needed->language, bundle);
+    EXPECT_FALSE(LoadShowContent(bundle, {}, languages).ok());
+    Add(needed->rest, bundle);
+    const auto content = LoadShowContent(bundle, {}, languages);
+    EXPECT_TRUE(content.ok()) << content.message();
+    EXPECT_EQ(content->speech.size(), 3u);
+    EXPECT_FALSE(content->finer);
+    for (const auto& [name, bytes] : members_) {
+      bundle.Remove(name);
+    }
+    EXPECT_FALSE(LoadInLanguages(bundle, languages, *content).ok());
+    Add(needed->language, bundle);
+    EXPECT_EQ(LoadInLanguages(bundle, languages, *content)->speech.size(), 3u);
+    return needed->language;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(pieces_of({}), ElementsAre("la.json", "only_la.json", "d_it.json"));
+  EXPECT_THAT(pieces_of({"en", "en"}), ElementsAre("en.json", "only_la.json", "d_en.json"));
+  EXPECT_THAT(pieces_of({"en", "off"}), ElementsAre("en.json", "only_la.json", "d_it.json"));
+  EXPECT_THAT(FindNeededMembers(Empty().manifest(), {"de", ""}, "show").message(),
+              HasSubstr("choose one of: la, en"));
 }
 
 }  // namespace
