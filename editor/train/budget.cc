@@ -508,6 +508,11 @@ SceneDatabase Prune(const SceneDatabase& database, const BudgetOptions& options)
       }
     }
   }
+  if (options.pictured_observations) {
+    std::erase_if(pruned.observations, [&pruned](const Observation& o) {
+      return pruned.keyframes[o.keyframe].grey.empty();
+    });
+  }
   vision::ForestOptions forest;
   forest.seed = options.seed;
   pruned.forest = vision::BuildForest(pruned.descriptors, forest);

@@ -25,6 +25,8 @@ struct BudgetOptions {
   // be available in a keyframe's image. Images that are not needed for this share are removed. 1
   // keeps all images.
   double image_coverage = 1.0;
+  // Removes the observations of keyframes that have no image. Tracking looks only into images.
+  bool pictured_observations = false;
   uint64_t seed = 1;  // Seed of the new descriptor forest.
 
   Status Validate() const;

@@ -34,7 +34,8 @@ struct SkinnedMesh {
   std::vector<std::array<uint8_t, 4>> joints;  // joints of the four strongest influences
   std::vector<glm::vec4> weights;              // weights of these influences, sum 1
   std::vector<uint32_t> indices;               // three for each triangle
-  // Distance of `indices` from the full detail, metres. Not 0 if ParseHuman left out finer levels.
+  // Distance of `indices` from the full detail, metres. Not 0 if ParseHuman left out finer levels,
+  // or if the file lacks them, as in folders for browsers.
   float error = 0.0f;
   std::vector<LevelOfDetail> coarser;  // Each level is coarser than the one before.
   int16_t material = Material::kNone;  // Index into Human::materials; kNone: vertex albedo alone.
@@ -72,7 +73,6 @@ Result<Human> ParseHuman(std::span<const std::byte> bytes,
                          const std::string& where,
                          float finest = 0.0f);
 Result<Human> LoadHuman(const std::filesystem::path& file);
-// Requires a human that was read completely.
 std::vector<std::byte> SerializeHuman(const Human& human);
 
 }  // namespace lararium::human

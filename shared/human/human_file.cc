@@ -97,6 +97,7 @@ VertexCount ReadTriangles(const fb::SkinnedMesh& from,
   const size_t all = from.positions() == nullptr ? 0 : from.positions()->size();
   const flatbuffers::uoffset_t left_out = LevelsLeftOut(from, finest);
   if (left_out == 0) {
+    to.error = from.error();
     reader.Read(from.indices(), to.indices);
     reader.ReadTables(from.coarser(), to.coarser, ReadLevel);
     return {all, all};
@@ -332,7 +333,7 @@ auto WriteMesh(flatbuffers::FlatBufferBuilder& builder, const SkinnedMesh& mesh)
   const auto indices = builder.CreateVector(mesh.indices);
   const auto coarser = WriteTables(builder, mesh.coarser, WriteLevel);
   return fb::CreateSkinnedMesh(builder, name, positions, normals, albedo, uvs, joints, weights,
-                               indices, coarser, mesh.material);
+                               indices, coarser, mesh.material, mesh.error);
 }
 
 auto WriteMorphPart(flatbuffers::FlatBufferBuilder& builder, const MorphTarget::Part& part) {
@@ -446,8 +447,6 @@ Result<Human> LoadHuman(const std::filesystem::path& file) {
 }
 
 std::vector<std::byte> SerializeHuman(const Human& human) {
-  CHECK(std::all_of(human.meshes.begin(), human.meshes.end(),
-                    [](const auto& mesh) { return mesh.error == 0.0f; }));
   flatbuffers::FlatBufferBuilder builder(size_t{1} << 20);
   const auto name = builder.CreateString(human.name);
   const auto credits = builder.CreateString(human.credits);

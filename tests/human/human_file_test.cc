@@ -148,6 +148,18 @@ Human WithACoarserLevel() {
   return human;
 }
 
+TEST(HumanFile, WithoutFinerLevelsItSaysHowFarItIsFromTheFullDetail) {
+  const float error = 0.01f * ErrorShare(Surface::kCloth);
+  const auto coarse = ParseHuman(SerializeHuman(WithACoarserLevel()), "here", error);
+  ASSERT_TRUE(coarse.ok()) << coarse.message();
+  const auto again = ParseHuman(SerializeHuman(*coarse), "here");
+  ASSERT_TRUE(again.ok()) << again.message();
+  EXPECT_EQ(again->meshes[0].error, 0.01f);
+  EXPECT_EQ(again->meshes[0].positions, coarse->meshes[0].positions);
+  EXPECT_EQ(again->meshes[0].coarser.size(), 1u);
+  EXPECT_EQ(again->light.meshes[0].coefficients, coarse->light.meshes[0].coefficients);
+}
+
 TEST(HumanFile, ReadsOnlyTheDetailThatIsWanted) {
   const Human human = WithACoarserLevel();
   const float error = 0.01f * ErrorShare(Surface::kCloth);

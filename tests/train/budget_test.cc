@@ -107,6 +107,21 @@ TEST(Prune, KeepsAValidMapWithinTheBudget) {
             vision::SerializeSceneDatabase(Prune(db, options)));
 }
 
+TEST(Prune, MayKeepOnlyTheObservationsOfImages) {
+  const SceneDatabase db = Map(400);
+  BudgetOptions options;
+  options.image_coverage = 0.9;
+  const SceneDatabase all = Prune(db, options);
+  options.pictured_observations = true;
+  const SceneDatabase pruned = Prune(db, options);
+  ASSERT_TRUE(pruned.Validate().ok()) << pruned.Validate().message();
+  EXPECT_LT(pruned.observations.size(), all.observations.size());
+  for (uint32_t k = 0; k < pruned.keyframes.size(); ++k) {
+    EXPECT_EQ(ObservationsOf(pruned, k).size(),
+              pruned.keyframes[k].grey.empty() ? 0 : ObservationsOf(all, k).size());
+  }
+}
+
 TEST(Prune, StillLocatesViewsBetweenTheKeyframes) {
   const test::SyntheticWorld world = test::MakeSyntheticWorld({.points = 600, .cameras = 10});
   BudgetOptions options;
