@@ -65,6 +65,8 @@ pkg_check_modules(freetype REQUIRED IMPORTED_TARGET freetype2)
 pkg_check_modules(systemd REQUIRED IMPORTED_TARGET libsystemd)
 # Encodings of texts: recognised (i18n) and converted (uc).
 pkg_check_modules(icu REQUIRED IMPORTED_TARGET icu-i18n icu-uc)
+# QR codes.
+pkg_check_modules(qrencode REQUIRED IMPORTED_TARGET libqrencode)
 pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 pkg_check_modules(flatbuffers REQUIRED IMPORTED_TARGET flatbuffers)
 find_program(FLATC flatc REQUIRED)
