@@ -120,11 +120,38 @@ void AddReference(CLI::App* command, ReferenceOptions& reference) {
 
 void AddExport(CLI::App* command, ExportOptions& pack) {
   AddProject(command, pack.project);
-  command->add_option("--out", pack.out, "The bundle (.larshow)")->required();
+  CLI::Option* out = command->add_option("--out", pack.out, "The bundle (.larshow)");
+  CLI::Option* web =
+      command
+          ->add_option("--web", pack.web,
+                       "Write a folder for browsers instead, which any web server can serve")
+          ->excludes(out);
+  command->add_option("--page", pack.page, "The page in it; the one of this program otherwise")
+      ->check(CLI::ExistingDirectory)
+      ->needs(web);
+  command
+      ->add_option("--address", pack.address,
+                   "Where the folder will be served (https://...): also write its QR code, and a "
+                   "page with it to be printed")
+      ->needs(web);
   command->add_option("--points", pack.points, "Points that each place keeps at most")
       ->check(CLI::Range(100, 10'000'000));
   command->add_option("--sign", pack.sign, "Sign it with this secret key (NAME.key)")
       ->check(CLI::ExistingFile);
+}
+
+void CheckExport(const ExportOptions& pack) {
+  if (pack.out.empty() && pack.web.empty()) {
+    throw CLI::RequiredError("--out or --web");
+  }
+  if (!pack.web.empty() && pack.sign.empty()) {
+    throw CLI::ValidationError("--web", "needs --sign; make a key with lararium-editor key NAME");
+  }
+  if (!pack.address.empty() && !pack.address.starts_with("https://")) {
+    throw CLI::ValidationError("--address",
+                               "has to begin with https://, because browsers give the "
+                               "camera to no other address");
+  }
 }
 
 void AddKey(CLI::App* command, KeyOptions& key) {
@@ -143,7 +170,7 @@ void AddShowCommands(CommandTable& table) {
   table.Add("portrait", "Picture people and things in a studio", AddPortrait);
   table.Add("reference", "Path-trace a moment of a show, or a person in a probe's light",
             AddReference);
-  table.Add("export", "Pack the show", AddExport);
+  table.Add("export", "Pack the show", AddExport, CheckExport);
   table.Add("key", "Make the keys that shows are signed with", AddKey);
   table.Add<FetchCastLibraryOptions>("fetch-cast-library",
                                      "Fetch the library of which people are built, with npm",

@@ -29,9 +29,12 @@ struct RenderOptions {
 
 struct ExportOptions {
   std::filesystem::path project;
-  std::filesystem::path out;
+  std::filesystem::path out = {};   // The bundle, if there is no `web`.
+  std::filesystem::path web = {};   // The folder for browsers.
   std::optional<int> points = {};   // Limit for the points of each place.
   std::filesystem::path sign = {};  // Secret key file; empty: the bundle is not signed.
+  std::filesystem::path page = {};  // See ExportRequest.
+  std::string address = {};         // See exporter::WebExport.
 };
 
 struct FetchCastLibraryOptions {};

@@ -82,11 +82,33 @@ Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress
       {{"out", options.out.string()}, {"frames", report.frames}, {"tracked", report.tracked}}};
 }
 
+namespace {
+
+CommandResult DescribeWebFolder(const std::filesystem::path& folder,
+                                const bundle::WebFolderReport& report) {
+  CommandResult result;
+  result.text = "wrote " + folder.string() + "\n  page " + std::to_string(report.page) + " bytes\n";
+  for (const auto& [kind, bytes] : report.members) {
+    result.text += "  " + kind + " " + std::to_string(bytes) + " bytes\n";
+  }
+  result.json = {{"folder", folder.string()}, {"page", report.page}, {"members", report.members}};
+  return result;
+}
+
+}  // namespace
+
 Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress) {
   const ProjectPaths paths{options.project};
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
-  ExportRequest request{.out = options.out, .key = options.sign};
+  ExportRequest request{
+      .out = options.out, .key = options.sign, .page = options.page, .address = options.address};
   request.budget.max_points = options.points.value_or(request.budget.max_points);
+  if (!options.web.empty()) {
+    request.out = options.web;
+    LARARIUM_ASSIGN_OR_RETURN(const bundle::WebFolderReport report,
+                              ExportProjectForWeb(paths, document, request, progress));
+    return DescribeWebFolder(options.web, report);
+  }
   LARARIUM_RETURN_IF_ERROR(ExportProject(paths, document, request, progress));
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(options.out, ignored);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <deque>
 
+#include "editor/export/qr_page.h"
+#include "editor/export/web_content.h"
 #include "shared/bundle/bundle.h"
 #include "shared/bundle/bundle_writer.h"
+#include "shared/core/file.h"
 #include "shared/human/human.h"
 #include "shared/render/text/caption_font.h"
 #include "shared/stage/caption_file.h"
@@ -186,10 +189,9 @@ Status PackAll(const std::vector<Content>& contents,
 
 }  // namespace
 
-Status ExportBundle(const ExportContent& content,
-                    const std::filesystem::path& path,
-                    Progress& progress,
-                    const bundle::SecretKey* key) {
+namespace {
+
+Result<Packing> Pack(const ExportContent& content, Progress& progress) {
   Packing packing;
   packing.manifest.title = content.title;
   packing.manifest.credits = content.credits;
@@ -206,11 +208,63 @@ Status ExportBundle(const ExportContent& content,
   LARARIUM_RETURN_IF_ERROR(PackAll(content.sounds, PackSound, packing, progress));
   LARARIUM_RETURN_IF_ERROR(PackParadata(content, packing));
   progress.Report("writing", 0.0);
+  return packing;
+}
+
+// All files below a folder, in the order of their names.
+std::vector<bundle::MemberContent> FilesBelow(const std::filesystem::path& folder) {
+  std::vector<bundle::MemberContent> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files.push_back({entry.path().lexically_relative(folder).string(), entry.path()});
+    }
+  }
+  std::sort(files.begin(), files.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  return files;
+}
+
+}  // namespace
+
+Status ExportBundle(const ExportContent& content,
+                    const std::filesystem::path& path,
+                    Progress& progress,
+                    const bundle::SecretKey* key) {
+  LARARIUM_ASSIGN_OR_RETURN(const Packing packing, Pack(content, progress));
   LARARIUM_RETURN_IF_ERROR(bundle::WriteBundle(path, packing.manifest, packing.members, key));
   progress.Report("verifying", 0.0);
   LARARIUM_RETURN_IF_ERROR(bundle::Bundle::Open(path).status());
   progress.Report("verifying", 1.0);
   return Status();
+}
+
+Status CheckWebExport(const WebExport& web) {
+  if (!FileExists(web.page / "module.wasm")) {
+    return Status::Error(web.page.string(), "the page for browsers is not there",
+                         "build it with scripts/install_web_tools.sh, cmake --preset web and "
+                         "cmake --build --preset web");
+  }
+  return bundle::CheckWebFolder(web.folder);
+}
+
+Result<bundle::WebFolderReport> ExportWebFolder(ExportContent content,
+                                                const WebExport& web,
+                                                const bundle::SecretKey& key,
+                                                Progress& progress) {
+  LARARIUM_RETURN_IF_ERROR(CheckWebExport(web));
+  LARARIUM_RETURN_IF_ERROR(ReduceForWeb(content, progress));
+  LARARIUM_ASSIGN_OR_RETURN(const Packing packing, Pack(content, progress));
+  std::vector<bundle::MemberContent> page = FilesBelow(web.page);
+  std::string print;
+  std::string code;
+  if (!web.address.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(print, MakeQrPage(content.title, web.address, content.captions));
+    LARARIUM_ASSIGN_OR_RETURN(code, MakeQrCodeSvg(web.address));
+    page.push_back({"print.html", std::as_bytes(std::span(print))});
+    page.push_back({"code.svg", std::as_bytes(std::span(code))});
+  }
+  return bundle::WriteWebFolder(web.folder, packing.manifest, packing.members, std::move(page),
+                                key);
 }
 
 }  // namespace lararium::exporter

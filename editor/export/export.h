@@ -9,6 +9,7 @@
 
 #include "shared/audio/sound_library.h"
 #include "shared/bundle/signature.h"
+#include "shared/bundle/web_folder.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 #include "shared/light/glossy_map.h"
@@ -75,5 +76,21 @@ Status ExportBundle(const ExportContent& content,
                     const std::filesystem::path& path,
                     Progress& progress,
                     const bundle::SecretKey* key = nullptr);
+
+// A folder for browsers, with the page and with what it needs of the show.
+struct WebExport {
+  std::filesystem::path folder;
+  std::filesystem::path page;  // Folder of the page's files, as the preset `web` builds it.
+  // Where the folder will be served, for a page with a QR code to be printed; empty: none.
+  std::string address = {};
+};
+// Checks that the page is there and that the folder may be written.
+Status CheckWebExport(const WebExport& web);
+// Checks the parts like ExportBundle(), and writes the folder. On failure an existing one stays
+// unchanged.
+Result<bundle::WebFolderReport> ExportWebFolder(ExportContent content,
+                                                const WebExport& web,
+                                                const bundle::SecretKey& key,
+                                                Progress& progress);
 
 }  // namespace lararium::exporter

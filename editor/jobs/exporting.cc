@@ -16,6 +16,7 @@
 #include "shared/bundle/signature.h"
 #include "shared/core/file.h"
 #include "shared/core/free_space.h"
+#include "shared/core/program.h"
 #include "shared/vision/scene_database.h"
 
 namespace lararium::editor {
@@ -31,7 +32,8 @@ Result<exporter::PlaceContent> PackPlace(const ProjectPaths& paths,
   vision::SceneDatabase packed =
       train::Prune(*map.database, {.max_points = budget.max_points,
                                    .max_descriptors_per_point = budget.max_descriptors_per_point,
-                                   .image_coverage = budget.image_coverage});
+                                   .image_coverage = budget.image_coverage,
+                                   .pictured_observations = budget.pictured_observations});
   packed.descriptor_sessions.clear();  // Only needed to remove sessions, which players never do.
   content.scene = vision::SerializeSceneDatabase(packed);
   LARARIUM_ASSIGN_OR_RETURN(content.place,
@@ -83,16 +85,11 @@ Status PackTexts(const ProjectPaths& paths,
   return Status();
 }
 
-}  // namespace
-
-Status ExportProject(const ProjectPaths& paths,
-                     const ProjectDocument& document,
-                     const ExportRequest& request,
-                     Progress& progress) {
-  std::optional<bundle::SecretKey> key;
-  if (!request.key.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(key, bundle::LoadSecretKey(request.key));
-  }
+// Bakes stale products, and collects all that a bundle has.
+Result<exporter::ExportContent> CollectContent(const ProjectPaths& paths,
+                                               const ProjectDocument& document,
+                                               const ExportRequest& request,
+                                               Progress& progress) {
   LARARIUM_RETURN_IF_ERROR(RequireSpace(request.out.parent_path()));
   LARARIUM_RETURN_IF_ERROR(Bake(paths, document, progress).status());
   exporter::ExportContent content;
@@ -121,7 +118,43 @@ Status ExportProject(const ProjectPaths& paths,
   }
   LARARIUM_RETURN_IF_ERROR(PackTexts(paths, document, content));
   LARARIUM_ASSIGN_OR_RETURN(content.sounds, LoadSounds(paths));
+  return content;
+}
+
+}  // namespace
+
+Status ExportProject(const ProjectPaths& paths,
+                     const ProjectDocument& document,
+                     const ExportRequest& request,
+                     Progress& progress) {
+  std::optional<bundle::SecretKey> key;
+  if (!request.key.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(key, bundle::LoadSecretKey(request.key));
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const exporter::ExportContent content,
+                            CollectContent(paths, document, request, progress));
   return exporter::ExportBundle(content, request.out, progress, key ? &*key : nullptr);
+}
+
+Result<bundle::WebFolderReport> ExportProjectForWeb(const ProjectPaths& paths,
+                                                    const ProjectDocument& document,
+                                                    const ExportRequest& request,
+                                                    Progress& progress) {
+  if (request.key.empty()) {
+    return Status::Error(request.out.string(), "a folder for browsers has to be signed",
+                         "name a secret key with --sign, which lararium-editor key makes");
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::SecretKey key, bundle::LoadSecretKey(request.key));
+  const exporter::WebExport web{
+      .folder = request.out,
+      .page = request.page.empty() ? ShippedData("lararium/web", "build/web/page") : request.page,
+      .address = request.address};
+  LARARIUM_RETURN_IF_ERROR(exporter::CheckWebExport(web));
+  ExportRequest smaller = request;
+  smaller.budget.pictured_observations = true;
+  LARARIUM_ASSIGN_OR_RETURN(exporter::ExportContent content,
+                            CollectContent(paths, document, smaller, progress));
+  return exporter::ExportWebFolder(std::move(content), web, key, progress);
 }
 
 }  // namespace lararium::editor

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "editor/document/project.h"
+#include "shared/bundle/web_folder.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
 
@@ -16,12 +17,16 @@ struct MapBudget {
   int max_points = 10'000;
   int max_descriptors_per_point = 3;
   double image_coverage = 0.98;
+  bool pictured_observations = false;  // See train::BudgetOptions.
 };
 
 struct ExportRequest {
-  std::filesystem::path out;
+  std::filesystem::path out;  // File of the bundle, or the folder for browsers.
   MapBudget budget = {};
   std::filesystem::path key = {};  // File of a secret key; empty: the bundle is not signed.
+  // Folder of the page for browsers; empty: the one that comes with this program.
+  std::filesystem::path page = {};
+  std::string address = {};  // See exporter::WebExport.
 };
 
 // Bakes stale products, packs all places, the cast and the drama, and signs the bundle. On an error
@@ -30,5 +35,12 @@ Status ExportProject(const ProjectPaths& paths,
                      const ProjectDocument& document,
                      const ExportRequest& request,
                      Progress& progress);
+
+// Bakes stale products, and writes a folder for browsers, which has to be signed. On an error an
+// existing folder stays unchanged.
+Result<bundle::WebFolderReport> ExportProjectForWeb(const ProjectPaths& paths,
+                                                    const ProjectDocument& document,
+                                                    const ExportRequest& request,
+                                                    Progress& progress);
 
 }  // namespace lararium::editor

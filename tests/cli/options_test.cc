@@ -216,6 +216,21 @@ TEST(EditorOptions, PointsLieBetweenAHundredAndTenMillion) {
   EXPECT_EQ(Parsed<ExportOptions>({"export", "p", "--out", "a", "--points", "700"}).points, 700);
 }
 
+TEST(EditorOptions, AnExportIsAFileOrASignedFolder) {
+  const std::string key = "/dev/null";  // A file that is there.
+  EXPECT_THAT(Refusal({"export", "p"}), HasSubstr("--out or --web"));
+  EXPECT_THAT(Refusal({"export", "p", "--out", "a", "--web", "b", "--sign", key}),
+              HasSubstr("excludes"));
+  EXPECT_THAT(Refusal({"export", "p", "--web", "b"}), HasSubstr("lararium-editor key NAME"));
+  EXPECT_THAT(Refusal({"export", "p", "--out", "a", "--address", "https://x"}), HasSubstr("--web"));
+  EXPECT_THAT(Refusal({"export", "p", "--web", "b", "--sign", key, "--address", "http://x"}),
+              HasSubstr("https://"));
+  const auto web =
+      Parsed<ExportOptions>({"export", "p", "--web", "b", "--sign", key, "--address", "https://x"});
+  EXPECT_EQ(web.web, "b");
+  EXPECT_EQ(web.address, "https://x");
+}
+
 TEST(EditorOptions, TagsHaveASizeInMetres) {
   for (const char* wrong : {"0", "-0.1", "101", "big"}) {
     EXPECT_THAT(Refusal({"train", "p", "--tag-size", wrong}), HasSubstr("--tag-size")) << wrong;
