@@ -1,5 +1,6 @@
 // What the tests of programs for browsers share.
-import {createReadStream, existsSync} from 'node:fs';
+import {execFileSync} from 'node:child_process';
+import {createReadStream, existsSync, rmSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {extname} from 'node:path';
 
@@ -15,19 +16,42 @@ export function skipWithout(...needed) {
 
 const TYPES = {'.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm'};
 
-// Serves files without special headers until close(). fileOf(path): the file, or undefined.
-export async function serve(fileOf) {
+// Writes a project's folder for browsers, signed with a new key, and returns what the program says of it.
+export function exportFolder(editor, project, page, folder) {
+  const key = `${folder}-museum`;
+  [folder, `${key}.key`, `${key}.pub`].forEach((old) => rmSync(old, {recursive: true, force: true}));
+  execFileSync(editor, ['key', key], {stdio: 'ignore'});
+  return updateFolder(editor, project, page, folder, key);
+}
+
+// Writes it again, signed with the key of `folder`, or of another one.
+export function updateFolder(editor, project, page, folder, key = `${folder}-museum`) {
+  return JSON.parse(execFileSync(
+    editor, ['export', project, '--web', folder, '--page', page, '--sign', `${key}.key`, '--json'], {encoding: 'utf8'}));
+}
+
+// The file of a folder that a path names.
+export const fileIn = (folder, path) => path.includes('..') ? undefined : `${folder}${path === '/' ? '/index.html' : path}`;
+
+// Serves files without special headers until close(). fileOf(path): the file or its bytes, or undefined.
+export async function serve(fileOf, port = 0) {
   const server = createServer((request, response) => {
-    const file = fileOf(request.url);
-    if (file === undefined || !existsSync(file)) {
+    const file = fileOf(new URL(request.url, 'http://localhost').pathname);
+    if (file === undefined || (typeof file === 'string' && !existsSync(file))) {
       response.writeHead(404).end();
       return;
     }
-    response.writeHead(200, {'content-type': TYPES[extname(file)] ?? 'application/octet-stream'});
-    createReadStream(file).pipe(response);
+    const type = TYPES[typeof file === 'string' ? extname(file) : ''] ?? 'application/octet-stream';
+    response.writeHead(200, {'content-type': type});
+    if (typeof file === 'string') {
+      createReadStream(file).pipe(response);
+    } else {
+      response.end(file);
+    }
   });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  await new Promise((resolve) => server.listen(port, '127.0.0.1', resolve));
   return {
+    port: server.address().port,
     origin: `http://127.0.0.1:${server.address().port}`,
     close() {
       server.closeAllConnections();

@@ -1,17 +1,17 @@
-// node page_test.mjs REFERENCE_PROGRAM PAGE CHROMIUM WORK_FOLDER SHOW SCENE.larscene VIDEO AXE
+// node page_test.mjs REFERENCE_PROGRAM PAGE CHROMIUM WORK_FOLDER EDITOR PROJECT SCENE.larscene VIDEO AXE
 // A visit in Chromium without a screen, from a server of files without special headers: a video stands for the camera.
 // Checks the sentences for what stands in the way, every pose against the native tracker's, and that the canvas shows
 // the image that was tracked, with people in it. Writes screenshots. Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync} from 'node:fs';
-import {serve, skipWithout} from './needs.mjs';
+import {exportFolder, fileIn, serve, skipWithout} from './needs.mjs';
 import {distancePx, pixel} from './poses.mjs';
 import {cameraOptions, focus, press, READY, says, Screens, type, withBrowser, writeCamera} from './visitor.mjs';
 
-const [reference, page, program, work, show, scene, video, axe] = process.argv.slice(2);
+const [reference, page, program, work, editor, project, scene, video, axe] = process.argv.slice(2);
 skipWithout(
-  [`${page}/module.wasm`, 'build the preset `web`'], [show, 'run ./demo or the test acceptance/maquette'],
+  [`${page}/module.wasm`, 'build the preset `web`'], [editor, 'build lararium-editor'],
   [scene, 'run the test acceptance/maquette'], [video, 'set LARARIUM_DATA_DIR'], [program, 'install chromium'],
   ['/usr/bin/ffmpeg', 'install ffmpeg']);
 const FRAMES = 30;  // This many images have a pose before the camera looks elsewhere.
@@ -29,13 +29,10 @@ const grey = readFileSync(`${work}/frames.grey`);
 const camera = `${work}/camera.y4m`;
 writeCamera(video, width, height, camera);
 
+const folder = `${work}/folder`;
+exportFolder(editor, project, page, folder);
 let missing = true;  // The server has no show at first.
-const server = await serve((path) => {
-  if (path === '/show.larshow') {
-    return missing ? undefined : show;
-  }
-  return path.includes('..') ? undefined : `${page}${path === '/' ? '/index.html' : path}`;
-});
+const server = await serve((path) => missing && path.startsWith('/show/') ? undefined : fileIn(folder, path));
 const {origin} = server;
 
 // Runs in the page: notes for each image what the tracker said, some pixels of the image, and how the canvas differs
@@ -153,6 +150,7 @@ async function visit(browser) {
 
   missing = false;
   await press(browser);
+  await browser.until(`document.getElementById('lararium').dataset.shows === 'show'`, 200);
   await browser.until(`${POSES} >= ${FRAMES}`, 200);
   await screens.take(browser, 'show');
   await browser.until(`noted.at(-1).milliseconds - noted.findLast((frame) => frame.tracked.pose).milliseconds > 3000`, 100);

@@ -1,23 +1,24 @@
-// node visit_test.mjs PAGE CHROMIUM WORK_FOLDER SHOW VIDEO AXE
+// node visit_test.mjs PAGE CHROMIUM WORK_FOLDER EDITOR PROJECT VIDEO AXE
 // A whole visit to the sample in Chromium, mostly by keyboard: title, languages, permission, captions, menu, sound, a hidden
 // page, the guide, the end, and what the browser remembers. Checks every screen with axe-core and writes screenshots. The
 // test sets the camera's clock forward to reach the end. Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {mkdirSync} from 'node:fs';
-import {serve, skipWithout} from './needs.mjs';
+import {exportFolder, fileIn, serve, skipWithout} from './needs.mjs';
 import {cameraOptions, focus, FOCUSED, PLAYS, press, READY, says, Screens, type, withBrowser, writeCamera} from './visitor.mjs';
 
-const [page, program, work, show, video, axe] = process.argv.slice(2);
+const [page, program, work, editor, project, video, axe] = process.argv.slice(2);
 skipWithout(
-  [`${page}/module.wasm`, 'build the preset `web`'], [show, 'run ./demo'], [video, 'set LARARIUM_DATA_DIR'],
+  [`${page}/module.wasm`, 'build the preset `web`'], [editor, 'build lararium-editor'], [project, 'run ./demo'], [video, 'set LARARIUM_DATA_DIR'],
   [program, 'install chromium'], ['/usr/bin/ffmpeg', 'install ffmpeg'], [axe, 'run scripts/fetch_axe.sh']);
 const LEAST_LEVEL = 1e-4;  // -80 dB: the room's ambience is louder.
 
 mkdirSync(work, {recursive: true});
 const camera = `${work}/camera.y4m`;
 writeCamera(video, 640, 480, camera);
-const server = await serve((path) => path === '/show.larshow' ? show
-  : path.includes('..') ? undefined : `${page}${path === '/' ? '/index.html' : path}`);
+const folder = `${work}/folder`;
+exportFolder(editor, project, page, folder);
+const server = await serve((path) => fileIn(folder, path));
 const screens = new Screens(work, axe);
 
 // Runs in the page: sets the camera's clock forward by `ahead`, and listens to what goes to the loudspeakers.

@@ -11,21 +11,65 @@ using lararium::web::PixelFormat;
 
 namespace {
 
-constexpr const char* kFile = "/show.larshow";  // show.js writes it.
-
 std::unique_ptr<PageShow> show;
+std::string names;  // The result of lararium_names().
+
+const char* TakeNames(const lararium::Result<std::vector<std::string>>& found) {
+  names.clear();
+  for (size_t i = 0; found.ok() && i < found->size(); ++i) {
+    names += (*found)[i] + "\n";
+  }
+  return ErrorText(found.status());
+}
 
 }  // namespace
 
 extern "C" {
 
-EMSCRIPTEN_KEEPALIVE const char* lararium_open() {
-  lararium::Result<std::unique_ptr<PageShow>> opened = PageShow::Open(kFile);
+EMSCRIPTEN_KEEPALIVE const char* lararium_open(const char* manifest,
+                                               size_t manifest_size,
+                                               const std::byte* signature,
+                                               size_t signature_size,
+                                               const char* key,
+                                               size_t key_size) {
+  auto opened =
+      PageShow::Open({manifest, manifest_size}, {signature, signature_size}, {key, key_size});
   if (!opened.ok()) {
     return ErrorText(opened.status());
   }
   show = *std::move(opened);
   return nullptr;
+}
+
+// An empty language is the author's choice.
+EMSCRIPTEN_KEEPALIVE const char* lararium_find_missing(int stage,
+                                                       const char* spoken,
+                                                       const char* captions) {
+  return TakeNames(show->FindMissing(static_cast<PageShow::Stage>(stage), {spoken, captions}));
+}
+
+// Verifies the manifest of another version of the show.
+EMSCRIPTEN_KEEPALIVE const char* lararium_find_needed(const char* manifest,
+                                                      size_t manifest_size,
+                                                      const std::byte* signature,
+                                                      size_t signature_size,
+                                                      const char* key,
+                                                      size_t key_size,
+                                                      const char* spoken,
+                                                      const char* captions) {
+  auto opened =
+      PageShow::Open({manifest, manifest_size}, {signature, signature_size}, {key, key_size});
+  return opened.ok() ? TakeNames((*opened)->FindMissing(PageShow::Stage::kShow, {spoken, captions}))
+                     : ErrorText(opened.status());
+}
+
+// The names that the last of these functions has found, one a line.
+EMSCRIPTEN_KEEPALIVE const char* lararium_names() { return names.c_str(); }
+
+EMSCRIPTEN_KEEPALIVE std::byte* lararium_new_piece(size_t size) { return show->NewPiece(size); }
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_add_piece(const char* member) {
+  return ErrorText(show->AddPiece(member));
 }
 
 EMSCRIPTEN_KEEPALIVE size_t lararium_map_count() { return show->map_count(); }
@@ -41,7 +85,10 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_map(size_t index, uint32_t* address_an
   return nullptr;
 }
 
-// An empty language is the author's choice.
+EMSCRIPTEN_KEEPALIVE const char* lararium_load_guide(const char* spoken, const char* captions) {
+  return ErrorText(show->LoadGuide({spoken, captions}));
+}
+
 EMSCRIPTEN_KEEPALIVE const char* lararium_load(const char* spoken, const char* captions) {
   return ErrorText(show->Load({spoken, captions}));
 }

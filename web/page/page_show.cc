@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 #include <utility>
@@ -16,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr float kFinest = 0.003f;  // metres
+constexpr char kWhere[] = "show";  // The folder of the show, in errors.
 // The page asks the camera for this rate.
 constexpr double kFramesPerSecond = 30.0;
 
@@ -65,9 +66,44 @@ PageShow::PageShow(bundle::Bundle bundle)
 
 PageShow::~PageShow() = default;
 
-Result<std::unique_ptr<PageShow>> PageShow::Open(const std::filesystem::path& file) {
-  LARARIUM_ASSIGN_OR_RETURN(bundle::Bundle bundle, bundle::Bundle::Open(file));
+Result<std::unique_ptr<PageShow>> PageShow::Open(std::string_view manifest,
+                                                 std::span<const std::byte> signature,
+                                                 std::string_view key) {
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::PublicKey trusted,
+                            bundle::ParsePublicKey(key, "museum.pub"));
+  LARARIUM_ASSIGN_OR_RETURN(bundle::Bundle bundle,
+                            bundle::Bundle::FromManifest(manifest, signature, trusted, kWhere));
   return std::unique_ptr<PageShow>(new PageShow(std::move(bundle)));
+}
+
+Result<std::vector<std::string>> PageShow::FindMissing(
+    Stage stage, const show::LanguageChoice& languages) const {
+  LARARIUM_ASSIGN_OR_RETURN(const show::NeededMembers needed,
+                            show::FindNeededMembers(bundle_.manifest(), languages, kWhere));
+  std::vector<std::string> missing;
+  const auto add = [&](const std::vector<std::string>& members) {
+    std::copy_if(members.begin(), members.end(), std::back_inserter(missing),
+                 [this](const std::string& member) { return !bundle_.Has(member); });
+  };
+  if (stage != Stage::kLanguages) {
+    add(needed.guide);
+  }
+  if (stage == Stage::kShow) {
+    add(needed.rest);
+  }
+  if (stage != Stage::kGuide) {
+    add(needed.language);
+  }
+  return missing;
+}
+
+std::byte* PageShow::NewPiece(size_t size) { return piece_.emplace(size).bytes().data(); }
+
+Status PageShow::AddPiece(std::string_view member) {
+  CHECK(piece_);
+  bundle::Piece piece = std::move(*piece_);
+  piece_.reset();
+  return bundle_.Add(member, std::move(piece));
 }
 
 Result<std::span<const std::byte>> PageShow::map(size_t index) const {
@@ -92,16 +128,34 @@ void PageShow::Begin(std::unique_ptr<show::Show> show) {
   told_texts_.clear();
 }
 
+Status PageShow::LoadGuide(const show::LanguageChoice& languages) {
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, show::LoadGuideContent(bundle_, languages));
+  return Start(std::move(content));
+}
+
 Status PageShow::Load(const show::LanguageChoice& languages) {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
-                            show::LoadShowContent(bundle_, {}, languages, kFinest));
-  // No thread could read finer people.
-  content.finer = {};
+                            show::LoadShowContent(bundle_, {}, languages));
+  LARARIUM_ASSIGN_OR_RETURN(const show::NeededMembers needed,
+                            show::FindNeededMembers(bundle_.manifest(), languages, kWhere));
+  for (const bundle::Member& member : bundle_.manifest().members) {
+    if (std::find(needed.language.begin(), needed.language.end(), member.name) ==
+        needed.language.end()) {
+      bundle_.Remove(member.name);
+    }
+  }
+  return Start(std::move(content));
+}
+
+Status PageShow::Start(show::ShowContent content) {
   // The page writes the texts itself, so that they have the browser's letters, directions and
   // sizes.
   content.caption_font.reset();
-  LARARIUM_ASSIGN_OR_RETURN(context_,
-                            render::CreateOffscreenContext(render::GraphicsApi::kOpenGlEs30));
+  renderer_.reset();
+  if (!context_) {
+    LARARIUM_ASSIGN_OR_RETURN(context_,
+                              render::CreateOffscreenContext(render::GraphicsApi::kOpenGlEs30));
+  }
   auto given = std::make_unique<GivenPoses>();
   given_ = given.get();
   smoothed_ =
@@ -110,6 +164,7 @@ Status PageShow::Load(const show::LanguageChoice& languages) {
       renderer_, show::ShowRenderer::Create(content, render::QualityLadder()[quality_.level()]));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
   Begin(std::move(show));
+  begun_.reset();
   FindViews();
   return Status();
 }
@@ -185,12 +240,17 @@ void PageShow::ChooseQuality(double seconds, double work_ms) {
   }
 }
 
+double PageShow::SinceBegun(double seconds) {
+  begun_ = begun_.value_or(seconds);
+  return seconds - *begun_;
+}
+
 Status PageShow::Present(vision::TrackedFrame tracked,
                          const Moment& moment,
                          Clock::time_point start) {
   LARARIUM_RETURN_IF_ERROR(SetSize(frame_.bgr.cols, frame_.bgr.rows));
   show_->input().SetHour(moment.hour);
-  show_->StageFrame(std::move(tracked), moment.seconds, staged_);
+  show_->StageFrame(std::move(tracked), frame_.capture_time, staged_);
   staged_.camera.opacity *= moment.shown;
   if (sound_) {
     sound_->Show(staged_.sound);
@@ -211,7 +271,7 @@ Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
   frame_.bgr.release();
   cv::cvtColor(pixels_, frame_.bgr, code);
   ++frame_.index;
-  frame_.capture_time = moment.seconds;
+  frame_.capture_time = SinceBegun(moment.seconds);
   vision::TrackedFrame& next = given_->next;
   next = ParseTracked(tracked);
   next.gain = EstimateGain(next.map);
@@ -222,6 +282,7 @@ Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
 }
 
 void PageShow::FindViews() {
+  views_.clear();
   const std::vector<show::ShowPlace>& places = show_->content().places;
   for (uint32_t place = 0; place < places.size(); ++place) {
     const std::vector<vision::Keyframe>& keyframes = places[place].map->keyframes;
@@ -246,7 +307,7 @@ Status PageShow::DrawView(size_t index, const Moment& moment) {
   frame_.bgr.release();
   cv::cvtColor(keyframe.grey, frame_.bgr, cv::COLOR_GRAY2BGR);
   ++frame_.index;
-  frame_.capture_time = moment.seconds;
+  frame_.capture_time = SinceBegun(moment.seconds);
   vision::TrackedFrame tracked;
   tracked.frame = frame_;
   tracked.state = vision::TrackState::kTracking;

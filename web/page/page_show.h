@@ -6,11 +6,12 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "shared/bundle/bundle.h"
@@ -38,15 +39,30 @@ class GivenPoses;
 
 class PageShow {
  public:
-  // Verifies the bundle.
-  static Result<std::unique_ptr<PageShow>> Open(const std::filesystem::path& file);
+  // Verifies the manifest of a folder. key: text of the public key.
+  static Result<std::unique_ptr<PageShow>> Open(std::string_view manifest,
+                                                std::span<const std::byte> signature,
+                                                std::string_view key);
   ~PageShow();
 
-  // The maps for the tracker, .larscene files.
+  // What begins with members that have arrived: the guide to the places, the whole show, or a show
+  // that plays already in other languages.
+  enum class Stage { kGuide, kShow, kLanguages };
+  // The members that a stage needs and that have not arrived, the most important first.
+  Result<std::vector<std::string>> FindMissing(Stage stage,
+                                               const show::LanguageChoice& languages) const;
+  // Memory to be filled in for the next AddPiece(), which verifies the member and keeps it.
+  std::byte* NewPiece(size_t size);
+  Status AddPiece(std::string_view member);
+
+  // The maps for the tracker, .larscene files, before Load().
   size_t map_count() const { return bundle_.manifest().places.size(); }
   Result<std::span<const std::byte>> map(size_t index) const;
 
-  // Reads people and things, and prepares drawing. Call the functions below only after it.
+  // Prepares drawing of the guide to the places. Call the functions below only after it.
+  Status LoadGuide(const show::LanguageChoice& languages);
+  // Reads people and things, with which the show begins, and releases all members but those of
+  // languages.
   Status Load(const show::LanguageChoice& languages);
   // Continues the show at the same moment in other languages. Sound must be opened again.
   Status SetLanguages(const show::LanguageChoice& languages);
@@ -104,6 +120,8 @@ class PageShow {
   };
 
   explicit PageShow(bundle::Bundle bundle);
+  Status Start(show::ShowContent content);
+  double SinceBegun(double seconds);
   void FindViews();
   const vision::Keyframe& KeyframeOf(const View& view) const {
     return show_->content().places[view.place].map->keyframes[view.keyframe];
@@ -122,10 +140,12 @@ class PageShow {
   Json DescribeTexts();
 
   bundle::Bundle bundle_;
+  std::optional<bundle::Piece> piece_;
   std::shared_ptr<Log> log_;
   std::optional<render::OffscreenContext> context_;
   std::optional<render::RenderTarget> target_;
   std::unique_ptr<show::Show> show_;
+  std::optional<double> begun_;       // Time of the first frame since Start().
   std::unique_ptr<PageSound> sound_;  // nullptr: the show is silent.
   std::unique_ptr<show::ShowRenderer> renderer_;
   show::CaptionTexts texts_;

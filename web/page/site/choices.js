@@ -36,7 +36,7 @@ export class Choices {
     }
   }
 
-  // The languages for a show: what it does not have is left to its author. about: see about.js.
+  // The languages for a show: what it does not have is left to its author. about: see Folder.
   languagesFor({spoken, captions}) {
     const {values} = this;
     const has = (all, one) => all.includes(one) ? one : '';

@@ -1,18 +1,17 @@
 // A visit: title, permission, show, end, and what stands in its way.
-import {parseAbout, readAbout} from './about.js';
 import {openCamera, Problem, readImage} from './camera.js';
 import {showTexts} from './captions.js';
 import {Choices, OFF} from './choices.js';
+import {compileProgram, Folder} from './folder.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
-import {Show} from './show.js';
+import {GUIDE, LANGUAGES, Show, SHOW} from './show.js';
 import {Sound} from './sound.js';
 import {firstKnown, KNOWN, menuText, sentence, setLanguage} from './texts.js';
 
-const SHOW = 'show.larshow';
 const FRAME_SECONDS = 1 / 30;
 const FADE_SECONDS = 2;  // People and sound fade for so long when the story is over, as in the player.
 const element = (id) => document.getElementById(id);
-const [card, text, progress, go, video, canvas] = ['card', 'text', 'progress', 'go', 'video', 'lararium'].map(element);
+const [card, text, progress, rest, go, video, canvas] = ['card', 'text', 'progress', 'rest', 'go', 'video', 'lararium'].map(element);
 
 // --- Screens
 
@@ -87,7 +86,7 @@ function showEnd() {
 
 const choices = new Choices();
 const sound = new Sound();
-let about;  // What the show is (about.js); undefined: not known yet.
+let about;  // What the show is (Folder.about); undefined: not known yet.
 
 // Writes everything in the language that was chosen.
 function writeTexts() {
@@ -121,13 +120,16 @@ function change(values) {
   }
 }
 
-// Loads the texts and voices of other languages, while the picture stands.
+// Fetches the texts and voices of other languages; then the picture stands while they are loaded.
 async function changeLanguages() {
   element('hint').textContent = sentence('changing');
-  await new Promise((resolve) => setTimeout(resolve, 50));  // The page is drawn before it is busy.
   try {
-    const {show} = visitable;
-    show.setLanguages(choices.languagesFor(about));
+    const {show, folder} = visitable;
+    await loadRest();
+    const languages = choices.languagesFor(about);
+    await folder.supply(show, LANGUAGES, languages);
+    await new Promise((resolve) => setTimeout(resolve, 50));  // The page is drawn before it is busy.
+    show.setLanguages(languages);
     openSound(show);
     show.choose(choices.values);
     element('hint').textContent = '';
@@ -158,34 +160,9 @@ function openSound(show) {
 
 // --- Loading
 
-async function download(url) {
-  const problem = new Problem('no_show');
-  try {
-    const response = await fetch(url);
-    if (!response.ok) {
-      throw problem;
-    }
-    const size = Number(response.headers.get('content-length'));
-    const parts = [];
-    let received = 0;
-    for (const reader = response.body.getReader(); ;) {
-      const {done, value} = await reader.read();
-      if (done) {
-        break;
-      }
-      parts.push(value);
-      received += value.length;
-      showProgress(size > 0 ? received / size : 1);
-    }
-    return new Uint8Array(await new Blob(parts).arrayBuffer());
-  } catch {
-    throw problem;
-  }
-}
-
 // The two workers, which follow the camera and search in the background.
 class Place {
-  constructor(maps) {
+  constructor(maps, program) {
     const fail = ({message}) => this.onerror(new Error(message ?? 'a worker has ended'));
     const [tracker, searcher] = ['tracker_worker.js', 'search_worker.js'].map((file) => {
       const worker = new Worker(new URL(file, import.meta.url), {type: 'module'});
@@ -194,7 +171,7 @@ class Place {
     });
     this.tracker = tracker;
     const {port1, port2} = new MessageChannel();
-    searcher.postMessage({maps, port: port1}, [port1]);
+    searcher.postMessage({maps, program, port: port1}, [port1]);
     this.ready = new Promise((resolve, reject) => {
       this.onerror = reject;
       tracker.onmessage = ({data}) => {
@@ -207,7 +184,7 @@ class Place {
         }
       };
     });
-    tracker.postMessage({maps, search: port2}, [port2, ...maps.map((map) => map.buffer)]);
+    tracker.postMessage({maps, program, search: port2}, [port2, ...maps.map((map) => map.buffer)]);
   }
 
   track(number, image, seconds) {
@@ -219,34 +196,71 @@ class Place {
   }
 }
 
-async function load() {
-  const bundle = await download(SHOW);
-  about = parseAbout(bundle);
-  const show = await Show.open(bundle);
-  const place = new Place(show.maps());
+const nextTask = () => new Promise((resolve) => setTimeout(resolve));  // The page is drawn before it is busy.
+
+// A function that loads once; after a failure, its next call tries again.
+function once(load) {
+  let loading;
+  return () => {
+    loading ??= load().catch((error) => {
+      loading = undefined;
+      throw error;
+    });
+    return loading;
+  };
+}
+
+const openFolder = once(async () => {
+  const folder = await Folder.open();
+  ({about} = folder);
+  writeTexts();
+  return folder;
+});
+
+// Loads what tracking and the guide need.
+const load = once(async () => {
+  const [folder, program, trackerProgram] = await Promise.all(
+    [openFolder(), compileProgram('module.wasm'), compileProgram('lararium-tracker/module.wasm')]);
+  const show = await folder.openShow(Show, program);
+  const languages = choices.languagesFor(about);
+  await folder.supply(show, GUIDE, languages, showProgress);
+  const place = new Place(show.maps(), trackerProgram);
   showProgress(1);
-  await new Promise((resolve) => setTimeout(resolve));  // The page is drawn before it is busy.
-  show.load(choices.languagesFor(about));
+  await nextTask();
+  show.load(GUIDE, languages);
   await place.ready;
   place.ontracked = drawTracked;
   place.onerror = (error) => stop(() => showProblem(error));
-  visitable = {show, place};
-  writeTexts();
+  visitable = {show, place, folder};
+  applyChoices();
+  canvas.dataset.shows = 'guide';
+  return visitable;
+});
+
+function showRest(share) {
+  if (card.hidden) {
+    rest.hidden = false;
+    rest.value = share;
+  } else {
+    showProgress(share);
+  }
+}
+
+// Loads people and things, while the camera already looks for the place.
+const loadRest = once(async () => {
+  const {show, folder} = await load();
+  const languages = choices.languagesFor(about);
+  await folder.supply(show, SHOW, languages, showRest);
+  rest.hidden = true;
+  await nextTask();
+  show.load(SHOW, languages);
   applyChoices();
   openSound(show);
-  return visitable;
-}
+  canvas.dataset.shows = 'show';
+});
 
 // The show and its place, as soon as they are loaded.
 let visitable;
-let loading;
-function loadOnce() {
-  loading ??= load().catch((error) => {
-    loading = undefined;
-    throw error;
-  });
-  return loading;
-}
 
 // --- Playing
 
@@ -276,7 +290,7 @@ async function start() {
   showCard(sentence('loading'));
   let mine;
   try {
-    const loaded = loadOnce();
+    const loaded = load();
     // If the camera fails, nothing waits for `loaded`, whose error must not count as unhandled then.
     loaded.catch(() => {});
     const stream = await openCamera();
@@ -291,6 +305,7 @@ async function start() {
     video.srcObject = stream;
     await video.play();
     play(mine, awaitFrame);
+    loadRest().catch((error) => stop(() => showProblem(error)));
   } catch (error) {
     // If another visit plays or this one was stopped, a sentence says so already.
     if (mine === visit) {
@@ -317,7 +332,8 @@ async function startWalk() {
   showCard(sentence('progress'));
   let mine;
   try {
-    const loaded = await loadOnce();
+    const loaded = await load();
+    await loadRest();
     const {viewCount} = loaded.show;
     if (viewCount === 0) {
       throw new Problem('no_camera');
@@ -454,12 +470,8 @@ element('language').onchange = ({target}) => {
 writeTexts();
 applyChoices();
 showTitle();
-readAbout(SHOW).then((read) => {
-  if (about === undefined && read !== undefined) {
-    about = read;
-    writeTexts();
-    if (go.onclick === start && visit === undefined && loading === undefined) {
-      showTitle();
-    }
+openFolder().then(() => {
+  if (go.onclick === start && !go.hidden && visit === undefined) {
+    showTitle();
   }
-});
+}, () => {});  // Starting says what is wrong.

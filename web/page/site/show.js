@@ -3,7 +3,11 @@ import {REASONS, STATES} from './lararium-tracker/lararium-tracker.js';
 import createModule from './module.mjs';
 
 const FORMATS = ['I420', 'NV12', 'RGBA'];
-const FILE = '/show.larshow';
+
+// What begins with members that have arrived (PageShow::Stage).
+export const GUIDE = 0;
+export const SHOW = 1;
+export const LANGUAGES = 2;
 
 function hourNow() {
   const now = new Date();
@@ -13,15 +17,48 @@ function hourNow() {
 export class Show {
   time = 0;
 
-  // bundle: the bytes of a .larshow file, which must not be used any more.
-  static async open(bundle) {
+  // Verifies the manifest of a folder. program: module.wasm, compiled.
+  static async open({text, signature, key}, program) {
     const show = new Show();
-    show.module = await createModule();
-    show.module.FS.writeFile(FILE, bundle, {canOwn: true});
+    show.module = await createModule({
+      instantiateWasm(imports, done) {
+        WebAssembly.instantiate(program, imports).then(done);
+        return {};
+      },
+    });
     show.numbers = show.module._malloc(21 * 8);  // The program reads PageShow::kTrackedNumbers of them.
-    show.check(show.module._lararium_open());
-    show.module.FS.unlink(FILE);  // The program has its own copy.
+    show.call('lararium_open', text, signature, key);
     return show;
+  }
+
+  // Calls a function that can fail with texts, numbers, and arrays of bytes with their sizes.
+  call(name, ...values) {
+    const all = values.flatMap((value) => value instanceof Uint8Array ? [value, value.length] : [value]);
+    const types = all.map((value) => value instanceof Uint8Array ? 'array' : typeof value);
+    this.check(this.module.ccall(name, 'number', types, all));
+  }
+
+  names() {
+    return this.module.UTF8ToString(this.module._lararium_names()).split('\n').slice(0, -1);
+  }
+
+  // The names of the members that a stage needs and that have not arrived. languages: see load().
+  findMissing(stage, {spoken, captions}) {
+    this.call('lararium_find_missing', stage, spoken, captions);
+    return this.names();
+  }
+
+  // Verifies the manifest of another version, and returns the names of all members that it needs.
+  findNeeded({text, signature, key}, {spoken, captions}) {
+    this.call('lararium_find_needed', text, signature, key, spoken, captions);
+    return this.names();
+  }
+
+  // Verifies a member and keeps it.
+  addPiece(name, bytes) {
+    const at = this.module._lararium_new_piece(bytes.length);  // HEAPU8 may be another one afterwards.
+    this.module.HEAPU8.set(bytes, at);
+    this.call('lararium_add_piece', name);
   }
 
   check(error) {
@@ -39,9 +76,9 @@ export class Show {
     });
   }
 
-  // languages: {spoken, captions}; '' is the author's choice.
-  load(languages) {
-    this.callWithLanguages('lararium_load', languages);
+  // Begins the guide or the show, whose members have arrived. languages: {spoken, captions}; '' is the author's choice.
+  load(stage, languages) {
+    this.callWithLanguages(stage === GUIDE ? 'lararium_load_guide' : 'lararium_load', languages);
     this.length = this.module._lararium_length();  // Seconds; 0: not known.
   }
 
@@ -51,7 +88,7 @@ export class Show {
   }
 
   callWithLanguages(name, {spoken, captions}) {
-    this.check(this.module.ccall(name, 'number', ['string', 'string'], [spoken, captions]));
+    this.call(name, spoken, captions);
     this.language = this.module.UTF8ToString(this.module._lararium_language());
   }
 
@@ -76,7 +113,8 @@ export class Show {
 
   // Takes an image of readImage(), and returns its luminance for the tracker.
   setImage({format, width, height, data}) {
-    this.module.HEAPU8.set(data, this.module._lararium_new_image(FORMATS.indexOf(format), width, height));
+    const pixels = this.module._lararium_new_image(FORMATS.indexOf(format), width, height);
+    this.module.HEAPU8.set(data, pixels);
     const at = this.module._lararium_luminance();
     return {data: this.module.HEAPU8.slice(at, at + width * height), width, height};
   }
@@ -88,7 +126,8 @@ export class Show {
     const {map, rotation, translation} = tracked.pose ?? {map: 0, rotation: [0, 0, 0, 1], translation: [0, 0, 0]};
     this.module.HEAPF64.set([STATES.indexOf(tracked.state), REASONS.indexOf(tracked.reason), Number(tracked.followed), map,
       ...rotation, ...translation, width, height, fx, fy, cx, cy, k1, k2, p1, p2], this.numbers / 8);
-    this.module.HEAPF64.set(seen, this.module._lararium_new_seen(seen.length / 3) / 8);
+    const points = this.module._lararium_new_seen(seen.length / 3);
+    this.module.HEAPF64.set(seen, points / 8);
     this.check(this.module._lararium_draw(this.numbers, seconds, hourNow(), lateMs, shown));
     this.time = this.module._lararium_time();  // Of the drama, seconds.
   }

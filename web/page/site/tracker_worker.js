@@ -1,9 +1,10 @@
-// Follows the camera. Takes {maps, search} first, where search is the port to search_worker.js, and says {ready}; then
+// Follows the camera. Takes {maps, program, search} first, where search is the port to search_worker.js, and says {ready}; then
 // takes {number, image, seconds} and says {number, tracked, seen}. {relocalize} makes it find the place again without what
 // it knows. Says {error} if something fails.
 import {Tracker} from './lararium-tracker/lararium-tracker.js';
 
 let maps;
+let program;
 let search;
 let tracker;
 let size = '';
@@ -11,13 +12,13 @@ let generation = 0;
 
 async function create() {
   tracker?.close();
-  tracker = await Tracker.create({maps, postSearches: true});
+  tracker = await Tracker.create({maps, program, postSearches: true});
   ++generation;
 }
 
 async function obey(message) {
   if (message.maps) {
-    ({maps, search} = message);
+    ({maps, program, search} = message);
     await create();
     search.onmessage = ({data: {asked, answer, error}}) => {
       if (error !== undefined) {

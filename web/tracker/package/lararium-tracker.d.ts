@@ -60,9 +60,12 @@ export class Tracker {
   /**
    * maps: the content of .larscene files. intrinsics: those of the images; without them the tracker
    * estimates the lens. postSearches: a second worker with a Searcher does the background's work; otherwise
-   * track() does it, which takes long on one image of sixty.
+   * track() does it, which takes long on one image of sixty. program: module.wasm, compiled; without it the
+   * tracker fetches it.
    */
-  static create(options: {maps: Uint8Array[]; intrinsics?: Camera; postSearches?: boolean}): Promise<Tracker>;
+  static create(options: {
+    maps: Uint8Array[]; intrinsics?: Camera; postSearches?: boolean; program?: WebAssembly.Module;
+  }): Promise<Tracker>;
   /** seconds: time at which the image was taken, on any steady clock. */
   track(image: Luminance, seconds: number): Tracked;
   /** The map points that support the last pose: for each one its index in the map and its pixel (x, y). */
@@ -76,8 +79,8 @@ export class Tracker {
 }
 
 export class Searcher {
-  /** maps: the tracker's, in its order. */
-  static create(options: {maps: Uint8Array[]}): Promise<Searcher>;
+  /** maps: the tracker's, in its order. program: as the tracker's. */
+  static create(options: {maps: Uint8Array[]; program?: WebAssembly.Module}): Promise<Searcher>;
   /** Returns the answer for Tracker.giveAnswer(). */
   find(search: Search): Float64Array;
   close(): void;

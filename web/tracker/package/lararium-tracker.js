@@ -15,8 +15,8 @@ function compile() {
   return compiled;
 }
 
-async function instantiate() {
-  const program = await compile();
+async function instantiate(program) {
+  program ??= await compile();
   return createModule({
     instantiateWasm(imports, done) {
       WebAssembly.instantiate(program, imports).then(done);
@@ -27,9 +27,9 @@ async function instantiate() {
 
 // What Tracker and Searcher share: a session of the program, with memory of its own.
 class Session {
-  static async open(maps, posted) {
+  static async open(maps, posted, program) {
     const session = new this();
-    session.module = await instantiate();
+    session.module = await instantiate(program);
     session.handle = session.module._lararium_open(posted);
     for (const map of maps) {
       session.withCopy(map, (at) => session.check(session.module._lararium_add_map(session.handle, at, map.byteLength)));
@@ -76,8 +76,8 @@ class Session {
 }
 
 export class Tracker extends Session {
-  static async create({maps, intrinsics, postSearches = false}) {
-    const tracker = await Tracker.open(maps, postSearches);
+  static async create({maps, intrinsics, postSearches = false, program}) {
+    const tracker = await Tracker.open(maps, postSearches, program);
     if (intrinsics !== undefined) {
       const {width, height, fx, fy, cx, cy, k1 = 0, k2 = 0, p1 = 0, p2 = 0} = intrinsics;
       tracker.withCopy(Float64Array.of(fx, fy, cx, cy, k1, k2, p1, p2), (at) => tracker.check(
@@ -134,8 +134,8 @@ export class Tracker extends Session {
 }
 
 export class Searcher extends Session {
-  static create({maps}) {
-    return Searcher.open(maps, false);
+  static create({maps, program}) {
+    return Searcher.open(maps, false, program);
   }
 
   find({question, image}) {
