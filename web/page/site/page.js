@@ -3,6 +3,7 @@ import {openCamera, Problem, readImage} from './camera.js';
 import {showTexts} from './captions.js';
 import {Choices, OFF} from './choices.js';
 import {compileProgram, Folder} from './folder.js';
+import {keep} from './keep.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
 import {GUIDE, LANGUAGES, Show, SHOW} from './show.js';
 import {Sound} from './sound.js';
@@ -257,6 +258,7 @@ const loadRest = once(async () => {
   applyChoices();
   openSound(show);
   canvas.dataset.shows = 'show';
+  keep(folder, show, languages);
 });
 
 // The show and its place, as soon as they are loaded.
