@@ -68,8 +68,11 @@ PaddedHistogram Accumulate(const cv::Mat& image,
   const float cell_size = 3.0f * e.sigma;             // Octave pixels.
   constexpr float kReach = 0.5f * (kCells + 1);       // Half the window's side, in cells.
   constexpr float kLastCell = kPaddedCells - 1.001f;  // Upper bound of u and v.
-  const float cosine = std::cos(oriented.angle) / cell_size;
-  const float sine = std::sin(oriented.angle) / cell_size;
+  // The float functions of C libraries differ in the last bit; rounded doubles are the same in
+  // browsers.
+  const double angle = oriented.angle;
+  const float cosine = static_cast<float>(std::cos(angle)) / cell_size;
+  const float sine = static_cast<float>(std::sin(angle)) / cell_size;
   const Window window(image, e.x, e.y, std::numbers::sqrt2_v<float> * kReach * cell_size);
   constexpr float kSigmaInCells = 0.5f * kCells;
   FillGaussian(e.x, kSigmaInCells * cell_size, window.x_begin, window.x_end, memory.weights_x);
