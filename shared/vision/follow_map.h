@@ -20,6 +20,7 @@ class TrackedMap {
   explicit TrackedMap(std::shared_ptr<const SceneDatabase> database);
 
   const SceneDatabase& database() const { return *database_; }
+  const std::shared_ptr<const SceneDatabase>& shared_database() const { return database_; }
 
   // Has no levels if the keyframe has no image.
   const ImagePyramid& pyramid(uint32_t keyframe) const { return pyramids_[keyframe]; }

@@ -58,7 +58,9 @@ double DistancePx(const PosedModel& a, const PosedModel& b, double depth) {
 
 class Tracker final : public PoseSource {
  public:
+  // tracked: the maps prepared for following; empty if options.follow is false.
   Tracker(std::vector<std::shared_ptr<const SceneDatabase>> maps,
+          std::vector<std::shared_ptr<const TrackedMap>> tracked,
           const CameraModel& camera,
           const TrackerOptions& options,
           std::unique_ptr<BackgroundSearch> background)
@@ -67,9 +69,8 @@ class Tracker final : public PoseSource {
         maps_(std::move(maps)),
         relocalizer_(maps_, options) {
     if (options.follow) {
-      for (const auto& map : maps_) {
-        patch_trackers_.push_back(
-            std::make_unique<PatchTracker>(std::make_shared<const TrackedMap>(map)));
+      for (auto& map : tracked) {
+        patch_trackers_.push_back(std::make_unique<PatchTracker>(std::move(map)));
       }
       background_ =
           background ? std::move(background) : MakeBackgroundSearch(relocalizer_, options.threads);
@@ -443,11 +444,11 @@ Status TrackerOptions::Validate() const {
   return Status();
 }
 
-Result<std::unique_ptr<PoseSource>> CreateTracker(
-    std::vector<std::shared_ptr<const SceneDatabase>> maps,
-    const CameraModel& camera,
-    const TrackerOptions& options,
-    std::unique_ptr<BackgroundSearch> background) {
+namespace {
+
+Status Validate(std::span<const std::shared_ptr<const SceneDatabase>> maps,
+                const CameraModel& camera,
+                const TrackerOptions& options) {
   LARARIUM_RETURN_IF_ERROR(options.Validate());
   LARARIUM_RETURN_IF_ERROR(camera.Validate());
   if (maps.empty()) {
@@ -460,8 +461,40 @@ Result<std::unique_ptr<PoseSource>> CreateTracker(
                            "train the place again");
     }
   }
-  return std::unique_ptr<PoseSource>(
-      std::make_unique<Tracker>(std::move(maps), camera, options, std::move(background)));
+  return Status();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PoseSource>> CreateTracker(
+    std::vector<std::shared_ptr<const SceneDatabase>> maps,
+    const CameraModel& camera,
+    const TrackerOptions& options,
+    std::unique_ptr<BackgroundSearch> background) {
+  LARARIUM_RETURN_IF_ERROR(Validate(maps, camera, options));
+  std::vector<std::shared_ptr<const TrackedMap>> tracked;
+  if (options.follow) {
+    for (const auto& map : maps) {
+      tracked.push_back(std::make_shared<const TrackedMap>(map));
+    }
+  }
+  return std::unique_ptr<PoseSource>(std::make_unique<Tracker>(
+      std::move(maps), std::move(tracked), camera, options, std::move(background)));
+}
+
+Result<std::unique_ptr<PoseSource>> CreateTracker(
+    std::vector<std::shared_ptr<const TrackedMap>> maps,
+    const CameraModel& camera,
+    const TrackerOptions& options,
+    std::unique_ptr<BackgroundSearch> background) {
+  CHECK(options.follow);
+  std::vector<std::shared_ptr<const SceneDatabase>> databases;
+  for (const auto& map : maps) {
+    databases.push_back(map->shared_database());
+  }
+  LARARIUM_RETURN_IF_ERROR(Validate(databases, camera, options));
+  return std::unique_ptr<PoseSource>(std::make_unique<Tracker>(
+      std::move(databases), std::move(maps), camera, options, std::move(background)));
 }
 
 }  // namespace lararium::vision

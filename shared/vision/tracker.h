@@ -12,6 +12,8 @@
 
 namespace lararium::vision {
 
+class TrackedMap;
+
 // When the result of background relocalisation takes effect.
 enum class BackgroundWork {
   kJoined,  // A fixed later frame waits for the result, so that the output is reproducible.
@@ -42,6 +44,13 @@ struct TrackerOptions {
 // that cannot wait needs BackgroundWork::kFree.
 Result<std::unique_ptr<PoseSource>> CreateTracker(
     std::vector<std::shared_ptr<const SceneDatabase>> maps,
+    const geometry::CameraModel& camera,
+    const TrackerOptions& options,
+    std::unique_ptr<BackgroundSearch> background = nullptr);
+// A map that is prepared takes part in many trackers, which then begin at once: preparing takes
+// longer than the first pose. options.follow must be true.
+Result<std::unique_ptr<PoseSource>> CreateTracker(
+    std::vector<std::shared_ptr<const TrackedMap>> maps,
     const geometry::CameraModel& camera,
     const TrackerOptions& options,
     std::unique_ptr<BackgroundSearch> background = nullptr);

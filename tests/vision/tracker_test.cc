@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/vision/follow_map.h"
 #include "tests/vision/poster.h"
 
 namespace lararium::vision {
@@ -208,7 +209,7 @@ TEST_F(Tracker, GivesTheSamePosesAgain) {
   TrackerOptions serial;
   serial.threads = 1;
   auto one = *CreateTracker({map_}, kTrackedCamera, parallel);
-  auto other = *CreateTracker({map_}, kTrackedCamera, serial);
+  auto other = *CreateTracker({std::make_shared<const TrackedMap>(map_)}, kTrackedCamera, serial);
   for (int i = 0; i < 10; ++i) {
     const Frame frame = PhotographPoster(poster_, PosterPose(0.02 * i, 0.0, 1.5), i);
     const TrackedFrame a = one->Track(frame);

@@ -14,8 +14,6 @@ skipWithout(
   [`${folder}/module.wasm`, 'build the preset `web`'], [scene, 'run the test acceptance/maquette'],
   [video, 'set LARARIUM_DATA_DIR']);
 const MOST_PX = 1e-6;
-// Poses that begin from features instead of from the pose before.
-const MOST_FOUND_PX = 1e-5;
 
 execFileSync(reference, [scene, video, work], {stdio: 'inherit'});
 const native = JSON.parse(readFileSync(`${work}/reference.json`, 'utf8'));
@@ -49,6 +47,9 @@ async function trackAll(options, expected, each = () => {}) {
     if (tracked.followed) {
       times.natively.push(native_frame.milliseconds);
     }
+    if (i === 0 && options.intrinsics !== undefined) {
+      assert.deepEqual(tracked, warmed);
+    }
     if (tracked.pose) {
       // The reference has every eighth point.
       assert.equal(Math.ceil(tracker.seen().length / 3 / 8), native_frame.points.length, `frame ${i}`);
@@ -62,6 +63,12 @@ async function trackAll(options, expected, each = () => {}) {
   return {worst, times, memory};
 }
 
+// The first tracker of this process, whose code the browser has not compiled for speed yet.
+const cold = await Tracker.create({maps, intrinsics: native.camera});
+const [, warmUpMs] = time(() => cold.warmUp());
+const [warmed, firstMs] = time(() => cold.track(image(0), native.seconds[0]));
+cold.close();
+
 assert.ok(native.known.length >= 150 && native.known.every((frame) => frame.points?.length > 4));
 const known = await trackAll({intrinsics: native.camera}, native.known);
 for (let again = 0; again < 2; ++again) {  // Other work of the machine makes times longer.
@@ -70,11 +77,10 @@ for (let again = 0; again < 2; ++again) {  // Other work of the machine makes ti
 }
 const unknown = await trackAll({}, native.unknown);
 const found = await trackAll({intrinsics: native.camera}, native.found, (tracker) => tracker.relocalize());
-for (const [name, {worst}, most] of [
-  ['known', known, MOST_PX], ['unknown', unknown, MOST_PX], ['found', found, MOST_FOUND_PX]]) {
-  console.log(`${worst <= most ? 'ok  ' : 'MISS'} ${name}: largest distance from native ${worst} px (bar ${most})`);
+for (const [name, {worst}] of Object.entries({known, unknown, found})) {
+  console.log(`${worst <= MOST_PX ? 'ok  ' : 'MISS'} ${name}: largest distance from native ${worst} px (bar ${MOST_PX})`);
 }
-console.log(`     very first pose ${tenths(known.times.first[0])} ms, warm ${tenths(quantile(found.times.first, 0.5))} ms, ` +
+console.log(`     very first pose ${tenths(firstMs)} ms after ${tenths(warmUpMs)} ms of warming up, warm ${tenths(quantile(found.times.first, 0.5))} ms, ` +
   `native ${tenths(quantile(native.found.map((f) => f.milliseconds), 0.5))} ms`);
 {
   const {times, memory} = known;
@@ -82,7 +88,7 @@ console.log(`     very first pose ${tenths(known.times.first[0])} ms, warm ${ten
     `native ${tenths(quantile(times.natively, 0.5))} / ${tenths(quantile(times.natively, 0.95))} ms (p50 / p95), ` +
     `ratio ${(quantile(times.followed, 0.5) / quantile(times.natively, 0.5)).toFixed(2)}; memory ${memory} MiB`);
 }
-assert.ok(known.worst <= MOST_PX && unknown.worst <= MOST_PX && found.worst <= MOST_FOUND_PX);
+assert.ok(known.worst <= MOST_PX && unknown.worst <= MOST_PX && found.worst <= MOST_PX);
 
 // A second worker's search: as two instances, whose messages are cloned as postMessage does.
 const tracker = await Tracker.create({maps, intrinsics: native.camera, postSearches: true});

@@ -29,6 +29,10 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_set_intrinsics(
   return ErrorText(session->SetIntrinsics({numbers, count}, width, height));
 }
 
+EMSCRIPTEN_KEEPALIVE const char* lararium_warm_up(TrackerSession* session) {
+  return ErrorText(session->WarmUp());
+}
+
 EMSCRIPTEN_KEEPALIVE uint8_t* lararium_new_image(TrackerSession* session, int width, int height) {
   return session->NewImage(width, height);
 }

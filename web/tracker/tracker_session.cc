@@ -1,6 +1,7 @@
 #include "web/tracker/tracker_session.h"
 
 #include "shared/geometry/similar_camera.h"
+#include "shared/vision/follow_map.h"
 
 namespace lararium::web {
 
@@ -51,6 +52,33 @@ Status TrackerSession::SetIntrinsics(std::span<const double> numbers, int width,
   return Status();
 }
 
+void TrackerSession::Prepare() {
+  if (prepared_.empty()) {
+    for (const auto& map : maps_) {
+      prepared_.push_back(std::make_shared<const vision::TrackedMap>(map));
+    }
+  }
+}
+
+Status TrackerSession::WarmUp() {
+  constexpr size_t kImages = 3;  // A browser compiles for speed what has run for about this long.
+  TrackerSession rehearsal(false);
+  Prepare();
+  rehearsal.maps_ = maps_;
+  rehearsal.prepared_ = prepared_;
+  size_t images = 0;
+  for (const auto& map : maps_) {
+    for (const vision::Keyframe& keyframe : map->keyframes) {
+      if (images < kImages && !keyframe.grey.empty()) {
+        rehearsal.grey_ = keyframe.grey;
+        rehearsal.Relocalize();
+        LARARIUM_RETURN_IF_ERROR(rehearsal.Track(static_cast<double>(images++)));
+      }
+    }
+  }
+  return Status();
+}
+
 // Nothing but the background search keeps former images, so each gets pixels of its own.
 uint8_t* TrackerSession::NewImage(int width, int height) {
   grey_ = cv::Mat(height, width, CV_8UC1);
@@ -82,8 +110,9 @@ Status TrackerSession::Start() {
     options.background = vision::BackgroundWork::kFree;
   }
   PostedSearch* const borrowed = search.get();
+  Prepare();
   LARARIUM_ASSIGN_OR_RETURN(poses_,
-                            vision::CreateTracker(maps_, camera, options, std::move(search)));
+                            vision::CreateTracker(prepared_, camera, options, std::move(search)));
   search_ = borrowed;
   return Status();
 }

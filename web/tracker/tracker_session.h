@@ -28,6 +28,11 @@ class TrackerSession {
   // estimates the lens, beginning with the one of the first map that fits, as the player does.
   Status SetIntrinsics(std::span<const double> numbers, int width, int height);
 
+  // Prepares the maps and locates some of their images, so that the browser compiles the program
+  // for speed before an image comes from the camera. Call it after all maps were added; poses do
+  // not depend on it.
+  Status WarmUp();
+
   // The pixels to be filled in for the next Track() or Find(): luminance, row by row.
   uint8_t* NewImage(int width, int height);
   // Tracks the image. seconds: time of capture.
@@ -49,9 +54,12 @@ class TrackerSession {
 
  private:
   Status Start();
+  // Prepares the maps where that has not been done.
+  void Prepare();
 
   const bool posted_;
   std::vector<std::shared_ptr<const vision::SceneDatabase>> maps_;
+  std::vector<std::shared_ptr<const vision::TrackedMap>> prepared_;  // [maps_], or empty.
   std::optional<geometry::CameraModel> camera_;
   cv::Mat grey_;
   int64_t index_ = 0;

@@ -20,6 +20,7 @@ async function obey(message) {
   if (message.maps) {
     ({maps, program, search} = message);
     await create();
+    tracker.warmUp();
     search.onmessage = ({data: {asked, answer, error}}) => {
       if (error !== undefined) {
         postMessage({error});

@@ -66,6 +66,11 @@ export class Tracker {
   static create(options: {
     maps: Uint8Array[]; intrinsics?: Camera; postSearches?: boolean; program?: WebAssembly.Module;
   }): Promise<Tracker>;
+  /**
+   * Locates images of the maps, so that the browser has compiled the program for speed when the first image
+   * comes; that takes about half a second. Poses do not depend on it.
+   */
+  warmUp(): void;
   /** seconds: time at which the image was taken, on any steady clock. */
   track(image: Luminance, seconds: number): Tracked;
   /** The map points that support the last pose: for each one its index in the map and its pixel (x, y). */

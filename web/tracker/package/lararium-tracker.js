@@ -86,6 +86,10 @@ export class Tracker extends Session {
     return tracker;
   }
 
+  warmUp() {
+    this.check(this.module._lararium_warm_up(this.handle));
+  }
+
   track(image, seconds) {
     this.setImage(image);
     this.check(this.module._lararium_track(this.handle, seconds));
