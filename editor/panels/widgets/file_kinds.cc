@@ -20,7 +20,7 @@ constexpr std::array<const char*, 8> kModels = {".glb", ".gltf", ".vrm", ".fbx",
 constexpr std::array<const char*, 7> kFigures = {".json", ".glb", ".gltf", ".vrm",
                                                  ".fbx",  ".dae", ".x"};
 constexpr std::array kProbes = {".exr", ".hdr", ".pic"};
-constexpr std::array<const char*, 5> kClips = {".bvh", ".fbx", ".glb", ".gltf", ".vrm"};
+constexpr std::array<const char*, 6> kClips = {".bvh", ".fbx", ".dae", ".glb", ".gltf", ".vrm"};
 constexpr std::array<const char*, 1> kBones = {".json"};
 constexpr std::array<const char*, 1> kShows = {".larshow"};
 constexpr std::array<const char*, 1> kKeys = {".key"};
