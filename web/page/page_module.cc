@@ -135,6 +135,10 @@ EMSCRIPTEN_KEEPALIVE void lararium_view_size(size_t index, uint32_t* width_and_h
   width_and_height[1] = static_cast<uint32_t>(picture.rows);
 }
 
+EMSCRIPTEN_KEEPALIVE const uint8_t* lararium_view_picture(size_t index) {
+  return show->view_picture(index).data;
+}
+
 EMSCRIPTEN_KEEPALIVE const char* lararium_draw_view(
     size_t index, double seconds, float hour, double late_ms, float shown) {
   return ErrorText(show->DrawView(index, {seconds, hour, late_ms, shown}));

@@ -5,6 +5,7 @@ import {Choices, OFF} from './choices.js';
 import {compileProgram, Folder} from './folder.js';
 import {keep} from './keep.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
+import {Place} from './place.js';
 import {GUIDE, LANGUAGES, Show, SHOW} from './show.js';
 import {Sound} from './sound.js';
 import {firstKnown, KNOWN, menuText, sentence, setLanguage} from './texts.js';
@@ -160,42 +161,6 @@ function openSound(show) {
 }
 
 // --- Loading
-
-// The two workers, which follow the camera and search in the background.
-class Place {
-  constructor(maps, program) {
-    const fail = ({message}) => this.onerror(new Error(message ?? 'a worker has ended'));
-    const [tracker, searcher] = ['tracker_worker.js', 'search_worker.js'].map((file) => {
-      const worker = new Worker(new URL(file, import.meta.url), {type: 'module'});
-      worker.onerror = fail;
-      return worker;
-    });
-    this.tracker = tracker;
-    const {port1, port2} = new MessageChannel();
-    searcher.postMessage({maps, program, port: port1}, [port1]);
-    this.ready = new Promise((resolve, reject) => {
-      this.onerror = reject;
-      tracker.onmessage = ({data}) => {
-        if (data.error !== undefined) {
-          this.onerror(new Error(data.error));
-        } else if (data.ready) {
-          resolve();
-        } else if (data.tracked) {
-          this.ontracked(data);
-        }
-      };
-    });
-    tracker.postMessage({maps, program, search: port2}, [port2, ...maps.map((map) => map.buffer)]);
-  }
-
-  track(number, image, seconds) {
-    this.tracker.postMessage({number, image, seconds}, [image.data.buffer]);
-  }
-
-  relocalize() {
-    this.tracker.postMessage({relocalize: true});
-  }
-}
 
 const nextTask = () => new Promise((resolve) => setTimeout(resolve));  // The page is drawn before it is busy.
 

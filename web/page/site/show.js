@@ -138,6 +138,13 @@ export class Show {
     this.time = this.module._lararium_time();
   }
 
+  // The luminance of the keyframe that drawView() shows, row by row.
+  viewPicture(index) {
+    const {width, height} = this.viewSize(index);
+    const at = this.module._lararium_view_picture(index);
+    return this.module.HEAPU8.slice(at, at + width * height);
+  }
+
   get viewCount() {
     return this.module._lararium_view_count();
   }
