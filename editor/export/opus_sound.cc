@@ -50,7 +50,8 @@ Result<Samples> Decode(std::span<const std::byte> sound, const std::string& wher
   samples.values.resize(static_cast<size_t>(wanted * channels));
   const auto* from = reinterpret_cast<const uint8_t*>(decoded.data());
   int written = 0;
-  for (const uint8_t** input = &from; written < wanted; input = nullptr) {  // nullptr: the rest.
+  // A call without input gives what the resampler still holds.
+  for (const uint8_t** input = &from; written < wanted; input = nullptr) {
     auto* to = reinterpret_cast<uint8_t*>(&samples.values[static_cast<size_t>(written * channels)]);
     const int count = swr_convert(made, &to, wanted - written, input, input ? frames : 0);
     if (count < 0 || (count == 0 && input == nullptr)) {

@@ -236,7 +236,7 @@ TEST_F(ShowContentTest, OtherLanguagesShareThePeople) {
   EXPECT_THAT(LoadInLanguages(*bundle, {"", "fr"}, *english).message(), HasSubstr("fr"));
 }
 
-// As in a browser, where members arrive one by one.
+// Members arrive one by one, as in a browser.
 class ArrivingShowTest : public ShowContentTest {
  protected:
   void SetUp() override {
