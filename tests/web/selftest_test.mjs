@@ -10,7 +10,8 @@ const [editor, page, program, work, project, video, axe] = process.argv.slice(2)
 skipWithout([`${page}/module.wasm`, 'build the preset `web`'], [editor, 'build lararium-editor'],
   [project, 'run the test acceptance/maquette'], [video, 'set LARARIUM_DATA_DIR'], [program, 'install chromium'],
   ['/usr/bin/ffmpeg', 'install ffmpeg'], [axe, 'run scripts/fetch_axe.sh']);
-const TRUE_FOCAL = 0.875;  // Of the width, in the test's video.
+// The focal length of the test's video over its width.
+const TRUE_FOCAL = 0.875;
 
 mkdirSync(work, {recursive: true});
 const camera = `${work}/camera.y4m`;

@@ -6,7 +6,7 @@ import {existsSync, readFileSync, writeFileSync} from 'node:fs';
 import {Chromium} from './chromium.mjs';
 
 // Writes a video that stands for the camera. The software renderer is slow, so the camera is, too: four images a second.
-// After 20 s it looks at something else for 10 s, then it begins again.
+// The camera looks at the place for 20 s and at something else for 10 s, again and again.
 export function writeCamera(video, width, height, file) {
   execFileSync('ffmpeg', ['-v', 'error', '-y', '-i', video, '-f', 'lavfi', '-i', `testsrc2=size=${width}x${height}:rate=4:duration=10`,
     '-filter_complex', '[0]trim=end_frame=80,setpts=N/4/TB,fps=4[a];[a][1]concat,format=yuv420p', '-f', 'yuv4mpegpipe', file]);

@@ -11,7 +11,7 @@ function lineOf({speaker, colour, side, text}) {
     name.textContent = speaker;
     name.style.color = hex(colour);
     line.append(name, ' ');
-    const where = [undefined, 'left', 'right'][side];  // In the order of render::CaptionSide.
+    const where = [undefined, 'left', 'right'][side];  // Indexed by render::CaptionSide.
     if (where !== undefined) {
       const arrow = document.createElement('span');
       arrow.className = 'side';

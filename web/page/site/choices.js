@@ -2,7 +2,8 @@
 import {firstKnown} from './texts.js';
 
 const KEY = 'lararium';
-export const OFF = 'off';  // In place of the captions' language: none are shown.
+// A visitor who chooses this as the language of captions sees none.
+export const OFF = 'off';
 
 const prefers = (what) => matchMedia(what).matches;
 

@@ -36,7 +36,7 @@ async function isWhole({sha256, packed}, response) {
   try {
     const blob = await response.clone().blob();
     return sha256 === await digest(packed ? await unpack(blob) : await blob.arrayBuffer());
-  } catch {  // It cannot be unpacked.
+  } catch {  // A damaged file cannot be unpacked.
     return false;
   }
 }
@@ -92,7 +92,7 @@ async function keepNow(folder, show, language) {
   }
 }
 
-// The show goes on whatever happens here; only the console says it.
+// The show goes on if it cannot be kept; only the console tells why.
 export async function keep(folder, show, language = {}) {
   if ('caches' in globalThis && navigator.serviceWorker !== undefined) {
     await keepNow(folder, show, language).catch((error) => console.info(`The show is not kept on this device: ${error.message}`));

@@ -88,7 +88,7 @@ function showEnd() {
 
 const choices = new Choices();
 const sound = new Sound();
-let about;  // What the show is (Folder.about); undefined: not known yet.
+let about;  // Folder.about; undefined until the folder has been opened.
 
 // Writes everything in the language that was chosen.
 function writeTexts() {

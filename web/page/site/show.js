@@ -129,7 +129,7 @@ export class Show {
     const points = this.module._lararium_new_seen(seen.length / 3);
     this.module.HEAPF64.set(seen, points / 8);
     this.check(this.module._lararium_draw(this.numbers, seconds, hourNow(), lateMs, shown));
-    this.time = this.module._lararium_time();  // Of the drama, seconds.
+    this.time = this.module._lararium_time();  // Seconds of the drama.
   }
 
   // Draws a keyframe of the map, which needs no camera (PageShow::DrawView()).
