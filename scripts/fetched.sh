@@ -1,13 +1,21 @@
 # shellcheck shell=bash
 # What scripts that fetch content share; sourced.
 
-# is_complete STAMP HASH WHAT: what a stamp says is there is not fetched again.
-is_complete() {
-  if [ -f "$1" ] && [ "$(cat "$1")" = "$2" ]; then
-    echo "$3"
-    return 0
+# begin_fetching NAME HASH WHAT [FOLDER]: sets folder to FOLDER, or else to build/NAME of the checkout, and there to what is said
+# when it is complete. Ends the script if the folder holds already what has this hash, or if arguments follow.
+begin_fetching() {
+  local name=$1 hash=$2 what=$3
+  shift 3
+  if [ $# -gt 1 ]; then
+    echo "usage: $0 [FOLDER]" >&2
+    exit 2
   fi
-  return 1
+  folder=${1:-$(cd "$(dirname "$0")/.." && pwd)/build/$name}
+  there="$what $folder"
+  if [ -f "$folder/.complete" ] && [ "$(cat "$folder/.complete")" = "$hash" ]; then
+    echo "$there"
+    exit 0
+  fi
 }
 
 # need_programs WHAT PROGRAM...: ends the script where one is missing.
