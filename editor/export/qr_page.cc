@@ -8,6 +8,8 @@
 #include <memory>
 #include <string_view>
 
+#include "shared/core/html_text.h"
+
 namespace lararium::exporter {
 namespace {
 
@@ -43,26 +45,6 @@ const Sentence& SentenceIn(std::string_view language) {
   return found == std::end(kSentences) ? kSentences[0] : *found;
 }
 
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 }  // namespace
 
 Result<std::string> MakeQrCodeSvg(const std::string& address) {
@@ -77,7 +59,7 @@ Result<std::string> MakeQrCodeSvg(const std::string& address) {
   }
   const std::string side = std::to_string(code->width + 2 * kBorder);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + side + " " + side +
-                    "\" shape-rendering=\"crispEdges\"><title>" + Escaped(address) +
+                    "\" shape-rendering=\"crispEdges\"><title>" + EscapeHtml(address) +
                     "</title><path fill=\"#fff\" d=\"M0 0h" + side + "v" + side +
                     "H0z\"/><path d=\"";
   for (int y = 0; y < code->width; ++y) {
@@ -109,14 +91,14 @@ Result<std::string> MakeQrPage(const std::string& title,
     sentences = "<p>" + std::string(SentenceIn("en").text) + "</p>\n";
   }
   return "<!doctype html>\n<html lang=\"" + std::string(first) +
-         "\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + Escaped(title) +
+         "\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + EscapeHtml(title) +
          "</title>\n<style>\n@page { size: A4; margin: 20mm; }\n"
          "body { font: 16pt/1.4 Georgia, serif; text-align: center; color: #000; background: #fff; "
          "}\n"
          "h1 { font-size: 28pt; }\nsvg { width: 110mm; max-width: 90vw; }\n"
          "code { font-size: 12pt; overflow-wrap: anywhere; "
          "}\n</style>\n</head>\n<body>\n<main>\n<h1>" +
-         Escaped(title) + "</h1>\n" + sentences + code + "<p><code>" + Escaped(address) +
+         EscapeHtml(title) + "</h1>\n" + sentences + code + "<p><code>" + EscapeHtml(address) +
          "</code></p>\n</main>\n</body>\n</html>\n";
 }
 

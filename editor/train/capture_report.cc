@@ -11,6 +11,7 @@
 
 #include "editor/train/capture_analysis.h"
 #include "shared/core/file.h"
+#include "shared/core/html_text.h"
 #include "shared/image/encode.h"
 
 namespace lararium::train {
@@ -65,33 +66,6 @@ std::string FixedOrDash(double value, int decimals) {
   return {text.data(), end.ptr};
 }
 
-// Escapes text for HTML and attributes. Control characters become blanks.
-std::string Escape(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-  }
-  return escaped;
-}
-
 std::string Base64(std::span<const std::byte> bytes) {
   static constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -122,7 +96,7 @@ std::string Picture(const cv::Mat& image, int width, std::string_view alt) {
     }
     const auto jpeg = image::EncodeJpeg(small, 80);
     return !jpeg.ok() ? std::string()
-                      : "<img alt=\"" + Escape(alt) + "\" src=\"data:image/jpeg;base64," +
+                      : "<img alt=\"" + EscapeHtml(alt) + "\" src=\"data:image/jpeg;base64," +
                             Base64(*jpeg) + "\">";
   } catch (const cv::Exception&) {
     return {};
@@ -183,7 +157,7 @@ class Page {
         analysis_(AnalyseCapture(report, database, options.metres_per_unit)) {}
 
   std::string Format() {
-    const std::string title = options_.title.empty() ? "Place" : Escape(options_.title);
+    const std::string title = options_.title.empty() ? "Place" : EscapeHtml(options_.title);
     html_ =
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
@@ -225,7 +199,7 @@ class Page {
   void AddHead(const std::string& title) {
     html_ += "<header><p class=\"soft\">Capture report</p><h1>" + title + "</h1>\n";
     if (!options_.source.empty()) {
-      html_ += "<p class=\"soft\">from " + Escape(options_.source) + "</p>\n";
+      html_ += "<p class=\"soft\">from " + EscapeHtml(options_.source) + "</p>\n";
     }
     const double located = LocatedShare();
     const double well = WellLocatedShare();
@@ -258,7 +232,7 @@ class Page {
     html_ += "<section><h2>What to film next</h2>\n<ol class=\"advice\">\n";
     constexpr size_t kMost = 12;
     for (size_t i = 0; i < std::min(kMost, analysis_.advice.size()); ++i) {
-      html_ += "<li>" + Escape(AdviceSentence(analysis_.advice[i]).English()) + "</li>\n";
+      html_ += "<li>" + EscapeHtml(AdviceSentence(analysis_.advice[i]).English()) + "</li>\n";
     }
     html_ += "</ol>\n";
     if (analysis_.advice.size() > kMost) {
@@ -417,7 +391,7 @@ class Page {
       const bool right = at.x() > 0.6 * scale.width;
       svg += "<text x=\"" + FixedOrDash(at.x() + (right ? -7 : 7), 1) + "\" y=\"" +
              FixedOrDash(at.y() - 6, 1) + "\"" + (right ? " text-anchor=\"end\"" : "") + ">" +
-             Escape(keyframe->name.substr(0, 40)) + "</text>\n";
+             EscapeHtml(keyframe->name.substr(0, 40)) + "</text>\n";
     }
     return svg;
   }
@@ -520,7 +494,8 @@ class Page {
       const auto& [name, index] = frames[count < 2 ? 0 : i * (frames.size() - 1) / (count - 1)];
       const std::string picture = Picture(ImageOf(name, index), 360, name);
       if (!picture.empty()) {
-        html_ += "<figure>" + picture + "<figcaption>" + Escape(name) + "</figcaption></figure>\n";
+        html_ +=
+            "<figure>" + picture + "<figcaption>" + EscapeHtml(name) + "</figcaption></figure>\n";
       }
     }
     html_ += "</div>\n";
@@ -581,9 +556,9 @@ class Page {
     html_ +=
         "<text x=\"1008\" y=\"13\">located</text><text x=\"1008\" y=\"63\">sharp</text>"
         "<text x=\"1008\" y=\"113\">motion</text>\n";
-    html_ += "<text x=\"0\" y=\"132\">" + Escape(frames.front().name.substr(0, 40)) +
+    html_ += "<text x=\"0\" y=\"132\">" + EscapeHtml(frames.front().name.substr(0, 40)) +
              "</text><text x=\"1000\" y=\"132\" text-anchor=\"end\">" +
-             Escape(frames.back().name.substr(0, 40)) + "</text></svg>\n";
+             EscapeHtml(frames.back().name.substr(0, 40)) + "</text></svg>\n";
   }
 
   void AddWeakFrames() {
@@ -631,8 +606,8 @@ class Page {
     const FrameReport& last = report_.frame_reports[weak.last];
     const FrameReport& middle = report_.frame_reports[(weak.first + weak.last) / 2];
     html_ += "<figure>" + Picture(ImageOf(middle.name, middle.frame_index), 300, middle.name) +
-             "<figcaption><strong>" + Escape(first.name) +
-             (weak.first == weak.last ? "" : " to " + Escape(last.name)) +
+             "<figcaption><strong>" + EscapeHtml(first.name) +
+             (weak.first == weak.last ? "" : " to " + EscapeHtml(last.name)) +
              "</strong><br><span class=\"tag\" style=\"color:" +
              std::string(kQualityColours[weak.located ? 2 : 3]) + "\">" +
              (weak.located ? "" : "not located: ") + Title(weak.reason).English() + "</span><br>" +
@@ -747,9 +722,9 @@ class Page {
         "<text x=\"1008\" y=\"12\">+" + FixedOrDash(reach, 0) +
         " stops</text><text x=\"1008\" y=\"79\">0</text><text x=\"1008\" y=\"148\">-" +
         FixedOrDash(reach, 0) + "</text><text x=\"0\" y=\"165\">" +
-        Escape(database_.keyframes.front().name.substr(0, 40)) +
+        EscapeHtml(database_.keyframes.front().name.substr(0, 40)) +
         "</text><text x=\"1000\" y=\"165\" text-anchor=\"end\">" +
-        Escape(database_.keyframes.back().name.substr(0, 40)) +
+        EscapeHtml(database_.keyframes.back().name.substr(0, 40)) +
         "</text></svg>\n<div class=\"key\">" + KeyEntry(kColours[0], "red") +
         KeyEntry(kColours[1], "green") + KeyEntry(kColours[2], "blue") +
         "<span>brightness of each keyframe against the map's reference</span></div></figure>\n";
@@ -796,7 +771,7 @@ class Page {
                                      " (" + std::to_string(database_.descriptors.size()) + ")");
     double seconds = 0.0;
     for (const auto& [step, duration] : report_.seconds) {
-      html_ += Row(Escape(step), FixedOrDash(duration, 1) + " s");
+      html_ += Row(EscapeHtml(step), FixedOrDash(duration, 1) + " s");
       seconds += duration;
     }
     if (!report_.seconds.empty()) {

@@ -15,7 +15,7 @@ TEST(QrPage, SaysWhatToDoInTheShowsLanguages) {
       MakeQrPage("Morning <at> \"the\" bar & more", "https://x.example/?a=1&b", languages);
   ASSERT_TRUE(page.ok()) << page.message();
   EXPECT_THAT(*page, HasSubstr("<html lang=\"it\">"));
-  EXPECT_THAT(*page, HasSubstr("<h1>Morning &lt;at> &quot;the&quot; bar &amp; more</h1>"));
+  EXPECT_THAT(*page, HasSubstr("<h1>Morning &lt;at&gt; &quot;the&quot; bar &amp; more</h1>"));
   EXPECT_THAT(*page, HasSubstr("<code>https://x.example/?a=1&amp;b</code>"));
   const size_t italian = page->find("<p lang=\"it\">");
   const size_t english = page->find("<p lang=\"en\">");
