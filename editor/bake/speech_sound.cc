@@ -15,6 +15,7 @@
 
 #include "editor/bake/libav_sound.h"
 #include "editor/bake/recording.h"
+#include "shared/audio/sound_memory.h"
 #include "shared/core/file.h"
 
 namespace lararium::bake {
@@ -25,15 +26,12 @@ constexpr int kHighestRate = 192'000;
 constexpr int kMaxChannels = 8;
 constexpr double kMaxSeconds = 600.0;
 
-// A file in memory, as libsndfile reads and writes it.
+// A file in memory, as libsndfile reads it.
 struct Memory {
-  std::span<const std::byte> source;  // Bytes to read.
-  std::vector<std::byte> written;
+  std::span<const std::byte> source;
   sf_count_t at = 0;
 
-  sf_count_t size() const {
-    return static_cast<sf_count_t>(written.empty() ? source.size() : written.size());
-  }
+  sf_count_t size() const { return static_cast<sf_count_t>(source.size()); }
 };
 
 Memory& Of(void* data) { return *static_cast<Memory*>(data); }
@@ -56,27 +54,18 @@ sf_count_t Read(void* to, sf_count_t count, void* data) {
   return count;
 }
 
-sf_count_t Write(const void* from, sf_count_t count, void* data) {
-  Memory& memory = Of(data);
-  const auto end = static_cast<size_t>(memory.at + count);
-  if (memory.written.size() < end) {
-    memory.written.resize(end);
-  }
-  std::memcpy(memory.written.data() + memory.at, from, static_cast<size_t>(count));
-  memory.at += count;
-  return count;
-}
+sf_count_t WriteNothing(const void*, sf_count_t, void*) { return 0; }
 
 sf_count_t Tell(void* data) { return Of(data).at; }
 
-SF_VIRTUAL_IO MemoryIo() { return {Length, Seek, Read, Write, Tell}; }
+SF_VIRTUAL_IO MemoryIo() { return {Length, Seek, Read, WriteNothing, Tell}; }
 
 using SoundFile = std::unique_ptr<SNDFILE, decltype(&sf_close)>;
 
 // Reads what libsndfile knows; nullopt: it does not know the container.
 Result<std::optional<DecodedSound>> ReadWithSndfile(std::span<const std::byte> bytes,
                                                     const std::string& where) {
-  Memory memory{bytes, {}, 0};
+  Memory memory{bytes};
   SF_VIRTUAL_IO io = MemoryIo();
   SF_INFO info = {};
   const SoundFile file(sf_open_virtual(&io, SFM_READ, &info, &memory), sf_close);
@@ -199,8 +188,8 @@ Result<Sound> ReadSound(const std::filesystem::path& file) {
 }
 
 Result<std::vector<std::byte>> WriteFlac(const Sound& sound) {
-  Memory memory;
-  SF_VIRTUAL_IO io = MemoryIo();
+  audio::SoundMemory memory;
+  SF_VIRTUAL_IO io = audio::SoundMemory::Io();
   SF_INFO info = {};
   info.samplerate = sound.rate;
   info.channels = 1;
@@ -220,7 +209,7 @@ Result<std::vector<std::byte>> WriteFlac(const Sound& sound) {
   if (!written) {
     return Status::Error("FLAC", "the sound could not be written");
   }
-  return std::move(memory.written);
+  return std::move(memory.bytes);
 }
 
 void Normalize(Sound& sound) {

@@ -12,6 +12,7 @@ extern "C" {
 #include <memory>
 
 #include "shared/audio/sound_file.h"
+#include "shared/audio/sound_memory.h"
 
 namespace lararium::exporter {
 namespace {
@@ -62,34 +63,6 @@ Result<Samples> Decode(std::span<const std::byte> sound, const std::string& wher
   return samples;
 }
 
-// Bytes in memory that libsndfile writes.
-struct Memory {
-  std::vector<std::byte> bytes;
-  size_t at = 0;
-};
-
-sf_count_t Length(void* user) {
-  return static_cast<sf_count_t>(static_cast<Memory*>(user)->bytes.size());
-}
-sf_count_t SeekTo(sf_count_t offset, int whence, void* user) {
-  auto* memory = static_cast<Memory*>(user);
-  const sf_count_t base = whence == SEEK_SET   ? 0
-                          : whence == SEEK_CUR ? static_cast<sf_count_t>(memory->at)
-                                               : Length(user);
-  memory->at = static_cast<size_t>(base + offset);
-  return base + offset;
-}
-sf_count_t Read(void* /*to*/, sf_count_t /*count*/, void* /*user*/) { return 0; }
-sf_count_t Write(const void* from, sf_count_t count, void* user) {
-  auto* memory = static_cast<Memory*>(user);
-  const size_t end = memory->at + static_cast<size_t>(count);
-  memory->bytes.resize(std::max(memory->bytes.size(), end));
-  std::memcpy(&memory->bytes[memory->at], from, static_cast<size_t>(count));
-  memory->at = end;
-  return count;
-}
-sf_count_t Tell(void* user) { return static_cast<sf_count_t>(static_cast<Memory*>(user)->at); }
-
 // Check sum of an Ogg page (RFC 3533, section 6).
 uint32_t OggChecksum(std::span<const std::byte> page) {
   uint32_t sum = 0;
@@ -130,8 +103,8 @@ void ClearSerialNumber(std::span<std::byte> file) {
 Result<std::vector<std::byte>> EncodeOpus(std::span<const std::byte> sound,
                                           const std::string& where) {
   LARARIUM_ASSIGN_OR_RETURN(const Samples samples, Decode(sound, where));
-  Memory memory;
-  SF_VIRTUAL_IO io = {Length, SeekTo, Read, Write, Tell};
+  audio::SoundMemory memory;
+  SF_VIRTUAL_IO io = audio::SoundMemory::Io();
   SF_INFO info = {};
   info.samplerate = samples.rate;
   info.channels = samples.channels;

@@ -5,49 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
+#include "shared/audio/sound_memory.h"
 #include "shared/core/check.h"
 #include "shared/core/random.h"
 
 namespace lararium::test {
 namespace {
-
-struct Memory {
-  std::vector<std::byte> bytes;
-  size_t position = 0;
-};
-
-sf_count_t Length(void* user) {
-  return static_cast<sf_count_t>(static_cast<Memory*>(user)->bytes.size());
-}
-sf_count_t Seek(sf_count_t offset, int whence, void* user) {
-  auto* memory = static_cast<Memory*>(user);
-  const size_t base = whence == SEEK_SET   ? 0
-                      : whence == SEEK_CUR ? memory->position
-                                           : memory->bytes.size();
-  memory->position = base + static_cast<size_t>(offset);
-  return static_cast<sf_count_t>(memory->position);
-}
-sf_count_t Read(void* to, sf_count_t count, void* user) {
-  auto* memory = static_cast<Memory*>(user);
-  const size_t size = std::min(static_cast<size_t>(count), memory->bytes.size() - memory->position);
-  std::memcpy(to, memory->bytes.data() + memory->position, size);
-  memory->position += size;
-  return static_cast<sf_count_t>(size);
-}
-sf_count_t Write(const void* from, sf_count_t count, void* user) {
-  auto* memory = static_cast<Memory*>(user);
-  const size_t end = memory->position + static_cast<size_t>(count);
-  memory->bytes.resize(std::max(memory->bytes.size(), end));
-  std::memcpy(memory->bytes.data() + memory->position, from, static_cast<size_t>(count));
-  memory->position = end;
-  return count;
-}
-sf_count_t Tell(void* user) {
-  return static_cast<sf_count_t>(static_cast<Memory*>(user)->position);
-}
 
 int FormatOf(Coding coding) {
   switch (coding) {
@@ -69,8 +34,8 @@ std::vector<std::byte> Encode(std::span<const float> samples,
                               int channels,
                               int rate,
                               Coding coding) {
-  Memory memory;
-  SF_VIRTUAL_IO access = {Length, Seek, Read, Write, Tell};
+  audio::SoundMemory memory;
+  SF_VIRTUAL_IO access = audio::SoundMemory::Io();
   SF_INFO info = {};
   info.samplerate = rate;
   info.channels = channels;
