@@ -23,7 +23,7 @@ sed -i "s|\"name\": \"site\",|\"name\": \"site\", \"training\": {\"video\": \"$o
 open_window 700 780 "$project"
 blank=$(picture)
 wait_for 60 is_other "$blank" || fail "no picture"
-sleep 8
+settle 8
 first=$(picture)
 press period
 wait_for 10 is_other "$first" || fail "no frame after the first"

@@ -34,7 +34,7 @@ track{actor = "keeper",
 }
 LUA
 open_window 1300 880 "$project"
-sleep 5
+settle 5
 press 2
 sleep 3
 shot before

@@ -130,6 +130,19 @@ drag() {
   xdotool mousemove "$3" "$4" sleep 0.4 mouseup 1 sleep 0.5
 }
 
+# settle SECONDS: waits that long, and then until the screen stands still for two seconds; in all at
+# most three times as long.
+settle() {
+  local last='' now same=0
+  sleep "$1"
+  for ((i = 0; i < 2 * $1 && same < 2; ++i)); do
+    now=$(import -window root rgb:- | sha256sum)
+    same=$(([ "$now" = "$last" ] && echo $((same + 1))) || echo 0)
+    last=$now
+    sleep 1
+  done
+}
+
 # titled REGEX: there is a window whose title begins so.
 titled() { xdotool search --name "^$1" > /dev/null; }
 
