@@ -224,11 +224,11 @@ BakeStep MeshStep(const ProjectPaths& paths,
           }};
 }
 
-human::Human MakePlainFigure(const CastDocument& member) {
+Result<human::Human> MakePlainFigure(const CastDocument& member) {
   import::PlainFigureOptions options;
   options.height = static_cast<float>(member.height);
   options.tunic = geometry::ToGlm(member.tunic);
-  human::Human human = import::BuildPlainFigure(options);
+  LARARIUM_ASSIGN_OR_RETURN(human::Human human, import::LoadPlainFigure(options));
   human.name = member.name;
   for (human::SkinnedMesh& mesh : human.meshes) {
     import::AddLevelsOfDetail(mesh);
@@ -248,7 +248,7 @@ FigureSource PlainFigure(const CastDocument& member) {
   std::ostringstream settings;
   settings << "plain figure " << member.height << " " << member.tunic.transpose() << " "
            << import::kLevelsOfDetail;
-  return {settings.str(), {}, [member](std::vector<std::string>&) -> Result<human::Human> {
+  return {settings.str(), {import::PlainFigureFile()}, [member](std::vector<std::string>&) {
             return MakePlainFigure(member);
           }};
 }
@@ -270,7 +270,7 @@ FigureSource FigureOfRecipe(const import::CastRecipe& recipe,
 // The plain figure for a person with a recipe where the library is missing; a warning says so.
 FigureSource StandIn(const CastDocument& member) {
   FigureSource figure = PlainFigure(member);
-  figure.make = [member](std::vector<std::string>& warnings) -> Result<human::Human> {
+  figure.make = [member](std::vector<std::string>& warnings) {
     warnings.push_back(member.name +
                        ": the plain figure stands in, because the cast library is not "
                        "installed; fetch it with lararium-editor fetch-cast-library");
@@ -756,7 +756,7 @@ Result<show::CastMember> ShareBakedHuman(const ProjectPaths& paths,
 }
 
 Result<human::Human> MakeStandIn(const ProjectPaths& paths, const CastDocument& member) {
-  human::Human figure = MakePlainFigure(member);
+  LARARIUM_ASSIGN_OR_RETURN(human::Human figure, MakePlainFigure(member));
   std::vector<std::string> told_when_baked;
   LARARIUM_RETURN_IF_ERROR(AddClips(paths, member, figure, told_when_baked));
   return figure;

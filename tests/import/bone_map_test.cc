@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "editor/import/cast/plain_skeleton.h"
 #include "editor/import/model/bone_structure.h"
 #include "shared/core/file.h"
+#include "tests/import/plain_figure.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {
@@ -18,14 +18,20 @@ using ::testing::HasSubstr;
 
 // The bones of the plain figure under other names, without the skirt.
 Rig PlainRig(const std::map<std::string, std::string>& names, bool scramble) {
-  const human::Skeleton skeleton = PlainSkeleton();
+  const human::Skeleton& skeleton = PlainSkeleton();
   Rig rig;
-  for (size_t j = 0; j < skeleton.size() && !skeleton.names[j].starts_with("tunic"); ++j) {
+  std::vector<int16_t> bones(skeleton.size());  // The bone of each joint of the skeleton.
+  for (size_t j = 0; j < skeleton.size(); ++j) {
+    if (skeleton.names[j].starts_with("tunic")) {
+      continue;
+    }
     const auto found = names.find(skeleton.names[j]);
+    const int16_t parent = skeleton.parents[j];
+    bones[j] = static_cast<int16_t>(rig.names.size());
     rig.names.push_back(scramble               ? "bone" + std::to_string(j)
                         : found != names.end() ? found->second
                                                : skeleton.names[j]);
-    rig.parents.push_back(skeleton.parents[j]);
+    rig.parents.push_back(parent < 0 ? parent : bones[static_cast<size_t>(parent)]);
     rig.positions.push_back(RestPosition(skeleton, skeleton.names[j]));
   }
   return rig;

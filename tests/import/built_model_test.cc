@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "editor/import/cast/plain_skeleton.h"
 #include "shared/core/random.h"
+#include "tests/import/plain_figure.h"
 
 namespace lararium::import {
 namespace {

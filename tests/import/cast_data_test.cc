@@ -10,7 +10,7 @@
 #include "editor/import/cast/cast_builder.h"
 #include "editor/import/cast/cast_presets.h"
 #include "editor/import/cast/cast_shape.h"
-#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/cast/joint_lookup.h"
 #include "editor/import/model/simplify.h"
 #include "tests/support/test_files.h"
 

@@ -10,12 +10,11 @@
 #include <glm/trigonometric.hpp>
 #include <sstream>
 
-#include "editor/import/cast/plain_figure.h"
-#include "editor/import/cast/plain_skeleton.h"
 #include "editor/import/model/clip_track.h"
 #include "editor/import/motion/clip_import.h"
 #include "shared/core/file.h"
 #include "shared/human/turns.h"
+#include "tests/import/plain_figure.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {
@@ -148,7 +147,7 @@ class ForeignWalk : public ::testing::Test {
     }
   }
 
-  const human::Human figure_ = BuildPlainFigure();
+  const human::Human& figure_ = PlainFigure();
   const human::Clip walk_ = *std::find_if(figure_.clips.begin(),
                                           figure_.clips.end(),
                                           [](const auto& clip) { return clip.name == "walk"; });

@@ -9,8 +9,8 @@
 #include <array>
 #include <cstring>
 
-#include "editor/import/cast/plain_skeleton.h"
 #include "tests/import/glb_figure.h"
+#include "tests/import/plain_figure.h"
 
 namespace lararium::import {
 namespace {

@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "editor/import/cast/plain_skeleton.h"
 #include "editor/import/model/model_placement.h"
 #include "shared/core/file.h"
 #include "tests/import/glb_figure.h"
+#include "tests/import/plain_figure.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {

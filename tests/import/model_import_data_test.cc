@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "editor/import/cast/plain_figure.h"
 #include "editor/import/model/model_gltf.h"
 #include "editor/import/model/model_import.h"
 #include "editor/import/motion/clip_import.h"
@@ -16,6 +15,7 @@
 #include "shared/core/random.h"
 #include "shared/human/skinning.h"
 #include "tests/import/glb_figure.h"
+#include "tests/import/plain_figure.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::import {
@@ -310,7 +310,7 @@ float Lowest(const human::Human& human, const human::Clip& clip, double time) {
 
 TEST(CapturedClips, PutThePlainFiguresFeetOnTheFloor) {
   REQUIRE_MODELS(models);
-  const human::Human figure = BuildPlainFigure();
+  const human::Human& figure = PlainFigure();
   for (const char* file : {"BVH/01_01.bvh", "BVH/Boxing_Toes.bvh"}) {
     ClipImportOptions options;
     options.retarget.name = "captured";
@@ -331,7 +331,7 @@ TEST(CapturedClips, PutThePlainFiguresFeetOnTheFloor) {
 
 TEST(CapturedClips, BeginWithSpreadArmsAsTheFileDoesWhereThatIsKept) {
   REQUIRE_MODELS(models);
-  const human::Human figure = BuildPlainFigure();
+  const human::Human& figure = PlainFigure();
   const auto without = ImportClip(models / "BVH/01_01.bvh", figure.skeleton);
   ClipImportOptions options;
   options.drop_calibration = false;

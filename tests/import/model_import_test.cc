@@ -13,13 +13,13 @@
 #include <string>
 #include <thread>
 
-#include "editor/import/cast/plain_skeleton.h"
 #include "editor/import/model/model_gltf.h"
 #include "editor/import/model/model_isolation.h"
 #include "editor/import/model/model_textures.h"
 #include "shared/core/file.h"
 #include "shared/core/random.h"
 #include "tests/import/glb_figure.h"
+#include "tests/import/plain_figure.h"
 #include "tests/support/png.h"
 #include "tests/support/test_files.h"
 

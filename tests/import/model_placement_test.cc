@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "editor/import/cast/plain_skeleton.h"
 #include "editor/import/model/model_matrix.h"
+#include "tests/import/plain_figure.h"
 
 namespace lararium::import {
 namespace {

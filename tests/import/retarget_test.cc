@@ -7,11 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "editor/import/cast/plain_figure.h"
-#include "editor/import/cast/plain_skeleton.h"
 #include "editor/import/model/clip_track.h"
 #include "editor/import/model/root_motion.h"
 #include "shared/human/turns.h"
+#include "tests/import/plain_figure.h"
 
 namespace lararium::import {
 namespace {
@@ -19,13 +18,8 @@ namespace {
 using human::Clip;
 using human::Skeleton;
 
-const human::Human& Plain() {
-  static const human::Human kPlain = BuildPlainFigure();
-  return kPlain;
-}
-
 const Clip& Walk() {
-  return *std::find_if(Plain().clips.begin(), Plain().clips.end(),
+  return *std::find_if(PlainFigure().clips.begin(), PlainFigure().clips.end(),
                        [](const Clip& clip) { return clip.name == "walk"; });
 }
 
@@ -129,7 +123,7 @@ float WorstSlide(const Skeleton& source,
 }
 
 TEST(Retarget, ToTheSameSkeletonIsTheSameMotion) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   const Clip source = Travelling(Walk(), skeleton.size(), 3, 0.0f);
   const auto result =
       Retarget(skeleton, source, skeleton, {.name = "", .lock_feet = false, .take_root = false});
@@ -145,7 +139,7 @@ TEST(Retarget, ToTheSameSkeletonIsTheSameMotion) {
 }
 
 TEST(Retarget, ToATallerFigureTakesLongerSteps) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   const Skeleton taller = Scaled(skeleton, 1.25f);
   const auto result =
       Retarget(skeleton, Travelling(Walk(), skeleton.size(), 4, 0.7f), taller, {.name = "walk"});
@@ -159,7 +153,7 @@ TEST(Retarget, ToATallerFigureTakesLongerSteps) {
 }
 
 TEST(Retarget, TurnsAWalkInAnyDirectionTowardsMinusZ) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   for (const float heading : {0.0f, 1.3f, -2.5f}) {
     const auto result =
         Retarget(skeleton, Travelling(Walk(), skeleton.size(), 3, heading), skeleton);
@@ -172,7 +166,7 @@ TEST(Retarget, TurnsAWalkInAnyDirectionTowardsMinusZ) {
 }
 
 TEST(Retarget, HoldsFeetThatStand) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   Skeleton other = Scaled(skeleton, 0.8f);
   // With shins longer than thighs, copying the angles of the source would make the feet slide.
   for (const char* ankle : {"r_ankle", "l_ankle"}) {
@@ -190,7 +184,7 @@ TEST(Retarget, HoldsFeetThatStand) {
 }
 
 TEST(Retarget, KeepsTheArmsOfAFigureBoundWithSpreadArmsWhereTheSourceHasThem) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   const Skeleton spread = WithSpreadArms(skeleton);
   ASSERT_GT(RestPosition(spread, "r_wrist").y, RestPosition(skeleton, "r_wrist").y + 0.3f);
   for (const auto& [from, to] : {std::pair{&skeleton, &spread}, std::pair{&spread, &skeleton}}) {
@@ -211,7 +205,7 @@ TEST(Retarget, KeepsTheArmsOfAFigureBoundWithSpreadArmsWhereTheSourceHasThem) {
 }
 
 TEST(Retarget, CutsALoopOfOneStride) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   RetargetOptions options;
   options.loop = true;
   const auto result =
@@ -228,7 +222,7 @@ TEST(Retarget, CutsALoopOfOneStride) {
 }
 
 TEST(Retarget, SaysSoWhereNothingCanLoop) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   Clip turning = Walk();
   for (size_t key = 0; key < turning.KeyCount(skeleton.size()); ++key) {
     for (size_t j = 0; j < skeleton.size(); ++j) {
@@ -246,7 +240,7 @@ TEST(Retarget, SaysSoWhereNothingCanLoop) {
 }
 
 TEST(Retarget, TakesThePartThatIsAskedFor) {
-  const Skeleton& skeleton = Plain().skeleton;
+  const Skeleton& skeleton = PlainFigure().skeleton;
   RetargetOptions options;
   options.from = 0.2f;
   options.to = 0.7f;
@@ -258,30 +252,30 @@ TEST(Retarget, TakesThePartThatIsAskedFor) {
 }
 
 TEST(Retarget, RefusesSkeletonsThatDoNotWalkAndClipsThatDoNotFit) {
-  Skeleton tree = Plain().skeleton;
+  Skeleton tree = PlainFigure().skeleton;
   for (std::string& name : tree.names) {
     name += "_branch";
   }
-  EXPECT_FALSE(Retarget(Plain().skeleton, Walk(), tree).ok());
-  EXPECT_FALSE(Retarget(tree, Walk(), Plain().skeleton).ok());
+  EXPECT_FALSE(Retarget(PlainFigure().skeleton, Walk(), tree).ok());
+  EXPECT_FALSE(Retarget(tree, Walk(), PlainFigure().skeleton).ok());
   Clip broken = Walk();
   broken.keys.pop_back();
-  EXPECT_FALSE(Retarget(Plain().skeleton, broken, Plain().skeleton).ok());
+  EXPECT_FALSE(Retarget(PlainFigure().skeleton, broken, PlainFigure().skeleton).ok());
 }
 
 TEST(TakeRootMotion, FindsTheStrideOfAClipThatWalksOnTheSpot) {
   Clip clip = Walk();
   const float stride = clip.stride;
   clip.stride = 0.0f;
-  EXPECT_TRUE(TakeRootMotion(Plain().skeleton, clip));
+  EXPECT_TRUE(TakeRootMotion(PlainFigure().skeleton, clip));
   EXPECT_NEAR(clip.stride, stride, 0.1f * stride);
 }
 
 TEST(TakeRootMotion, LeavesClipsThatStandAlone) {
-  for (const Clip& clip : Plain().clips) {
+  for (const Clip& clip : PlainFigure().clips) {
     if (clip.name != "walk") {
       Clip copy = clip;
-      EXPECT_FALSE(TakeRootMotion(Plain().skeleton, copy)) << clip.name;
+      EXPECT_FALSE(TakeRootMotion(PlainFigure().skeleton, copy)) << clip.name;
       EXPECT_EQ(copy.stride, 0.0f);
     }
   }

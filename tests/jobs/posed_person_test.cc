@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "editor/import/cast/plain_skeleton.h"
 #include "shared/human/human.h"
+#include "tests/import/plain_figure.h"
 
 namespace lararium::editor {
 namespace {

@@ -38,7 +38,7 @@ struct BaseShape {
 
 struct FittedBody {
   // Frames are parallel to the actor's. RestPosition(skeleton, "l_shoulder") in
-  // editor/import/cast/plain_skeleton.h gives positions.
+  // editor/import/cast/joint_lookup.h gives positions.
   human::Skeleton skeleton;
   BaseShape base;
   human::SkinnedMesh skin;  // The visible bare body; vertices are doubled at texture seams.

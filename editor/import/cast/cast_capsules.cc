@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/cast/joint_lookup.h"
 
 namespace lararium::import {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <initializer_list>
 
-#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/cast/joint_lookup.h"
 
 namespace lararium::import {
 namespace {

@@ -7,7 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/cast/joint_lookup.h"
 
 namespace lararium::import {
 namespace {

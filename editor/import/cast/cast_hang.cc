@@ -9,7 +9,7 @@
 
 #include "editor/import/cast/cast_rig.h"
 #include "editor/import/cast/cast_subdivide.h"
-#include "editor/import/cast/plain_skeleton.h"
+#include "editor/import/cast/joint_lookup.h"
 
 namespace lararium::import {
 namespace {

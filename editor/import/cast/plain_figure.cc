@@ -1,11 +1,14 @@
 #include "editor/import/cast/plain_figure.h"
 
-#include "editor/import/cast/plain_body.h"
-#include "editor/import/cast/plain_motion.h"
-#include "editor/import/cast/plain_skeleton.h"
+#include <algorithm>
+
+#include "editor/import/model/model_import.h"
+#include "shared/core/program.h"
 
 namespace lararium::import {
 namespace {
+
+constexpr float kFileHeight = 1.72f;  // metres
 
 void Scale(human::Human& human, float factor) {
   for (size_t i = 0; i < human.skeleton.size(); ++i) {
@@ -28,14 +31,18 @@ void Scale(human::Human& human, float factor) {
 
 }  // namespace
 
-human::Human BuildPlainFigure(const PlainFigureOptions& options) {
-  human::Human human;
-  human.name = "plain";
-  human.skeleton = PlainSkeleton();
-  human.meshes = PlainMeshes(human.skeleton, options);
-  human.clips = PlainClips(human.skeleton);
-  human.credits = "Lararium's built-in figure, Apache-2.0";
-  Scale(human, options.height / kPlainHeight);
+std::filesystem::path PlainFigureFile() {
+  return ShippedData("lararium/library/figure", "scenes/library/figure") / "figure.glb";
+}
+
+Result<human::Human> LoadPlainFigure(const PlainFigureOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(human::Human human, ImportHuman(PlainFigureFile()));
+  for (human::SkinnedMesh& mesh : human.meshes) {
+    if (mesh.name == "tunic") {
+      std::fill(mesh.albedo.begin(), mesh.albedo.end(), options.tunic);
+    }
+  }
+  Scale(human, options.height / kFileHeight);
   return human;
 }
 
