@@ -108,6 +108,9 @@ struct Runner {
   Result<CommandResult> operator()(const ExportOptions& options) {
     return RunExport(options, progress);
   }
+  Result<CommandResult> operator()(const PublishOptions& options) {
+    return RunPublish(options, progress);
+  }
   Result<CommandResult> operator()(const KeyOptions& options) { return RunKey(options); }
   Result<CommandResult> operator()(const FetchCastLibraryOptions&) {
     return RunFetchCastLibrary(progress);

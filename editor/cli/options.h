@@ -47,6 +47,7 @@ using Subcommand = std::variant<WindowOptions,
                                 CameraOptions,
                                 CalibrateOptions,
                                 ExportOptions,
+                                PublishOptions,
                                 KeyOptions,
                                 FetchCastLibraryOptions>;
 

@@ -118,6 +118,16 @@ void AddReference(CLI::App* command, ReferenceOptions& reference) {
       ->required();
 }
 
+void AddPoints(CLI::App* command, std::optional<int>& points) {
+  command->add_option("--points", points, "Points that each place keeps at most")
+      ->check(CLI::Range(100, 10'000'000));
+}
+
+CLI::Option* AddSign(CLI::App* command, std::filesystem::path& key) {
+  return command->add_option("--sign", key, "Sign it with this secret key (NAME.key)")
+      ->check(CLI::ExistingFile);
+}
+
 void AddExport(CLI::App* command, ExportOptions& pack) {
   AddProject(command, pack.project);
   CLI::Option* out = command->add_option("--out", pack.out, "The bundle (.larshow)");
@@ -134,10 +144,16 @@ void AddExport(CLI::App* command, ExportOptions& pack) {
                    "Where the folder will be served (https://...): also write its QR code, and a "
                    "page with it to be printed")
       ->needs(web);
-  command->add_option("--points", pack.points, "Points that each place keeps at most")
-      ->check(CLI::Range(100, 10'000'000));
-  command->add_option("--sign", pack.sign, "Sign it with this secret key (NAME.key)")
-      ->check(CLI::ExistingFile);
+  AddPoints(command, pack.points);
+  AddSign(command, pack.sign);
+}
+
+void AddPublish(CLI::App* command, PublishOptions& pack) {
+  AddProject(command, pack.project);
+  command->add_option("FOLDER", pack.folder, "The folder that a web server serves to players")
+      ->required();
+  AddPoints(command, pack.points);
+  AddSign(command, pack.sign)->required();
 }
 
 void CheckExport(const ExportOptions& pack) {
@@ -171,6 +187,7 @@ void AddShowCommands(CommandTable& table) {
   table.Add("reference", "Path-trace a moment of a show, or a person in a probe's light",
             AddReference);
   table.Add("export", "Pack the show", AddExport, CheckExport);
+  table.Add("publish", "Put the show where players look for a newer one", AddPublish);
   table.Add("key", "Make the keys that shows are signed with", AddKey);
   table.Add<FetchCastLibraryOptions>("fetch-cast-library",
                                      "Fetch the library of which people are built, with npm",

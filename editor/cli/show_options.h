@@ -37,6 +37,13 @@ struct ExportOptions {
   std::string address = {};         // See exporter::WebExport.
 };
 
+struct PublishOptions {
+  std::filesystem::path project;
+  std::filesystem::path folder;
+  std::optional<int> points = {};  // See ExportOptions.
+  std::filesystem::path sign;
+};
+
 struct FetchCastLibraryOptions {};
 
 struct KeyOptions {

@@ -116,6 +116,21 @@ Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress
                        {{"out", options.out.string()}, {"bytes", bytes}}};
 }
 
+Result<CommandResult> RunPublish(const PublishOptions& options, Progress& progress) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
+  ExportRequest request{.out = options.folder, .key = options.sign};
+  request.budget.max_points = options.points.value_or(request.budget.max_points);
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Publication published,
+                            PublishProject(paths, document, request, progress));
+  return CommandResult{options.folder.string() + ": show " + std::to_string(published.serial) +
+                           " is the newest (" + std::to_string(published.size) + " bytes)\n",
+                       {{"folder", options.folder.string()},
+                        {"serial", published.serial},
+                        {"file", published.file()},
+                        {"bytes", published.size}}};
+}
+
 Result<CommandResult> RunKey(const KeyOptions& options) {
   const std::string secret = options.name.string() + ".key";
   const std::string open = options.name.string() + ".pub";

@@ -23,6 +23,7 @@ Result<CommandResult> RunCheck(const CheckOptions& options, Progress& progress);
 Result<CommandResult> RunCredits(const CreditsOptions& options);
 Result<CommandResult> RunRender(const RenderOptions& options, Progress& progress, Log& log);
 Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress);
+Result<CommandResult> RunPublish(const PublishOptions& options, Progress& progress);
 Result<CommandResult> RunKey(const KeyOptions& options);
 Result<CommandResult> RunFetchCastLibrary(Progress& progress);
 

@@ -1,6 +1,8 @@
 #include "editor/jobs/exporting.h"
 
+#include <ctime>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "editor/bake/caption_font.h"
@@ -13,6 +15,7 @@
 #include "editor/jobs/sounds.h"
 #include "editor/jobs/staging.h"
 #include "editor/train/budget.h"
+#include "shared/bundle/publishing.h"
 #include "shared/bundle/signature.h"
 #include "shared/core/file.h"
 #include "shared/core/free_space.h"
@@ -155,6 +158,25 @@ Result<bundle::WebFolderReport> ExportProjectForWeb(const ProjectPaths& paths,
   LARARIUM_ASSIGN_OR_RETURN(exporter::ExportContent content,
                             CollectContent(paths, document, smaller, progress));
   return exporter::ExportWebFolder(std::move(content), web, key, progress);
+}
+
+Result<bundle::Publication> PublishProject(const ProjectPaths& paths,
+                                           const ProjectDocument& document,
+                                           const ExportRequest& request,
+                                           Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::SecretKey key, bundle::LoadSecretKey(request.key));
+  LARARIUM_RETURN_IF_ERROR(bundle::CheckPublishing(request.out, key.public_key()));
+  LARARIUM_ASSIGN_OR_RETURN(const exporter::ExportContent content,
+                            CollectContent(paths, document, request, progress));
+  std::error_code error;
+  std::filesystem::create_directories(request.out, error);
+  // On the same disk, so that it can be moved.
+  const std::filesystem::path unpublished = request.out / ".unpublished.larshow";
+  LARARIUM_RETURN_IF_ERROR(exporter::ExportBundle(content, unpublished, progress, &key));
+  auto published = bundle::Publish(unpublished, request.out, key, std::time(nullptr));
+  // If publishing failed, the bundle is still there.
+  std::filesystem::remove(unpublished, error);
+  return published;
 }
 
 }  // namespace lararium::editor

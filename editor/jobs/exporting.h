@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "editor/document/project.h"
+#include "shared/bundle/publication.h"
 #include "shared/bundle/web_folder.h"
 #include "shared/core/progress.h"
 #include "shared/core/status.h"
@@ -42,5 +43,12 @@ Result<bundle::WebFolderReport> ExportProjectForWeb(const ProjectPaths& paths,
                                                     const ProjectDocument& document,
                                                     const ExportRequest& request,
                                                     Progress& progress);
+
+// Bakes stale products, and publishes a bundle in the folder `out` (shared/bundle/publishing.h),
+// which has to be signed. On an error the newest show of an existing folder stays as it was.
+Result<bundle::Publication> PublishProject(const ProjectPaths& paths,
+                                           const ProjectDocument& document,
+                                           const ExportRequest& request,
+                                           Progress& progress);
 
 }  // namespace lararium::editor

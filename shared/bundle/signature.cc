@@ -27,16 +27,18 @@ static_assert(crypto_sign_ed25519_BYTES == 64);
 constexpr std::string_view kPublic = "lararium public key 1 ";
 constexpr std::string_view kSecret = "lararium secret key 1 ";
 constexpr size_t kMostKeyFile = 4096;  // bytes
-// Prefix of the signed data, so that a signature of other data is never valid for a bundle.
-constexpr std::string_view kPurpose = "lararium bundle manifest 1\n";
+// Prefixes of the signed data, by Signed.
+constexpr std::array<std::string_view, 2> kPurposes = {"lararium bundle manifest 1\n",
+                                                       "lararium publication 1\n"};
 
 void StartSodium() { CHECK(sodium_init() >= 0); }
 
-std::vector<unsigned char> Message(std::span<const std::byte> manifest) {
-  std::vector<unsigned char> message(kPurpose.size() + manifest.size());
-  std::memcpy(message.data(), kPurpose.data(), kPurpose.size());
-  if (!manifest.empty()) {
-    std::memcpy(message.data() + kPurpose.size(), manifest.data(), manifest.size());
+std::vector<unsigned char> Message(std::span<const std::byte> bytes, Signed what) {
+  const std::string_view purpose = kPurposes[static_cast<size_t>(what)];
+  std::vector<unsigned char> message(purpose.size() + bytes.size());
+  std::memcpy(message.data(), purpose.data(), purpose.size());
+  if (!bytes.empty()) {
+    std::memcpy(message.data() + purpose.size(), bytes.data(), bytes.size());
   }
   return message;
 }
@@ -133,26 +135,38 @@ Status SaveSecretKey(const std::filesystem::path& path, const SecretKey& key) {
   return Status();
 }
 
-Signature Sign(std::span<const std::byte> manifest, const SecretKey& key) {
+Signature Sign(std::span<const std::byte> bytes, const SecretKey& key, Signed what) {
   StartSodium();
-  const std::vector<unsigned char> message = Message(manifest);
+  const std::vector<unsigned char> message = Message(bytes, what);
   Signature signature = {};
   crypto_sign_ed25519_detached(signature.data(), nullptr, message.data(), message.size(),
                                key.bytes.data());
   return signature;
 }
 
-bool Verifies(std::span<const std::byte> manifest,
+bool Verifies(std::span<const std::byte> bytes,
               std::span<const std::byte> signature,
-              const PublicKey& key) {
+              const PublicKey& key,
+              Signed what) {
   StartSodium();
   if (signature.size() != std::tuple_size_v<Signature>) {
     return false;
   }
-  const std::vector<unsigned char> message = Message(manifest);
+  const std::vector<unsigned char> message = Message(bytes, what);
   return crypto_sign_ed25519_verify_detached(
              reinterpret_cast<const unsigned char*>(signature.data()), message.data(),
              message.size(), key.bytes.data()) == 0;
+}
+
+std::string FormatSignature(const Signature& signature) { return Hex(signature); }
+
+std::optional<Signature> ParseSignature(std::string_view text) {
+  Signature signature = {};
+  size_t count = 0;
+  const bool parsed = sodium_hex2bin(signature.data(), signature.size(), text.data(), text.size(),
+                                     nullptr, &count, nullptr) == 0;
+  return parsed && text.size() == 2 * count && count == signature.size() ? std::optional(signature)
+                                                                         : std::nullopt;
 }
 
 }  // namespace lararium::bundle

@@ -1,12 +1,14 @@
 #pragma once
 
 // Identifies the maker of a bundle: Ed25519 signatures (RFC 8032) of its manifest, with libsodium.
-// The manifest contains the hash of every member, so its signature covers the whole file.
+// The manifest contains the hash of every member, so its signature covers the whole file. The list
+// of the newest show (publication.h) is signed in the same way.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,9 +45,19 @@ std::string FormatPublicKey(const PublicKey& key);
 Status SavePublicKey(const std::filesystem::path& path, const PublicKey& key);
 Status SaveSecretKey(const std::filesystem::path& path, const SecretKey& key);
 
-Signature Sign(std::span<const std::byte> manifest, const SecretKey& key);
-bool Verifies(std::span<const std::byte> manifest,
+// What is signed. A signature of one is never valid for the other.
+enum class Signed : uint8_t { kManifest, kPublication };
+
+Signature Sign(std::span<const std::byte> bytes,
+               const SecretKey& key,
+               Signed what = Signed::kManifest);
+bool Verifies(std::span<const std::byte> bytes,
               std::span<const std::byte> signature,
-              const PublicKey& key);
+              const PublicKey& key,
+              Signed what = Signed::kManifest);
+
+// Formats and parses 128 hexadecimal digits.
+std::string FormatSignature(const Signature& signature);
+std::optional<Signature> ParseSignature(std::string_view text);
 
 }  // namespace lararium::bundle

@@ -21,6 +21,9 @@ inline constexpr size_t kLocalSize = 30;
 inline constexpr size_t kCentralSize = 46;
 inline constexpr size_t kEndSize = 22;
 
+inline constexpr uint16_t kVersionMadeBy = 63;  // 6.3, MS-DOS
+inline constexpr uint16_t kVersionNeeded = 10;  // 1.0: stored files
+
 inline constexpr size_t kAlignment = 64;
 inline constexpr uint16_t kAlignmentField = 0xd935;  // the id that Android's zipalign uses
 inline constexpr size_t kExtraHeaderSize = 4;        // id, length

@@ -11,9 +11,6 @@ namespace {
 
 constexpr char kExportAgain[] = "export the bundle with lararium-editor";
 
-constexpr uint16_t kVersionMadeBy = 63;  // 6.3, MS-DOS
-constexpr uint16_t kVersionNeeded = 10;  // 1.0: stored files
-
 // Reads consecutive little-endian values.
 class Cursor {
  public:

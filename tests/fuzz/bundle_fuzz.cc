@@ -1,11 +1,15 @@
-// libFuzzer harness: any bytes as an archive, and as a manifest. (The manifest's CRC-32 and the
-// members' hashes normally protect the manifest; here it is reached directly.)
+// libFuzzer harness: any bytes as an archive, as a manifest, and as a publication, also a signed
+// one. (The manifest's CRC-32 and the members' hashes normally protect the manifest; here it is
+// reached directly.)
 
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "shared/bundle/publication.h"
 #include "shared/bundle/show_manifest.h"
 #include "shared/bundle/zip_reader.h"
+#include "shared/core/json.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace lararium::bundle;
@@ -21,5 +25,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (const auto manifest = ParseShowManifest(text, "manifest.json"); manifest.ok()) {
     CHECK(ParseShowManifest(FormatShowManifest(*manifest), "manifest.json").ok());
   }
+  static const SecretKey key = MakeSecretKey();
+  (void)ParsePublication(text, key.public_key(), "newest.json").ok();
+  const lararium::Json envelope = {
+      {"publication", std::string(text)},
+      {"signature", FormatSignature(Sign(bytes, key, Signed::kPublication))}};
+  (void)ParsePublication(lararium::DumpJson(envelope), key.public_key(), "newest.json").ok();
   return 0;
 }
