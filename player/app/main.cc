@@ -10,7 +10,9 @@
 #include "player/app/options.h"
 #include "player/app/play.h"
 #include "player/benchmark/benchmark.h"
+#include "player/kiosk/kiosk.h"
 #include "player/staff/staff_page.h"
+#include "player/updates/updater.h"
 #include "shared/core/log.h"
 #include "shared/core/uncaught.h"
 
@@ -18,6 +20,14 @@ namespace {
 
 using namespace lararium;          // NOLINT: the program itself
 using namespace lararium::player;  // NOLINT
+
+int Report(const Result<PlayEnd>& end, Log& log) {
+  if (!end.ok()) {
+    log.Error("{}", end.message());
+    return 1;
+  }
+  return *end == PlayEnd::kStartAgain ? kStartAgain : 0;
+}
 
 int Report(const Status& status, Log& log) {
   if (!status.ok()) {
@@ -35,6 +45,45 @@ Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log
   LARARIUM_ASSIGN_OR_RETURN(const ListenAddress address,
                             ParseListenAddress("--staff-page", options.staff_page.address));
   return StaffPage::Start({address, options.staff_page.pin, options.sandbox}, log);
+}
+
+std::filesystem::path UpdateFolder(const PlayOptions& options) {
+  return (options.kiosk.state.empty() ? DefaultStateFolder() : options.kiosk.state) / "updates";
+}
+
+// Starts the process that fetches newer shows; nullptr: none was requested. Call this while there
+// is only one thread.
+Result<std::unique_ptr<Updater>> StartUpdater(const PlayOptions& options, Log& log) {
+  if (options.updates.url.empty()) {
+    return std::unique_ptr<Updater>();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::PublicKey trusted,
+                            bundle::LoadPublicKey(options.bundle.trust));
+  return Updater::Start(
+      {.server = {.url = options.updates.url,
+                  .ca = options.updates.ca,
+                  .bytes_per_second = 1000.0 * options.updates.kilobytes_per_second},
+       .trusted = trusted,
+       .folder = UpdateFolder(options),
+       .shipped = options.bundle.show,
+       .sandbox = options.sandbox},
+      log);
+}
+
+// Plays a kiosk's show, the newest that there is.
+Result<PlayEnd> PlayNewest(PlayOptions options,
+                           std::chrono::steady_clock::time_point started,
+                           Log& log,
+                           PlayLinks links) {
+  if (options.updates.url.empty()) {
+    return Play(options, started, log, links);
+  }
+  const UpdateStore store(UpdateFolder(options), options.bundle.show);
+  const UpdateStore::Show show = store.Choose(links.start.failed_starts, log);
+  options.bundle.show = show.file;
+  UpdateWatch watch(store, show.serial, log);
+  links.updates = &watch;
+  return Play(options, started, log, links);
 }
 
 }  // namespace
@@ -79,9 +128,13 @@ int main(int argc, char** argv) {
   if (!page.ok()) {
     return Report(page.status(), **log);
   }
+  const Result<std::unique_ptr<Updater>> updater = StartUpdater(*play, **log);
+  if (!updater.ok()) {
+    return Report(updater.status(), **log);
+  }
   const int staff_link = *page != nullptr ? (*page)->link() : -1;
   if (!play->kiosk.enabled) {
-    return Report(Play(*play, start, **log, {}, Heartbeat(), staff_link), **log);
+    return Report(Play(*play, start, **log, {.staff_link = staff_link}), **log);
   }
   std::optional<Curtain> curtain;
   if (!play->display.headless && play->display.mode != Display::kOpenXr) {
@@ -89,7 +142,9 @@ int main(int argc, char** argv) {
   }
   const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
     const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();
-    return Report(Play(*play, begun, **log, number, heartbeat, staff_link), **log);
+    return Report(PlayNewest(*play, begun, **log,
+                             {.start = number, .heartbeat = heartbeat, .staff_link = staff_link}),
+                  **log);
   };
   return Supervise(child, {}, **log);
 }

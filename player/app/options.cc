@@ -92,9 +92,9 @@ void AddSwitchOption(CLI::App& app,
 void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("SHOW", play.bundle.show, "The bundle to play (.larshow)")
       ->check(CLI::ExistingFile);
-  app.add_option("--trust", play.bundle.trust,
-                 "Play only what was signed with the key of this .pub file")
-      ->check(CLI::ExistingFile);
+  CLI::Option* trust = app.add_option("--trust", play.bundle.trust,
+                                      "Play only what was signed with the key of this .pub file")
+                           ->check(CLI::ExistingFile);
   app.add_option("--place", play.bundle.place, "Only this place of the bundle; all otherwise");
   app.add_option("--language", play.choices.language,
                  "Language that people speak, as la or en; otherwise as the author chose");
@@ -180,6 +180,28 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                  "visitor stays")
       ->check(CLI::Range(0.5, 240.0))
       ->needs(kiosk);
+  CLI::Option* updates =
+      app.add_option("--updates", play.updates.url,
+                     "Address (https://...) of a folder of lararium-editor publish, from which a "
+                     "kiosk gets newer shows")
+          ->check(CLI::Validator(
+              [](const std::string& url) {
+                return url.starts_with("https://") || url.starts_with("http://")
+                           ? ""
+                           : "takes the address of a folder on a web server";
+              },
+              "URL"))
+          ->needs(kiosk)
+          ->needs(trust);
+  app.add_option("--updates-ca", play.updates.ca,
+                 "Certificates (.pem) that are trusted for it instead of the system's")
+      ->check(CLI::ExistingFile)
+      ->needs(updates);
+  app.add_option("--updates-rate", play.updates.kilobytes_per_second,
+                 "Kilobytes per second that it may fetch")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str()
+      ->needs(updates);
   app.add_option_function<std::string>(
          "--pace",
          [&play](const std::string& pace) {

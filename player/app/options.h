@@ -82,6 +82,13 @@ struct KioskOptions {
   double visit_minutes = 0.0;   // The longest visit; 0: no limit.
 };
 
+// Where a kiosk gets newer shows from (updater.h).
+struct UpdateOptions {
+  std::string url;           // empty: from nowhere
+  std::filesystem::path ca;  // Certificates that are trusted; empty: those of the system.
+  double kilobytes_per_second = 1000.0;
+};
+
 // Measures the tracker on sequences instead of playing.
 struct SequenceOptions {
   std::filesystem::path folder;  // The folder of sequences; empty: the show is played.
@@ -107,6 +114,7 @@ struct PlayOptions {
   DisplayOptions display;
   PageOptions staff_page;
   KioskOptions kiosk;
+  UpdateOptions updates;
   SequenceOptions benchmark;
   OutputOptions output;
 

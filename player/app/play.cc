@@ -21,12 +21,10 @@ void WarnOf(const Status& status, Log& log) {
 
 }  // namespace
 
-Status Play(const PlayOptions& options,
-            SteadyClock::time_point started,
-            Log& log,
-            const ChildStart& start,
-            Heartbeat heartbeat,
-            int staff_link) {
+Result<PlayEnd> Play(const PlayOptions& options,
+                     SteadyClock::time_point started,
+                     Log& log,
+                     const PlayLinks& links) {
   std::signal(SIGINT, TakeSignal);
   std::signal(SIGTERM, TakeSignal);
   std::optional<ThreadLimit> limit;
@@ -37,7 +35,7 @@ Status Play(const PlayOptions& options,
   if (options.sandbox && !sandbox) {
     log.Info("no sandbox: the headset's runtime needs the system");
   }
-  ShowSession session(options, started, log, start, heartbeat, staff_link);
+  ShowSession session(options, started, log, links);
   if (sandbox) {
     WarnOf(EnterOpeningSandbox(), log);
   }

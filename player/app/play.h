@@ -4,19 +4,29 @@
 
 #include "player/app/options.h"
 #include "player/kiosk/watchdog.h"
+#include "player/updates/update_watch.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 
 namespace lararium::player {
 
-// Runs a show until its source ends, the window closes, or the process gets SIGINT or SIGTERM.
-// started: start time of the program, for the statistics. start and heartbeat: only for the show of
-// a kiosk (watchdog.h). staff_link: StaffPage::link(); -1: there is no staff page.
-Status Play(const PlayOptions& options,
-            std::chrono::steady_clock::time_point started,
-            Log& log,
-            const ChildStart& start = {},
-            Heartbeat heartbeat = Heartbeat(),
-            int staff_link = -1);
+// Why a show has ended: it is over, or the watchdog is to start the player again.
+enum class PlayEnd { kOver, kStartAgain };
+
+// What only some runs of a show have.
+struct PlayLinks {
+  // Of a kiosk (watchdog.h).
+  ChildStart start = {};
+  Heartbeat heartbeat = Heartbeat();
+  int staff_link = -1;             // StaffPage::link(); -1: there is no staff page.
+  UpdateWatch* updates = nullptr;  // nullptr: there are no updates.
+};
+
+// Runs a show until its source ends, the window closes, the process gets SIGINT or SIGTERM, or it
+// is to be started again. started: start time of the program, for the statistics.
+Result<PlayEnd> Play(const PlayOptions& options,
+                     std::chrono::steady_clock::time_point started,
+                     Log& log,
+                     const PlayLinks& links = {});
 
 }  // namespace lararium::player

@@ -86,22 +86,21 @@ void RequestEnd() { g_end_requested = 1; }
 ShowSession::ShowSession(const PlayOptions& options,
                          SteadyClock::time_point started,
                          Log& log,
-                         const ChildStart& start,
-                         Heartbeat heartbeat,
-                         int staff_link)
+                         const PlayLinks& links)
     : options_(options),
       started_(started),
       log_(log),
       faults_(log),
-      heartbeat_(heartbeat),
-      restarts_(start.number),
+      heartbeat_(links.heartbeat),
+      restarts_(links.start.number),
       quality_(static_cast<size_t>(options.quality.value_or(0))),
+      updates_(links.updates),
       maker_(options.bundle, DramaOptionsOf(options), log) {
   // Created first, because it collects all warnings of the log.
-  if (staff_link >= 0) {
-    staff_.emplace(staff_link, log);
+  if (links.staff_link >= 0) {
+    staff_.emplace(links.staff_link, log);
   }
-  controls_.emplace(options.choices, options.kiosk, start, log);
+  controls_.emplace(options.choices, options.kiosk, links.start, log);
 }
 
 // --- Preparing
@@ -241,10 +240,15 @@ void ShowSession::OpenSound() {
 
 // --- The loop
 
+bool ShowSession::Outdated() {
+  return updates_ != nullptr && updates_->ready() && controls_->kiosk() != nullptr &&
+         !controls_->kiosk()->visited();
+}
+
 bool ShowSession::KeepGoing(double longest_work) {
   const bool enough = options_.frames > 0 && drawn_frames_ >= options_.frames;
-  const bool keep_going =
-      g_end_requested == 0 && !controls_->ends() && !enough && output_->screen().KeepGoing();
+  const bool keep_going = g_end_requested == 0 && !controls_->ends() && !enough && !Outdated() &&
+                          output_->screen().KeepGoing();
   TakeInput();
   if (drawn_frames_ > 0 && SteadyClock::now() - last_shown_ < kLongestSilence &&
       longest_work < kLongestWork) {
@@ -332,6 +336,9 @@ Status ShowSession::DrawFrame(show::StagedFrame& staged) {
                       [this](const geometry::CameraModel& eye) { controls_->ShowMenu(eye); }));
     drawn = SteadyClock::now();
     output_->Present();
+  }
+  if (updates_ != nullptr) {
+    updates_->Shown();
   }
   if (sound_ != nullptr) {
     sound_->Show(staged.sound);
@@ -457,7 +464,7 @@ void ShowSession::TellNotes(size_t first) {
   }
 }
 
-Status ShowSession::Run() {
+Result<PlayEnd> ShowSession::Run() {
   TellNotes(0);
   const size_t told = source_->Notes().size();
   const Status played = lock_step() ? RunLockStep() : RunRealtime();
@@ -477,9 +484,12 @@ Status ShowSession::Run() {
   }
   log_.Info("{} frames shown, {:.1f} % tracked", drawn_frames_,
             100.0 * statistics_.tracking.tracked_fraction());
-  return controls_->restarts()
-             ? Status::Error("staff page", "the staff asked to restart the player")
-             : Status();
+  if (g_end_requested == 0 && (controls_->restarts() || Outdated())) {
+    log_.Info("{}", controls_->restarts() ? "the staff asked to restart the player"
+                                          : "a newer show is there; it is started");
+    return PlayEnd::kStartAgain;
+  }
+  return PlayEnd::kOver;
 }
 
 }  // namespace lararium::player

@@ -13,6 +13,7 @@
 #include "player/app/options.h"
 #include "player/app/osc.h"
 #include "player/app/picture_output.h"
+#include "player/app/play.h"
 #include "player/app/quality_control.h"
 #include "player/app/recorder.h"
 #include "player/app/show_maker.h"
@@ -43,14 +44,12 @@ class ShowSession {
   ShowSession(const PlayOptions& options,
               SteadyClock::time_point started,
               Log& log,
-              const ChildStart& start,
-              Heartbeat heartbeat,
-              int staff_link);
+              const PlayLinks& links);
 
   // Opens and loads everything.
   Status Prepare();
   // Plays the show until its end.
-  Status Run();
+  Result<PlayEnd> Run();
 
  private:
   // Preparing.
@@ -68,6 +67,8 @@ class ShowSession {
   Status RunRealtime();
   // longest_work: see RealtimePipeline.
   bool KeepGoing(double longest_work = 0.0);
+  // Whether a newer show waits and no visitor would see the change.
+  bool Outdated();
   void TakeInput();
   Status DrawFrame(show::StagedFrame& staged);
   Status ServeOpenXr();
@@ -102,6 +103,7 @@ class ShowSession {
   std::unique_ptr<PictureOutput> output_;
   std::optional<VisitorControls> controls_;  // The constructor always sets it.
   std::optional<StaffReporter> staff_;       // nullopt: no staff page.
+  UpdateWatch* updates_;                     // nullptr: no updates
   int64_t told_statistics_ = -1;
   std::optional<Recorder> recorder_;
   std::optional<HeapKeeper> heap_keeper_;      // Set after the first pictures.

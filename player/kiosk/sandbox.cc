@@ -179,24 +179,39 @@ Status EnterOpeningSandbox() {
   return Load(filter.get());
 }
 
-Status EnterSandbox() {
-  const Filter filter(seccomp_init(SCMP_ACT_ALLOW));
+namespace {
+
+// A filter that forbids what neither readers nor connections need, other processes among it.
+Result<Filter> ForbidOpening() {
+  Filter filter(seccomp_init(SCMP_ACT_ALLOW));
   LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeverNeeded));
   LARARIUM_RETURN_IF_ERROR(Forbid(filter, kNeededToOpen));
-  // Displays and sound need local sockets (AF_UNIX); all others are forbidden.
-  const int sockets = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(socket), 1,
-                                       First(SCMP_CMP_NE, AF_UNIX));
   // New threads share their memory and are allowed; new processes do not and are forbidden.
   const int processes = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(clone), 1,
                                          First(SCMP_CMP_MASKED_EQ, 0x00000100 /* CLONE_VM */));
   // The flags of clone3 lie in memory, which a filter cannot read. If it fails, libraries use
   // clone.
   const int clone3 = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
-  for (const int added : {sockets, processes, clone3}) {
+  for (const int added : {processes, clone3}) {
     if (added != 0) {
       return Problem("cannot be created", added);
     }
   }
+  return filter;
+}
+
+}  // namespace
+
+Status EnterSandbox() {
+  LARARIUM_ASSIGN_OR_RETURN(const Filter filter, ForbidOpening());
+  // Displays and sound need local sockets (AF_UNIX); all others are forbidden.
+  const int added = seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EPERM), SCMP_SYS(socket), 1,
+                                     First(SCMP_CMP_NE, AF_UNIX));
+  return added != 0 ? Problem("cannot be created", added) : Load(filter.get());
+}
+
+Status EnterUpdateSandbox() {
+  LARARIUM_ASSIGN_OR_RETURN(const Filter filter, ForbidOpening());
   return Load(filter.get());
 }
 

@@ -18,6 +18,10 @@ Status EnterOpeningSandbox();
 // Call this when devices and drivers are open.
 Status EnterSandbox();
 
+// For the process that fetches updates (updater.h). It may connect to other machines and write
+// files. It cannot start programs or wait for connections.
+Status EnterUpdateSandbox();
+
 // For the process of the staff page (staff_page.h), the only one that other machines can reach. It
 // may accept connections on the listening socket, use these connections and allocate memory. It
 // cannot open files or sockets or connect to other machines.

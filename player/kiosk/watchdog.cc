@@ -240,6 +240,11 @@ int Supervise(const std::function<int(const ChildStart&, Heartbeat&)>& child,
       TellSystemd("STOPPING=1");
       return code;
     }
+    if (code == kStartAgain) {
+      start.failed_starts = 0;
+      ++start.number;
+      continue;
+    }
     const bool lived = process.age() >= options.stable_seconds;
     start.failed_starts = lived ? 0 : start.failed_starts + 1;
     pause = start.failed_starts <= 1

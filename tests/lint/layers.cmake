@@ -12,7 +12,7 @@ set(floors
   "web/page"
   "editor/text"
   "editor/desktop editor/train editor/import editor/export player/kiosk player/benchmark"
-  "editor/bake editor/colmap player/staff player/openxr"
+  "editor/bake editor/colmap player/staff player/openxr player/updates"
   "editor/document player/app"
   "editor/jobs"
   "editor/check"

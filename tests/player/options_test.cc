@@ -38,6 +38,15 @@ TEST_F(OptionsTest, OnlyAKiosksVisitsHaveTheirTime) {
   EXPECT_EQ(ExitCode({show_, "--kiosk", "--visit-minutes", "0"}), 2);
 }
 
+TEST_F(OptionsTest, OnlyAKioskThatTrustsAKeyIsUpdated) {
+  const std::string url = "https://shows.museum.example/tavern";
+  const Command command = Parse({show_, "--kiosk", "--trust", show_, "--updates", url});
+  EXPECT_EQ(std::get<PlayOptions>(command).updates.url, url);
+  EXPECT_EQ(ExitCode({show_, "--kiosk", "--updates", url}), 2);
+  EXPECT_EQ(ExitCode({show_, "--trust", show_, "--updates", url}), 2);
+  EXPECT_EQ(ExitCode({show_, "--kiosk", "--trust", show_, "--updates", "file:///shows"}), 2);
+}
+
 TEST_F(OptionsTest, TheDisplayIsTheDevicesUnlessItIsGiven) {
   EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).display.mode.has_value());
   EXPECT_EQ(std::get<PlayOptions>(Parse({show_, "--display", "side-by-side"})).display.mode,

@@ -76,6 +76,15 @@ TEST_F(WatchdogTest, WrongUsageIsNotTriedAgain) {
   EXPECT_EQ(Run([](const ChildStart&, Heartbeat&) { return 2; }), 2);
 }
 
+TEST_F(WatchdogTest, AShowThatAsksForItIsStartedAgainAndHasNotFailed) {
+  EXPECT_EQ(Run([&](const ChildStart& start, Heartbeat&) {
+              Say(std::to_string(start.failed_starts));
+              return start.number == 0 ? 1 : start.number < 3 ? kStartAgain : 0;
+            }),
+            0);
+  EXPECT_EQ(said(), "0\n1\n0\n0\n");
+}
+
 TEST_F(WatchdogTest, AShowThatCrashesIsBegunAgain) {
   const int code = Run([this](const ChildStart& start, Heartbeat& heartbeat) {
     Say(std::to_string(start.number) + "/" + std::to_string(start.failed_starts));
