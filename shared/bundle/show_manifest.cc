@@ -149,6 +149,7 @@ void ManifestDescription::Place(PlaceEntry& place) {
 void ManifestDescription::Object(ObjectEntry& object) {
   fields_.Text("name", object.name, kMaxName);
   Member("prop", object.prop);
+  OptionalMember("extent", object.extent);
   geometry::Similarity3 pose = {1.0, object.stage_from_object.rotation,
                                 object.stage_from_object.translation};
   fields_.Object("stage_from_object", pose, DescribeSimilarity);
@@ -200,6 +201,7 @@ void ManifestDescription::Describe(ShowManifest& manifest) {
   NamedList("cast", manifest.cast, kMaxCast, [this](CastEntry& cast) {
     fields_.Text("name", cast.name, kMaxName);
     Member("human", cast.human);
+    OptionalMember("motion", cast.motion);
   });
   NamedList("objects", manifest.objects, kMaxObjects,
             [this](ObjectEntry& object) { Object(object); });

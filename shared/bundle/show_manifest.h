@@ -54,6 +54,9 @@ struct PlaceEntry {
 struct CastEntry {
   std::string name;
   std::string human;  // member, .larhuman
+  // Member, .larhuman: the person without meshes, with which the drama plays until `human` has
+  // arrived, and the clips, which `human` lacks then. Empty: `human` has all.
+  std::string motion = {};
 };
 
 // An object on stage at the beginning of the drama.
@@ -61,6 +64,9 @@ struct ObjectEntry {
   std::string name;
   std::string prop;  // member, .larprop
   geometry::Rigid3 stage_from_object;
+  // Member, .larprop: the same without what is drawn, with which the drama plays until `prop` has
+  // arrived. Empty: the drama needs `prop`.
+  std::string extent = {};
 };
 
 // A line as it is spoken in one language.

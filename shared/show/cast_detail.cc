@@ -66,7 +66,7 @@ void CastDetail::Choose(std::span<const VisibleActor> visible,
 std::optional<LodStreamer::Person> CastDetail::TakeFiner() {
   std::optional<LodStreamer::Person> person = lod_streamer_.Take();
   if (person) {
-    levels_[person->cast] = render::FindDetailLevels(*person->figure.human);
+    SetLevels(person->cast, *person->figure.human);
   }
   return person;
 }

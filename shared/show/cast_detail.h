@@ -61,6 +61,11 @@ class CastDetail {
   const Choice& choice() const { return choice_; }
   void SetChoice(Choice choice) { choice_ = std::move(choice); }
 
+  // From now on the levels of a member of the cast are those of this mesh.
+  void SetLevels(size_t cast, const human::Human& human) {
+    levels_[cast] = render::FindDetailLevels(human);
+  }
+
   // State of the level of detail that is being read; when done, the next frame uses it.
   LodStreamer::Reading reading_finer() const { return lod_streamer_.reading(); }
   // Returns a person whose finer level has been read; from now on the levels are those of it.

@@ -23,6 +23,14 @@ void CastStage::SetMesh(size_t cast, CharacterMesh figure) {
   bodies_[cast].SetMesh(std::move(figure));
 }
 
+void CastStage::SetPerson(size_t cast, const std::shared_ptr<const human::AnimationRig>& model) {
+  if (!other_bodies_.empty()) {
+    other_bodies_[cast] = CharacterInstance(model);
+  }
+  bodies_[cast] = CharacterInstance(model);
+  detail_.SetLevels(cast, *model->human);
+}
+
 double CastStage::Stage(const stage::StageSnapshot& drawn,
                         double time,
                         const geometry::CameraModel& image_camera,
@@ -102,11 +110,11 @@ Mouth CastStage::MouthOf(size_t cast, const stage::ActorState& state) const {
   return mouth;
 }
 
-void CastStage::SetAside(const stage::Stage& stage) {
+void CastStage::SetAside() {
   if (other_bodies_.empty()) {
-    for (size_t cast = 0; cast < actors_.size(); ++cast) {
-      other_bodies_.emplace_back(stage.Find(actors_[cast])->model);
-      other_bodies_.back().SetMesh(CharacterMesh(bodies_[cast].figure()));
+    for (const CharacterInstance& body : bodies_) {
+      other_bodies_.emplace_back(body.model());
+      other_bodies_.back().SetMesh(CharacterMesh(body.figure()));
     }
   }
   for (CharacterInstance& body : other_bodies_) {

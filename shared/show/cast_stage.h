@@ -2,6 +2,7 @@
 
 // The bodies of the cast, simulated from frame to frame.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +26,8 @@ class CastStage {
   std::span<const stage::ActorId> actors() const { return actors_; }
   const CharacterInstance& body(size_t cast) const { return bodies_[cast]; }
   void SetMesh(size_t cast, CharacterMesh figure);
+  // Replaces a body by that of another rig of the same person. Its hair and cloth begin at rest.
+  void SetPerson(size_t cast, const std::shared_ptr<const human::AnimationRig>& model);
 
   // Steps the simulation of the visible actors of `drawn` to `time` (seconds), computes their
   // moving vertices and fills `people`; people run in parallel. Without a pose of the camera the
@@ -45,7 +48,7 @@ class CastStage {
 
   // Until Restore(), Stage() uses other bodies, with hair and cloth at rest. Restore() also brings
   // back the choice of details.
-  void SetAside(const stage::Stage& stage);
+  void SetAside();
   void Restore();
 
  private:

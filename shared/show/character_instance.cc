@@ -45,7 +45,8 @@ BodyDetail ChooseBodyDetail(float height_px, bool not_seen, const BodyDetail& be
 }
 
 CharacterInstance::CharacterInstance(std::shared_ptr<const human::AnimationRig> model)
-    : animator_(std::move(model)),
+    : model_(std::move(model)),
+      animator_(model_),
       figure_(animator_.model().human),
       cloth_(figure_.cloth),
       spring_model_(human()),

@@ -55,6 +55,7 @@ class CharacterInstance {
   explicit CharacterInstance(std::shared_ptr<const human::AnimationRig> model);
 
   const human::Human& human() const { return animator_.human(); }
+  const std::shared_ptr<const human::AnimationRig>& model() const { return model_; }
   const std::shared_ptr<const human::Human>& figure() const { return figure_.human; }
 
   // Height of the highest vertex above the soles in the bind pose, but at least that of the eyes;
@@ -93,6 +94,7 @@ class CharacterInstance {
  private:
   void FindMovingMeshes(const BodyDetail& detail);
 
+  std::shared_ptr<const human::AnimationRig> model_;
   human::Animator animator_;
   CharacterMesh figure_;
   human::ClothState cloth_;

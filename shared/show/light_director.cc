@@ -12,6 +12,12 @@ namespace {
 // Assumed distance, in metres, from the camera to the real surfaces that receive people's shadows.
 constexpr float kViewedDistance = 3.0f;
 
+// PersonLight keeps the data that it needs from the meshes.
+void ReleaseMeshes(human::Human& figure) {
+  figure.meshes = {};
+  figure.light.meshes = {};
+}
+
 // Blends the light on the real surfaces in view.
 void BlendInView(const PlaceLight& place,
                  const std::optional<geometry::Rigid3>& camera_from_stage,
@@ -57,12 +63,11 @@ LightDirector::LightDirector(const ShowContent& content) : cast_count_(content.c
     const stage::Prop& prop = object.model->prop();
     cast.push_back(figures.emplace_back(FigureOf(prop)));
     light.push_back(object.light);
-    things_.push_back({std::vector<glm::mat4>(prop.parts.size()), {}, ThingMemory(RadiusOf(prop))});
+    things_.emplace_back(prop);
   }
   stage_light_.emplace(cast, light);
   for (const std::shared_ptr<human::Human>& figure : figures) {
-    figure->meshes = {};  // PersonLight keeps the data that it needs from them.
-    figure->light.meshes = {};
+    ReleaseMeshes(*figure);
   }
   for (const ShowPlace& place : content.places) {
     shades_.emplace_back(place.stage.occluders);
@@ -77,6 +82,20 @@ void LightDirector::SetMesh(uint32_t cast,
                             std::shared_ptr<const human::Human> human,
                             std::shared_ptr<const UnpackedLight> light) {
   stage_light_->SetMesh(cast, std::move(human), std::move(light));
+}
+
+void LightDirector::SetPerson(uint32_t cast,
+                              std::shared_ptr<const human::Human> human,
+                              std::shared_ptr<const UnpackedLight> light) {
+  stage_light_->SetMember(cast, std::move(human), std::move(light));
+}
+
+void LightDirector::SetObject(size_t index, const StageObject& object) {
+  const stage::Prop& prop = object.model->prop();
+  things_[index] = Thing(prop);
+  const std::shared_ptr<human::Human> figure = FigureOf(prop);
+  stage_light_->SetMember(static_cast<uint32_t>(cast_count_ + index), figure, object.light);
+  ReleaseMeshes(*figure);
 }
 
 uint32_t LightDirector::LitVerticesOf(uint32_t object) const {

@@ -37,6 +37,12 @@ class LightDirector {
   void SetMesh(uint32_t cast,
                std::shared_ptr<const human::Human> human,
                std::shared_ptr<const UnpackedLight> light);
+  // Replaces a member of the cast.
+  void SetPerson(uint32_t cast,
+                 std::shared_ptr<const human::Human> human,
+                 std::shared_ptr<const UnpackedLight> light);
+  // Replaces an object.
+  void SetObject(size_t index, const StageObject& object);
 
   // Number of vertices of an object that have irradiance; 0: it is lit without shadows.
   uint32_t LitVerticesOf(uint32_t object) const;
@@ -57,6 +63,8 @@ class LightDirector {
 
  private:
   struct Thing {
+    explicit Thing(const stage::Prop& prop) : skin(prop.parts.size()), memory(RadiusOf(prop)) {}
+
     std::vector<glm::mat4> skin;        // Matrices of the current frame.
     std::vector<glm::vec3> irradiance;  // Result of the last lighting.
     ThingMemory memory;

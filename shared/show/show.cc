@@ -101,6 +101,32 @@ void Show::AdvanceTo(double time) {
   }
 }
 
+void Show::SetPerson(size_t cast, CastMember member) {
+  CHECK(member.model != nullptr);
+  CastMember& known = content_.cast[cast];
+  member.name = std::move(known.name);
+  member.title = std::move(known.title);
+  known = std::move(member);
+  cast_->SetPerson(cast, known.model);
+  light_->SetPerson(static_cast<uint32_t>(cast), known.human, known.light);
+}
+
+void Show::SetObjects(const std::vector<StageObject>& objects) {
+  CHECK(objects.size() == content_.objects.size());
+  for (size_t i = 0; i < objects.size(); ++i) {
+    content_.objects[i].model = objects[i].model;
+    content_.objects[i].light = objects[i].light;
+    light_->SetObject(i, objects[i]);
+  }
+}
+
+Status Show::SetSounds(const ShowContent& content, Log& log) {
+  LARARIUM_ASSIGN_OR_RETURN(SoundDirector sound, SoundDirector::Create(content, log));
+  sound.ResumeFrom(*sound_);
+  sound_ = std::move(sound);
+  return Status();
+}
+
 Status Show::Reload(std::string_view script) {
   Status status = drama_->Reload(script);
   ShowTick();
@@ -421,7 +447,7 @@ Status Show::StageAtTime(double time, const StagedFrame& now, StagedFrame& other
                   .opacity = now.camera.opacity,
                   .gain = now.camera.gain};
   other.lines.clear();
-  cast_->SetAside(stage_);
+  cast_->SetAside();
   light_->SetAside();
   const Status status = drama_->Glance(std::max(time, 0.0), [&] {
     stage_.Capture(drawn_);

@@ -70,6 +70,16 @@ class Show {
   // frame is being staged. Fails if no floor is left to walk on; the drama continues.
   Status LayFloor();
 
+  // Gives a member of the cast its body, of which only the motion was known (LoadCastMember()), or
+  // the objects what is drawn of them (LoadObjects()). The drama does not notice. Do not call while
+  // a frame is being staged, like SetSounds().
+  void SetPerson(size_t cast, CastMember member);
+  void SetObjects(const std::vector<StageObject>& objects);
+
+  // Takes the sounds of `content`, of which some had not arrived before. Its lines and sounds are
+  // those of this show. sounds() is another library afterwards. Borrows log.
+  Status SetSounds(const ShowContent& content, Log& log);
+
   // From now on people fade while tracking is lost, and the visitor is guided. Without this call
   // they vanish together with the pose. Do not call while a frame is being staged.
   void SetTrackingLossFader(const TrackingLossFaderOptions& options) { poses_.SetFader(options); }

@@ -60,7 +60,7 @@ Result<ShowPlace> LoadPlace(const bundle::Bundle& bundle, const bundle::PlaceEnt
   LARARIUM_ASSIGN_OR_RETURN(place.stage, LoadStage(bundle, entry));
   for (const std::string& member : entry.glossy) {
     place.glossy.emplace_back();
-    if (!member.empty()) {
+    if (bundle.Has(member)) {
       LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member));
       LARARIUM_ASSIGN_OR_RETURN(place.glossy.back(),
                                 light::ParseGlossyMap(bytes, bundle.place() + ": " + member));
@@ -125,18 +125,46 @@ DrawnPerson MakeDrawnPerson(human::Human human, human::TexturePool& textures) {
 
 namespace {
 
-Status LoadPerson(const bundle::Bundle& bundle,
-                  const bundle::CastEntry& entry,
-                  float finest,
-                  human::TexturePool& textures,
-                  CastMember& person) {
-  LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.human));
-  LARARIUM_ASSIGN_OR_RETURN(human::Human human,
-                            human::ParseHuman(bytes, bundle.place() + ": " + entry.human, finest));
-  person = MakeCastMember(std::move(human), finest, textures);
-  person.name = entry.name;
-  return Status();
+Result<human::Human> ParseMember(const bundle::Bundle& bundle,
+                                 const std::string& member,
+                                 float finest = 0.0f) {
+  LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member));
+  return human::ParseHuman(bytes, bundle.place() + ": " + member, finest);
 }
+
+// Reads a person, of whom only the motion may have arrived.
+Result<human::Human> LoadHuman(const bundle::Bundle& bundle,
+                               const bundle::CastEntry& entry,
+                               float finest) {
+  if (entry.motion.empty()) {
+    return ParseMember(bundle, entry.human, finest);
+  }
+  LARARIUM_ASSIGN_OR_RETURN(human::Human motion, ParseMember(bundle, entry.motion));
+  if (!bundle.Has(entry.human)) {
+    return motion;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(human::Human human, ParseMember(bundle, entry.human, finest));
+  if (human.skeleton.names != motion.skeleton.names) {
+    return Status::Error(bundle.place() + ": " + entry.human,
+                         "has other joints than '" + entry.motion + "'", "export the show again");
+  }
+  human.clips = std::move(motion.clips);
+  return human;
+}
+
+}  // namespace
+
+Result<CastMember> LoadCastMember(const bundle::Bundle& bundle,
+                                  const bundle::CastEntry& entry,
+                                  float finest,
+                                  human::TexturePool& textures) {
+  LARARIUM_ASSIGN_OR_RETURN(human::Human human, LoadHuman(bundle, entry, finest));
+  CastMember person = MakeCastMember(std::move(human), finest, textures);
+  person.name = entry.name;
+  return person;
+}
+
+namespace {
 
 // Loads people in parallel: they are most of the content.
 Status LoadCast(const bundle::Bundle& bundle,
@@ -147,7 +175,11 @@ Status LoadCast(const bundle::Bundle& bundle,
   cast.resize(entries.size());
   std::vector<Status> loaded(entries.size());
   ParallelFor(entries.size(), [&](size_t i) {
-    loaded[i] = LoadPerson(bundle, entries[i], finest, textures, cast[i]);
+    Result<CastMember> person = LoadCastMember(bundle, entries[i], finest, textures);
+    loaded[i] = person.status();
+    if (person.ok()) {
+      cast[i] = *std::move(person);
+    }
   });
   for (const Status& status : loaded) {
     LARARIUM_RETURN_IF_ERROR(status);
@@ -176,15 +208,19 @@ Result<ReadPerson> ReadsAgain(const bundle::Bundle& bundle,
 }
 
 // Objects with the same prop share its model.
-Status LoadObjects(const bundle::Bundle& bundle,
-                   human::TexturePool& textures,
-                   std::vector<StageObject>& objects) {
+}  // namespace
+
+Result<std::vector<StageObject>> LoadObjects(const bundle::Bundle& bundle,
+                                             human::TexturePool& textures) {
+  std::vector<StageObject> objects;
   std::map<std::string, StageObject> known;  // Keyed by prop.
   for (const bundle::ObjectEntry& entry : bundle.manifest().objects) {
     StageObject& object = known[entry.prop];
     if (object.model == nullptr) {
-      const std::string place = bundle.place() + ": " + entry.prop;
-      LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(entry.prop));
+      const bool waits = !entry.extent.empty() && !bundle.Has(entry.prop);
+      const std::string& member = waits ? entry.extent : entry.prop;
+      const std::string place = bundle.place() + ": " + member;
+      LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member));
       LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(bytes, place));
       textures.Share(prop.textures);
       LARARIUM_ASSIGN_OR_RETURN(const auto model,
@@ -197,8 +233,10 @@ Status LoadObjects(const bundle::Bundle& bundle,
     object.stage_from_object = {geometry::ToGlm(pose.translation), geometry::ToGlm(pose.rotation)};
     objects.push_back(object);
   }
-  return Status();
+  return objects;
 }
+
+namespace {
 
 Result<std::string> LoadText(const bundle::Bundle& bundle, const std::string& member) {
   LARARIUM_ASSIGN_OR_RETURN(const auto bytes, bundle.member(member));
@@ -266,7 +304,7 @@ Result<Speech> LoadLine(const bundle::Bundle& bundle,
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, members.visemes));
   LARARIUM_ASSIGN_OR_RETURN(line.visemes,
                             stage::ParseVisemes(text, bundle.place() + ": " + members.visemes));
-  if (!members.sound.empty()) {
+  if (bundle.Has(members.sound)) {
     LARARIUM_ASSIGN_OR_RETURN(const auto sound, bundle.member(members.sound));
     line.sound.assign(sound.begin(), sound.end());
   }
@@ -447,7 +485,7 @@ Result<NeededMembers> FindNeededMembers(const bundle::ShowManifest& manifest,
     for (const bundle::OccluderEntry& occluder : place.occluders) {
       needed.guide.push_back(occluder.mesh);
     }
-    needed.guide.insert(needed.guide.end(), place.glossy.begin(), place.glossy.end());
+    needed.rest.insert(needed.rest.end(), place.glossy.begin(), place.glossy.end());
   }
   for (const bundle::SpokenLanguage& language : manifest.spoken) {
     needed.language.push_back(language.captions);
@@ -466,20 +504,23 @@ Result<NeededMembers> FindNeededMembers(const bundle::ShowManifest& manifest,
     if (const auto* spoken =
             FindSpoken(SaidIn(manifest, describes), line, languages.Of(describes).spoken)) {
       needed.language.push_back(spoken->second.visemes);
-      needed.language.push_back(spoken->second.sound);
+      needed.voices.push_back(spoken->second.sound);
     }
   }
   for (const bundle::SoundEntry& sound : manifest.sounds) {
     needed.language.push_back(sound.file);
   }
-  needed.rest = {manifest.drama, manifest.paradata};
+  needed.rest.insert(needed.rest.begin(), {manifest.drama, manifest.paradata});
   for (const bundle::CastEntry& cast : manifest.cast) {
-    needed.rest.push_back(cast.human);
+    needed.rest.push_back(cast.motion.empty() ? cast.human : cast.motion);
+    needed.people.push_back(cast.motion.empty() ? "" : cast.human);
   }
   for (const bundle::ObjectEntry& object : manifest.objects) {
-    needed.rest.push_back(object.prop);
+    needed.rest.push_back(object.extent.empty() ? object.prop : object.extent);
+    needed.things.push_back(object.extent.empty() ? "" : object.prop);
   }
-  for (std::vector<std::string>* list : {&needed.guide, &needed.language, &needed.rest}) {
+  for (std::vector<std::string>* list : {&needed.guide, &needed.language, &needed.voices,
+                                         &needed.rest, &needed.people, &needed.things}) {
     std::set<std::string> known = {""};
     std::erase_if(*list, [&known](const std::string& name) { return !known.insert(name).second; });
   }
@@ -514,7 +555,7 @@ Result<ShowContent> LoadShowContent(const bundle::Bundle& bundle,
   if (finest > 0.0f) {
     LARARIUM_ASSIGN_OR_RETURN(content.finer, ReadsAgain(bundle, textures));
   }
-  LARARIUM_RETURN_IF_ERROR(LoadObjects(bundle, *textures, content.objects));
+  LARARIUM_ASSIGN_OR_RETURN(content.objects, LoadObjects(bundle, *textures));
   LARARIUM_ASSIGN_OR_RETURN(const Languages languages,
                             ResolveLanguages(manifest, choice, bundle.place()));
   LARARIUM_RETURN_IF_ERROR(LoadTexts(bundle, languages, content));

@@ -139,19 +139,40 @@ std::vector<vision::OccluderMesh> OccludersInMap(const stage::Place& place);
 // Passes the places' occluders to a tracker that was created with Maps().
 void SetOccluders(std::span<const ShowPlace> places, vision::PoseSource& poses);
 
-// The members that a show needs in these languages, the most important first.
+// The members that a show needs in these languages, the most important first. Where members arrive
+// one by one, LoadShowContent() reads all of them but `voices`, `people` and `things`, and of these
+// what has arrived.
 struct NeededMembers {
-  std::vector<std::string> guide;     // LoadGuideContent() reads these.
-  std::vector<std::string> language;  // LoadInLanguages() reads these.
-  std::vector<std::string> rest;      // LoadShowContent() reads these and all others.
+  std::vector<std::string> guide;  // LoadGuideContent() reads these.
+  // LoadInLanguages() reads these, and `voices`.
+  std::vector<std::string> language;
+  std::vector<std::string>
+      voices;  // Sounds of lines. Lines without one take their time in silence.
+  std::vector<std::string> rest;
+  // What the drama does without at first: CastEntry::human where there is a `motion`, and
+  // ObjectEntry::prop where there is an `extent`.
+  std::vector<std::string> people;
+  std::vector<std::string> things;
 };
 Result<NeededMembers> FindNeededMembers(const bundle::ShowManifest& manifest,
                                         const LanguageChoice& languages,
                                         const std::string& where);
 
 // Loads all places of the bundle, or only the named one. Each member's reader validates it.
+// Reflections may arrive later.
 Result<std::vector<ShowPlace>> LoadShowPlaces(const bundle::Bundle& bundle,
                                               std::string_view place = {});
+
+// Loads a member of the cast, without its title. A person of whom only the motion has arrived is
+// not drawn. finest: see LoadShowContent().
+Result<CastMember> LoadCastMember(const bundle::Bundle& bundle,
+                                  const bundle::CastEntry& entry,
+                                  float finest,
+                                  human::TexturePool& textures);
+
+// Loads the objects. Those of which only the extent has arrived are not drawn.
+Result<std::vector<StageObject>> LoadObjects(const bundle::Bundle& bundle,
+                                             human::TexturePool& textures);
 
 // Loads a show without people, objects and drama, which only guides visitors to its places.
 Result<ShowContent> LoadGuideContent(const bundle::Bundle& bundle,

@@ -79,6 +79,17 @@ Status ShowRenderer::SetTexts(const ShowContent& content) {
   return Status();
 }
 
+Status ShowRenderer::SetObjects(const ShowContent& content) {
+  for (size_t i = 0; i < objects_.size(); ++i) {
+    if (std::find(objects_.begin(), objects_.begin() + static_cast<ptrdiff_t>(i), objects_[i]) ==
+        objects_.begin() + static_cast<ptrdiff_t>(i)) {
+      renderer_->RemoveModel(objects_[i]);
+    }
+  }
+  objects_.clear();
+  return AddObjects(content);
+}
+
 // Objects of one model share its GPU data.
 Status ShowRenderer::AddObjects(const ShowContent& content) {
   for (size_t i = 0; i < content.objects.size(); ++i) {

@@ -52,6 +52,9 @@ class ShowRenderer {
     captions_->SetStyle(style);
   }
 
+  // Draws the objects of the same show that Show::SetObjects() has changed.
+  Status SetObjects(const ShowContent& content);
+
   // Replaces the texts by those of the same show in another language.
   Status SetTexts(const ShowContent& content);
 

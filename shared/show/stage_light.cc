@@ -23,18 +23,27 @@ size_t LitVertices(const human::Human& human) {
 }
 
 StageLight::StageLight(std::span<const std::shared_ptr<const human::Human>> cast,
-                       std::span<const std::shared_ptr<const UnpackedLight>> light) {
-  for (size_t i = 0; i < cast.size(); ++i) {
-    const std::shared_ptr<const human::Human>& human = cast[i];
-    vertex_counts_.push_back(CountVertices(*human));
-    lights_.push_back(!human->light.empty());
-    const bool shades = !human->light.blockers.empty();
-    people_.push_back(lights_.back() || shades
-                          ? std::make_unique<PersonLight>(human, light.empty() ? nullptr : light[i])
-                          : nullptr);
+                       std::span<const std::shared_ptr<const UnpackedLight>> light)
+    : people_(cast.size()),
+      matrices_(cast.size()),
+      lights_(cast.size()),
+      vertex_counts_(cast.size()),
+      others_(cast.size()) {
+  for (uint32_t i = 0; i < cast.size(); ++i) {
+    SetMember(i, cast[i], light.empty() ? nullptr : light[i]);
   }
-  matrices_.resize(people_.size());
-  others_.resize(people_.size());
+}
+
+void StageLight::SetMember(uint32_t cast,
+                           std::shared_ptr<const human::Human> human,
+                           std::shared_ptr<const UnpackedLight> light) {
+  vertex_counts_[cast] = CountVertices(*human);
+  lights_[cast] = !human->light.empty();
+  matrices_[cast] = {};
+  const bool shades = !human->light.blockers.empty();
+  people_[cast] = lights_[cast] || shades
+                      ? std::make_unique<PersonLight>(std::move(human), std::move(light))
+                      : nullptr;
 }
 
 void StageLight::SetMesh(uint32_t cast,

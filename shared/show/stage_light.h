@@ -42,6 +42,11 @@ class StageLight {
                std::shared_ptr<const human::Human> human,
                std::shared_ptr<const UnpackedLight> light);
 
+  // Replaces a member, whose light is computed as if it had just come.
+  void SetMember(uint32_t cast,
+                 std::shared_ptr<const human::Human> human,
+                 std::shared_ptr<const UnpackedLight> light);
+
   bool Lights(uint32_t cast) const { return lights_[cast]; }
   // Number of vertices of all meshes of a member.
   size_t vertex_count(uint32_t cast) const { return vertex_counts_[cast]; }

@@ -70,6 +70,20 @@ TEST(ShowManifest, ProbesMayHaveReflections) {
   EXPECT_EQ(parsed->places[0].glossy, manifest.places[0].glossy);
 }
 
+TEST(ShowManifest, PeopleAndThingsMayHaveApartWhatTheDramaNeeds) {
+  ShowManifest manifest = Listed();
+  manifest.cast[0].motion = "cast/0.motion.larhuman";
+  EXPECT_THAT(ParseShowManifest(FormatShowManifest(manifest), "m").message(),
+              HasSubstr("'cast/0.motion.larhuman' is used but not listed"));
+  manifest.members.push_back({"cast/0.motion.larhuman", 1, ComputeSha256({})});
+  const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "m");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  EXPECT_EQ(parsed->cast[0].motion, manifest.cast[0].motion);
+  manifest.objects = {{"cup", "drama.lua", {}, "props/0.extent.larprop"}};
+  EXPECT_THAT(ParseShowManifest(FormatShowManifest(manifest), "m").message(),
+              HasSubstr("'props/0.extent.larprop' is used but not listed"));
+}
+
 TEST(ShowManifest, ParadataAreAMember) {
   ShowManifest manifest = Listed();
   manifest.paradata = "paradata.json";

@@ -4,12 +4,14 @@
 #include <spdlog/sinks/ostream_sink.h>
 
 #include <chrono>
+#include <glm/geometric.hpp>
 #include <sstream>
 #include <thread>
 #include <utility>
 
 #include "shared/show/show.h"
 #include "tests/show/small_show.h"
+#include "tests/stage/test_props.h"
 
 namespace lararium::show {
 namespace {
@@ -126,34 +128,46 @@ TEST_F(FinerCastTest, AWholeCastHasNoMore) {
   EXPECT_FALSE(whole.Take());
 }
 
+// A person with a sheet that is lit.
+human::Human Lit() {
+  human::Human human = *test::SmallContent().cast[0].human;
+  human.meshes.resize(1);
+  human::SkinnedMesh& mesh = human.meshes[0];
+  mesh = {};
+  mesh.name = "sheet";
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  mesh.normals.assign(4, glm::vec3(0.0f, 0.0f, 1.0f));
+  mesh.albedo.assign(4, glm::vec3(0.5f));
+  mesh.joints.assign(4, {0, 0, 0, 0});
+  mesh.weights.assign(4, glm::vec4(1.0f, 0.0f, 0.0f, 0.0f));
+  mesh.indices = {0, 1, 2, 2, 1, 3};
+  mesh.coarser = {{0.05f, {0, 1, 2}}};
+  human::LightTransfer& light = human.light;
+  light.count = 9;
+  light.key_poses = {human.skeleton.rest};
+  light.receivers = {{0, {0.5f, 0.5f, 0.1f}}};
+  light.meshes.resize(1);
+  light.meshes[0].receivers.assign(4, {0, 0, 0, 0});
+  light.meshes[0].weights.assign(4, {255, 0, 0, 0});
+  for (int i = 0; i < 4 * 3 * 9; ++i) {
+    light.meshes[0].coefficients.push_back(static_cast<int8_t>(i * 37 % 127));
+  }
+  light.meshes[0].scale.assign(4, 0.01f);
+  return human;
+}
+
+vision::TrackedFrame FrameAt(int64_t index) {
+  geometry::Frame frame;
+  frame.index = index;
+  frame.capture_time = static_cast<double>(index) / 30.0;
+  vision::TrackedFrame tracked = test::FakePoses().Track(frame);
+  tracked.camera = {64, 48, 60.0, 60.0, 31.5, 23.5};
+  return tracked;
+}
+
 // A show whose cast was read again equals a show that read all detail at the beginning.
 TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
-  const auto whole = []() {
-    human::Human human = *test::SmallContent().cast[0].human;
-    human.meshes.resize(1);
-    human::SkinnedMesh& mesh = human.meshes[0];
-    mesh = {};
-    mesh.name = "sheet";
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-    mesh.normals.assign(4, glm::vec3(0.0f, 0.0f, 1.0f));
-    mesh.albedo.assign(4, glm::vec3(0.5f));
-    mesh.joints.assign(4, {0, 0, 0, 0});
-    mesh.weights.assign(4, glm::vec4(1.0f, 0.0f, 0.0f, 0.0f));
-    mesh.indices = {0, 1, 2, 2, 1, 3};
-    mesh.coarser = {{0.05f, {0, 1, 2}}};
-    human::LightTransfer& light = human.light;
-    light.count = 9;
-    light.key_poses = {human.skeleton.rest};
-    light.receivers = {{0, {0.5f, 0.5f, 0.1f}}};
-    light.meshes.resize(1);
-    light.meshes[0].receivers.assign(4, {0, 0, 0, 0});
-    light.meshes[0].weights.assign(4, {255, 0, 0, 0});
-    for (int i = 0; i < 4 * 3 * 9; ++i) {
-      light.meshes[0].coefficients.push_back(static_cast<int8_t>(i * 37 % 127));
-    }
-    light.meshes[0].scale.assign(4, 0.01f);
-    return human::SerializeHuman(human);
-  }();
+  const std::vector<std::byte> whole = human::SerializeHuman(Lit());
   human::TexturePool textures;
   const ReadPerson read = [&](size_t, float finest) -> Result<DrawnPerson> {
     LARARIUM_ASSIGN_OR_RETURN(human::Human human, human::ParseHuman(whole, "here", finest));
@@ -174,17 +188,12 @@ TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
   ASSERT_TRUE(fine.ok());
   (*coarse)->detail().SetSeenAround(true);
   (*fine)->detail().SetSeenAround(true);
-  test::FakePoses poses;
   StagedFrame by_coarse;
   StagedFrame by_fine;
   for (int64_t i = 0; i < 3000; ++i) {
-    geometry::Frame frame;
-    frame.index = i;
-    frame.capture_time = static_cast<double>(i) / 30.0;
-    vision::TrackedFrame tracked = poses.Track(frame);
-    tracked.camera = {64, 48, 60.0, 60.0, 31.5, 23.5};
-    (*coarse)->StageFrame(tracked, frame.capture_time, by_coarse);
-    (*fine)->StageFrame(tracked, frame.capture_time, by_fine);
+    const vision::TrackedFrame tracked = FrameAt(i);
+    (*coarse)->StageFrame(tracked, tracked.frame.capture_time, by_coarse);
+    (*fine)->StageFrame(tracked, tracked.frame.capture_time, by_fine);
     ASSERT_EQ(by_coarse.people.actors.size(), 1u);
     const StagedActor& actor = by_coarse.people.actors[0];
     EXPECT_EQ(actor.light_count, actor.figure->meshes[0].positions.size());
@@ -198,6 +207,78 @@ TEST(ShowWithFinerCast, IsThenAsIfAllHadBeenReadAtOnce) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   FAIL() << "nobody became finer";
+}
+
+// A show of which a person comes while it plays equals a show with all people from the beginning.
+TEST(ShowWithArrivingCast, IsTheSameDramaAndThenTheSamePicture) {
+  human::TexturePool textures;
+  const std::shared_ptr<Log> silent = MakeSilentLog();
+  const auto member = [&](bool whole) {
+    human::Human human = Lit();
+    if (!whole) {
+      human.meshes.clear();
+      human.light = {};
+    }
+    return MakeCastMember(std::move(human), 0.0f, textures);
+  };
+  const auto table = [](bool whole) {
+    stage::Prop prop = test::MakeTable();
+    if (whole) {
+      prop.light.count = 9;
+      prop.light.key_poses.resize(1, std::vector<human::JointTransform>(1));
+      prop.light_shown = {1};
+      prop.light.receivers = {{0, {0.0f, 1.0f, 0.0f}}};
+      prop.light.meshes = {{std::vector<std::array<uint16_t, 4>>(8),
+                            std::vector<std::array<uint8_t, 4>>(8, {255, 0, 0, 0}),
+                            std::vector<int8_t>(8 * 27, 40),
+                            std::vector<float>(8, 0.01f),
+                            {}}};
+    }
+    auto model = *stage::ObjectModel::Create(std::move(prop), "table");
+    StageObject object{"table", model, {}};
+    object.light = TakeLight(model->light());
+    return object;
+  };
+  const auto create = [&](bool whole) {
+    ShowContent content = test::SmallContent();
+    content.places[0].stage.probes.emplace_back().light.sky[0] = glm::vec3(1.0f);
+    content.cast = {member(whole)};
+    content.cast[0].name = "one";
+    content.objects = {table(whole)};
+    return Show::Create(std::move(content), {}, *silent);
+  };
+  auto arriving = create(false);
+  auto all = create(true);
+  ASSERT_TRUE(arriving.ok()) << arriving.message();
+  ASSERT_TRUE(all.ok()) << all.message();
+  (*arriving)->detail().SetSeenAround(true);
+  (*all)->detail().SetSeenAround(true);
+  StagedFrame by_arriving;
+  StagedFrame by_all;
+  constexpr int64_t kArrives = 12;
+  for (int64_t i = 0; i < 2 * kArrives; ++i) {
+    if (i == kArrives) {
+      (*arriving)->SetPerson(0, member(true));
+      (*arriving)->SetObjects({table(true)});
+    }
+    const vision::TrackedFrame tracked = FrameAt(i);
+    (*arriving)->StageFrame(tracked, tracked.frame.capture_time, by_arriving);
+    (*all)->StageFrame(tracked, tracked.frame.capture_time, by_all);
+    ASSERT_EQ(by_arriving.people.actors.size(), 1u);
+    EXPECT_EQ(by_arriving.people.actors[0].stage_from_actor,
+              by_all.people.actors[0].stage_from_actor);
+    EXPECT_EQ(by_arriving.people.skin, by_all.people.skin);
+    EXPECT_EQ(by_arriving.light.on_people.size(), i < kArrives ? 0u : 4u);
+    EXPECT_EQ(by_arriving.things.objects.size(), 1u);
+    EXPECT_EQ(by_arriving.light.on_things.size(), i < kArrives ? 0u : 8u);
+  }
+  // Light that hardly changes is not computed again.
+  for (size_t v = 0; v < by_all.light.on_people.size(); ++v) {
+    EXPECT_LT(glm::distance(by_arriving.light.on_people[v], by_all.light.on_people[v]), 0.01f) << v;
+  }
+  EXPECT_EQ(by_arriving.light.on_things, by_all.light.on_things);
+  EXPECT_EQ(by_arriving.people.actors[0].detail, by_all.people.actors[0].detail);
+  EXPECT_EQ((*arriving)->content().cast[0].name, "one");
 }
 
 }  // namespace

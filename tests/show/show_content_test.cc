@@ -315,6 +315,7 @@ TEST_F(ArrivingShowTest, IsLoadedFromWhatItNeedsInItsLanguages) {
     Add(needed->language, bundle);
     EXPECT_FALSE(LoadShowContent(bundle, {}, languages).ok());
     Add(needed->rest, bundle);
+    EXPECT_THAT(needed->people, ::testing::IsEmpty());
     const auto content = LoadShowContent(bundle, {}, languages);
     EXPECT_TRUE(content.ok()) << content.message();
     EXPECT_EQ(content->speech.size(), 3u);
@@ -333,6 +334,83 @@ TEST_F(ArrivingShowTest, IsLoadedFromWhatItNeedsInItsLanguages) {
   EXPECT_THAT(pieces_of({"en", "off"}), ElementsAre("en.json", "only_la.json", "d_it.json"));
   EXPECT_THAT(FindNeededMembers(Empty().manifest(), {"de", ""}, "show").message(),
               HasSubstr("choose one of: la, en"));
+}
+
+// The keeper's body, voice and clips in members of their own.
+class ArrivingPeopleTest : public ArrivingShowTest {
+ protected:
+  void SetUp() override {
+    ArrivingShowTest::SetUp();
+    human::Human motion = human::RichHuman();
+    motion.clips.resize(1);
+    Keep(motion, motion_);
+    manifest_.cast[0].motion = "keeper.motion.larhuman";
+    members_["keeper.motion.larhuman"] = motion_;
+    stage::Prop cup = test::MakeCup();
+    cup.parts.back().meshes.clear();
+    extent_ = stage::SerializeProp(cup);
+    manifest_.objects[0].extent = "cup.extent.larprop";
+    members_["cup.extent.larprop"] = extent_;
+    manifest_.lines[0].spoken["la"].sound = "la.flac";
+    members_["la.flac"] = Bytes("a voice");
+  }
+
+  static void Keep(human::Human human, std::vector<std::byte>& bytes) {
+    human.meshes.clear();
+    human.cloths.clear();
+    human.light = {};
+    for (human::MorphTarget& morph : human.morphs) {
+      morph.parts.clear();
+    }
+    bytes = human::SerializeHuman(human);
+  }
+
+  std::vector<std::byte> motion_;
+  std::vector<std::byte> extent_;
+};
+
+TEST_F(ArrivingPeopleTest, TheDramaBeginsBeforeBodiesAndVoices) {
+  bundle::Bundle bundle = Empty();
+  const auto needed = FindNeededMembers(bundle.manifest(), {}, "show");
+  ASSERT_TRUE(needed.ok()) << needed.message();
+  EXPECT_THAT(needed->people, ::testing::ElementsAre("keeper.larhuman"));
+  EXPECT_THAT(needed->things, ::testing::ElementsAre("cup.larprop"));
+  EXPECT_THAT(needed->voices, ::testing::ElementsAre("la.flac"));
+  Add(needed->guide, bundle);
+  Add(needed->language, bundle);
+  Add(needed->rest, bundle);
+  const auto content = LoadShowContent(bundle);
+  ASSERT_TRUE(content.ok()) << content.message();
+  EXPECT_TRUE(content->cast[0].human->meshes.empty());
+  EXPECT_EQ(content->cast[0].human->clips.size(), 1u);
+  EXPECT_TRUE(content->speech[0].sound.empty());
+  EXPECT_TRUE(content->objects[0].model->prop().parts.back().meshes.empty());
+
+  Add(needed->people, bundle);
+  Add(needed->things, bundle);
+  Add(needed->voices, bundle);
+  human::TexturePool textures;
+  const auto objects = LoadObjects(bundle, textures);
+  ASSERT_TRUE(objects.ok()) << objects.message();
+  EXPECT_FALSE(objects->at(0).model->prop().parts.back().meshes.empty());
+  const auto keeper = LoadCastMember(bundle, bundle.manifest().cast[0], 0.0f, textures);
+  ASSERT_TRUE(keeper.ok()) << keeper.message();
+  EXPECT_EQ(keeper->name, "keeper");
+  EXPECT_EQ(keeper->human->meshes.size(), 1u);
+  EXPECT_EQ(keeper->model->clips.size(), 1u) << "the body has the clips of the motion";
+  EXPECT_FALSE(LoadInLanguages(bundle, {}, *content)->speech[0].sound.empty());
+}
+
+TEST_F(ArrivingPeopleTest, TheBodyOfSomebodyElseIsRefused) {
+  human::Human other = human::RichHuman();
+  other.skeleton.names.back() = "tail";
+  Keep(other, motion_);
+  members_["keeper.motion.larhuman"] = motion_;
+  bundle::Bundle bundle = Empty();
+  Add({"keeper.larhuman", "keeper.motion.larhuman"}, bundle);
+  human::TexturePool textures;
+  EXPECT_THAT(LoadCastMember(bundle, bundle.manifest().cast[0], 0.0f, textures).message(),
+              HasSubstr("has other joints than 'keeper.motion.larhuman'"));
 }
 
 }  // namespace

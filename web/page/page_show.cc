@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iterator>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -90,9 +91,12 @@ Result<std::vector<std::string>> PageShow::FindMissing(
   }
   if (stage == Stage::kShow) {
     add(needed.rest);
+    add(needed.people);
+    add(needed.things);
   }
   if (stage != Stage::kGuide) {
     add(needed.language);
+    add(needed.voices);
   }
   return missing;
 }
@@ -138,9 +142,10 @@ Status PageShow::Load(const show::LanguageChoice& languages) {
                             show::LoadShowContent(bundle_, {}, languages));
   LARARIUM_ASSIGN_OR_RETURN(const show::NeededMembers needed,
                             show::FindNeededMembers(bundle_.manifest(), languages, kWhere));
+  std::set<std::string_view> kept(needed.language.begin(), needed.language.end());
+  kept.insert(needed.voices.begin(), needed.voices.end());
   for (const bundle::Member& member : bundle_.manifest().members) {
-    if (std::find(needed.language.begin(), needed.language.end(), member.name) ==
-        needed.language.end()) {
+    if (!kept.contains(member.name)) {
       bundle_.Remove(member.name);
     }
   }
