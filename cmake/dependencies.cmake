@@ -52,6 +52,7 @@ unset(CMAKE_REQUIRED_LIBRARIES)
 if(NOT LARARIUM_LUA_HAS_NAMES_OF_C)  # See shared/drama/lua_api.h.
   set_property(TARGET PkgConfig::lua APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS LARARIUM_LUA_NAMES_OF_CXX)
 endif()
+pkg_check_modules(deflate REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(lo REQUIRED IMPORTED_TARGET liblo)
 pkg_check_modules(pugixml REQUIRED IMPORTED_TARGET pugixml)

@@ -1,13 +1,14 @@
 #include "shared/bundle/web_folder.h"
 
 #include <fcntl.h>
+#include <libdeflate.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -26,19 +27,14 @@ constexpr std::string_view kKeyName = "museum.pub";
 constexpr double kPays = 0.97;
 
 std::vector<std::byte> Compress(std::span<const std::byte> bytes) {
-  constexpr int kGzip = 15 + 16;
-  constexpr int kMemory = 9;
-  z_stream stream = {};
-  CHECK(deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) ==
-        Z_OK);
-  std::vector<std::byte> packed(deflateBound(&stream, bytes.size()));
-  stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  CHECK(deflate(&stream, Z_FINISH) == Z_STREAM_END);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
+  constexpr int kSmallest = 12;
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(kSmallest), libdeflate_free_compressor);
+  CHECK(compressor != nullptr);
+  std::vector<std::byte> packed(libdeflate_gzip_compress_bound(compressor.get(), bytes.size()));
+  packed.resize(libdeflate_gzip_compress(compressor.get(), bytes.data(), bytes.size(),
+                                         packed.data(), packed.size()));
+  CHECK(!packed.empty());
   return packed;
 }
 
