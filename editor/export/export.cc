@@ -31,7 +31,7 @@ struct Packing {
 
   struct PackedProp {
     const std::vector<std::byte>* bytes = nullptr;
-    std::string member;
+    bundle::ObjectEntry entry;
   };
   std::vector<PackedProp> props;
 };
@@ -74,7 +74,14 @@ Status PackCast(const CastContent& content, size_t index, Packing& packing) {
   LARARIUM_RETURN_IF_ERROR(human.status());
   const std::string member = "cast/" + std::to_string(index) + ".larhuman";
   packing.members.push_back({member, content.human});
-  packing.manifest.cast.push_back({content.name, member});
+  bundle::CastEntry& entry = packing.manifest.cast.emplace_back();
+  entry = {content.name, member};
+  if (!content.motion.empty()) {
+    LARARIUM_RETURN_IF_ERROR(
+        human::ParseHuman(content.motion, "motion of '" + content.name + "'").status());
+    entry.motion = "cast/" + std::to_string(index) + ".motion.larhuman";
+    packing.members.push_back({entry.motion, content.motion});
+  }
   return Status();
 }
 
@@ -85,15 +92,22 @@ Status PackObject(const ObjectContent& content, size_t index, Packing& packing) 
       packing.props.begin(), packing.props.end(),
       [&](const Packing::PackedProp& packed) { return *packed.bytes == content.prop; });
   if (same != packing.props.end()) {
-    packing.manifest.objects.push_back({content.name, same->member, content.stage_from_object});
+    packing.manifest.objects.push_back(
+        {content.name, same->entry.prop, content.stage_from_object, same->entry.extent});
     return Status();
   }
   LARARIUM_ASSIGN_OR_RETURN(stage::Prop prop, stage::ParseProp(content.prop, place));
   LARARIUM_RETURN_IF_ERROR(stage::ObjectModel::Create(std::move(prop), place).status());
-  const std::string member = "props/" + std::to_string(index) + ".larprop";
-  packing.members.push_back({member, content.prop});
-  packing.props.push_back({&content.prop, member});
-  packing.manifest.objects.push_back({content.name, member, content.stage_from_object});
+  const std::string stem = "props/" + std::to_string(index);
+  bundle::ObjectEntry entry{content.name, stem + ".larprop", content.stage_from_object};
+  packing.members.push_back({entry.prop, content.prop});
+  if (!content.extent.empty()) {
+    LARARIUM_RETURN_IF_ERROR(stage::ParseProp(content.extent, place).status());
+    entry.extent = stem + ".extent.larprop";
+    packing.members.push_back({entry.extent, content.extent});
+  }
+  packing.props.push_back({&content.prop, entry});
+  packing.manifest.objects.push_back(std::move(entry));
   return Status();
 }
 

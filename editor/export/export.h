@@ -26,12 +26,16 @@ struct PlaceContent {
 struct CastContent {
   std::string name;
   std::vector<std::byte> human;  // A serialised human (.larhuman).
+  // The same without meshes (bundle::CastEntry::motion). If it is not empty, only it has clips.
+  std::vector<std::byte> motion = {};
 };
 
 struct ObjectContent {
   std::string name;
   std::vector<std::byte> prop;  // A serialised prop (.larprop).
   geometry::Rigid3 stage_from_object;
+  // The same without what is drawn (bundle::ObjectEntry::extent); may be empty.
+  std::vector<std::byte> extent = {};
 };
 
 // A line spoken in one language.

@@ -1,5 +1,6 @@
 #include "editor/jobs/exporting.h"
 
+#include <algorithm>
 #include <ctime>
 #include <optional>
 #include <system_error>
@@ -126,6 +127,14 @@ Result<exporter::ExportContent> CollectContent(const ProjectPaths& paths,
 
 }  // namespace
 
+MapBudget ForBrowsers(MapBudget budget) {
+  budget.max_points = std::min(budget.max_points, 4000);
+  budget.max_descriptors_per_point = std::min(budget.max_descriptors_per_point, 2);
+  budget.image_coverage = std::min(budget.image_coverage, 0.95);
+  budget.pictured_observations = true;
+  return budget;
+}
+
 Status ExportProject(const ProjectPaths& paths,
                      const ProjectDocument& document,
                      const ExportRequest& request,
@@ -154,7 +163,7 @@ Result<bundle::WebFolderReport> ExportProjectForWeb(const ProjectPaths& paths,
       .address = request.address};
   LARARIUM_RETURN_IF_ERROR(exporter::CheckWebExport(web));
   ExportRequest smaller = request;
-  smaller.budget.pictured_observations = true;
+  smaller.budget = ForBrowsers(request.budget);
   LARARIUM_ASSIGN_OR_RETURN(exporter::ExportContent content,
                             CollectContent(paths, document, smaller, progress));
   return exporter::ExportWebFolder(std::move(content), web, key, progress);

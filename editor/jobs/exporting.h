@@ -21,6 +21,10 @@ struct MapBudget {
   bool pictured_observations = false;  // See train::BudgetOptions.
 };
 
+// The map of a folder for browsers: fewer points, whose patches and descriptors come from fewer
+// images. Poses are as good (docs/benchmarks.md).
+MapBudget ForBrowsers(MapBudget budget);
+
 struct ExportRequest {
   std::filesystem::path out;  // File of the bundle, or the folder for browsers.
   MapBudget budget = {};

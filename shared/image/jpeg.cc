@@ -134,6 +134,7 @@ class JpegWriter {
     info_.in_color_space = image.channels() == 1 ? JCS_GRAYSCALE : JCS_EXT_BGR;
     jpeg_set_defaults(&info_);
     jpeg_set_quality(&info_, quality, TRUE);
+    info_.optimize_coding = TRUE;
     jpeg_start_compress(&info_, TRUE);
     while (info_.next_scanline < info_.image_height) {
       auto* row = const_cast<JSAMPROW>(image.ptr(static_cast<int>(info_.next_scanline)));

@@ -21,7 +21,6 @@ constexpr size_t kMaxPoints = 10'000'000;
 constexpr size_t kMaxDescriptors = 50'000'000;
 constexpr size_t kMaxKeyframes = 20'000;
 constexpr size_t kMaxNameBytes = 4096;
-constexpr int kJpegQuality = 95;
 
 // Limit of a coordinate in map units, far beyond any that training produces.
 constexpr double kMaxCoordinate = 1e9;
@@ -173,11 +172,11 @@ Result<cv::Mat> DecodeGrey(std::span<const uint8_t> jpeg, cv::Size size, const s
 }
 
 // Returns an empty vector for a keyframe without an image.
-std::vector<std::byte> EncodeGrey(const cv::Mat& grey) {
+std::vector<std::byte> EncodeGrey(const cv::Mat& grey, int quality) {
   if (grey.empty()) {
     return {};
   }
-  auto jpeg = image::EncodeJpeg(grey, kJpegQuality);
+  auto jpeg = image::EncodeJpeg(grey, quality);
   CHECK(jpeg.ok());
   return std::move(*jpeg);
 }
@@ -307,9 +306,10 @@ fb::Pose PoseTo(const geometry::Rigid3& pose) {
 }
 
 flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<fb::Keyframe>>> WriteKeyframes(
-    const SceneDatabase& db, flatbuffers::FlatBufferBuilder& builder) {
+    const SceneDatabase& db, int jpeg_quality, flatbuffers::FlatBufferBuilder& builder) {
   std::vector<std::vector<std::byte>> images(db.keyframes.size());
-  ParallelFor(images.size(), [&](size_t i) { images[i] = EncodeGrey(db.keyframes[i].grey); });
+  ParallelFor(images.size(),
+              [&](size_t i) { images[i] = EncodeGrey(db.keyframes[i].grey, jpeg_quality); });
   std::vector<flatbuffers::Offset<fb::Keyframe>> keyframes;
   for (size_t i = 0; i < images.size(); ++i) {
     const Keyframe& keyframe = db.keyframes[i];
@@ -438,7 +438,7 @@ Result<SceneDatabase> LoadSceneDatabase(const std::filesystem::path& file) {
   return ParseSceneDatabase(mapped.bytes(), file.string());
 }
 
-std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
+std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db, int jpeg_quality) {
   flatbuffers::FlatBufferBuilder builder(1 << 20);
   const fb::Camera camera = CameraTo(db.camera);
   const fb::Readout readout(db.readout.x(), db.readout.y());
@@ -450,7 +450,7 @@ std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& db) {
   const auto descriptors =
       builder.CreateVector(db.descriptors.empty() ? nullptr : db.descriptors.front().data(),
                            db.descriptors.size() * kDescriptorSize);
-  const auto keyframes = WriteKeyframes(db, builder);
+  const auto keyframes = WriteKeyframes(db, jpeg_quality, builder);
   const auto observations = builder.CreateVectorOfStructs(ObservationsTo(db.observations));
   const auto roots = builder.CreateVector(db.forest.roots);
   const auto nodes = builder.CreateVectorOfStructs(NodesTo(db.forest.nodes));

@@ -95,8 +95,8 @@ struct SceneDatabase {
 Result<SceneDatabase> ParseSceneDatabase(std::span<const std::byte> bytes,
                                          const std::string& where);
 Result<SceneDatabase> LoadSceneDatabase(const std::filesystem::path& file);
-// Deterministic: the same database gives the same bytes.
-std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& database);
+// Deterministic: the same database gives the same bytes. jpeg_quality: of keyframes' images.
+std::vector<std::byte> SerializeSceneDatabase(const SceneDatabase& database, int jpeg_quality = 95);
 Status SaveSceneDatabase(const std::filesystem::path& file, const SceneDatabase& database);
 
 }  // namespace lararium::vision

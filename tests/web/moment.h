@@ -34,21 +34,28 @@ inline Result<std::unique_ptr<Show>> OpenAt(const std::filesystem::path& file,
   return show;
 }
 
-// index: of the frame, of 30 a second.
-inline vision::TrackedFrame ViewOf(const Show& show, int index) {
+// index: of the frame, of 30 a second. from: a keyframe as the view, before a grey background;
+// nullopt: that of the first keyframe with an image, and this image.
+inline vision::TrackedFrame ViewOf(const Show& show,
+                                   int index,
+                                   std::optional<size_t> from = std::nullopt) {
   const vision::SceneDatabase& map = *show.content().places.front().map;
   // Most keyframes have no image.
   const auto pictured = std::find_if(map.keyframes.begin(), map.keyframes.end(),
                                      [](const auto& keyframe) { return !keyframe.grey.empty(); });
-  const vision::Keyframe& keyframe =
-      pictured == map.keyframes.end() ? map.keyframes.front() : *pictured;
+  const vision::Keyframe& keyframe = from                              ? map.keyframes.at(*from)
+                                     : pictured == map.keyframes.end() ? map.keyframes.front()
+                                                                       : *pictured;
   vision::TrackedFrame tracked;
   tracked.camera = map.camera.GuessForImages(kMomentWidth, kMomentHeight);
   tracked.camera_from_map = keyframe.camera_from_map;
   tracked.state = vision::TrackState::kTracking;
   tracked.frame.index = index;
   tracked.frame.capture_time = index / 30.0;
-  if (!keyframe.grey.empty()) {
+  if (from) {
+    tracked.frame.bgr.create(kMomentHeight, kMomentWidth, CV_8UC3);
+    tracked.frame.bgr.setTo(cv::Scalar::all(110.0));
+  } else if (!keyframe.grey.empty()) {
     cv::cvtColor(keyframe.grey, tracked.frame.bgr, cv::COLOR_GRAY2BGR);
   }
   return tracked;
