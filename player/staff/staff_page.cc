@@ -4,14 +4,11 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -25,7 +22,6 @@ namespace lararium::player {
 namespace {
 
 constexpr int kWaiting = 16;  // limit of connections that wait to be accepted
-constexpr int kPatienceMs = 1000;
 
 std::string UrlOf(uint32_t ip, uint16_t port) {
   in_addr address = {};
@@ -46,24 +42,9 @@ std::vector<std::string> NamesOfMachine() {
   return {name, first, first + ".local"};
 }
 
-// Closes all files of the player in the page's process, except the two that it needs.
-void CloseAllBut(int one, int other) {
-  const auto [low, high] = std::minmax(one, other);
-  ::close_range(3, static_cast<unsigned>(low) - 1, 0);
-  ::close_range(static_cast<unsigned>(low) + 1, static_cast<unsigned>(high) - 1, 0);
-  ::close_range(static_cast<unsigned>(high) + 1, ~0u, 0);
-}
-
 // Runs the page's process until it ends. Returns its exit code.
 int Serve(int listening, int link, std::optional<StaffPin> pin, bool sandbox) {
-  // Signals to end the player reach the whole process group. The page ignores them and ends after
-  // the player.
-  std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
-  ::prctl(PR_SET_NAME, "lararium-page");
   std::vector<std::string> names = NamesOfMachine();
-  CloseAllBut(listening, link);
   const auto server = StaffServer::Create(
       {.listening = listening, .link = link, .pin = std::move(pin), .names = std::move(names)});
   const Status entered = sandbox ? EnterPageSandbox(listening) : Status();
@@ -136,45 +117,24 @@ Result<std::unique_ptr<StaffPage>> StaffPage::Start(const StaffPageOptions& opti
   LARARIUM_ASSIGN_OR_RETURN(const int listening, ListenForStaff(options.address));
   sockaddr_in bound = {};
   socklen_t size = sizeof(bound);
-  int ends[2];
-  if (::getsockname(listening, reinterpret_cast<sockaddr*>(&bound), &size) != 0 ||
-      ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
+  if (::getsockname(listening, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
     ::close(listening);
     return Status::Error("staff page", std::strerror(errno));
   }
   // Starts collecting warnings, so that a kiosk's shows inherit those of its watchdog.
   RecentWarnings::Of(log);
   const ListenAddress address = {options.address.ip, ntohs(bound.sin_port)};
-  const pid_t process = ::fork();
-  if (process == 0) {
-    ::close(ends[0]);
-    std::_Exit(Serve(listening, ends[1], std::move(pin), options.sandbox));
-  }
+  Result<CompanionProcess> process = CompanionProcess::Start(
+      "lararium-page", std::array{listening},
+      [&](int link) { return Serve(listening, link, std::move(pin), options.sandbox); });
   ::close(listening);
-  ::close(ends[1]);
-  std::unique_ptr<StaffPage> page(new StaffPage(process, ends[0], address.port));
-  if (process < 0) {
-    return Status::Error("staff page", "cannot start a process for it");
+  if (!process.ok()) {
+    return process.status();
   }
   for (const std::string& url : StaffPageUrls(address)) {
     log.Info("staff page: {} ({})", url, pin ? "with the PIN" : "it only shows");
   }
-  return page;
-}
-
-StaffPage::~StaffPage() {
-  ::close(link_);
-  if (process_ < 0) {
-    return;
-  }
-  for (int waited = 0; waited < kPatienceMs; waited += 10) {
-    if (::waitpid(process_, nullptr, WNOHANG) != 0) {
-      return;
-    }
-    ::usleep(10'000);
-  }
-  ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
+  return std::unique_ptr<StaffPage>(new StaffPage(*std::move(process), address.port));
 }
 
 }  // namespace lararium::player

@@ -6,14 +6,14 @@
 // network, and the process with network access cannot read anything else on the machine. The page
 // outlives the shows of a kiosk.
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "player/kiosk/companion_process.h"
 #include "player/kiosk/listen_address.h"
 #include "player/staff/staff_pin.h"
 #include "shared/core/log.h"
@@ -37,21 +37,16 @@ class StaffPage {
  public:
   // Must be called while there is one thread. Borrows log.
   static Result<std::unique_ptr<StaffPage>> Start(const StaffPageOptions& options, Log& log);
-  // Ends the page's process.
-  ~StaffPage();
-  StaffPage(const StaffPage&) = delete;
-  StaffPage& operator=(const StaffPage&) = delete;
 
   // The player's end of the link, for StaffLink; the children of a kiosk inherit it.
-  int link() const { return link_; }
+  int link() const { return process_.link(); }
   uint16_t port() const { return port_; }
-  pid_t process() const { return process_; }
+  pid_t process() const { return process_.process(); }
 
  private:
-  StaffPage(pid_t process, int link, uint16_t port) : process_(process), link_(link), port_(port) {}
+  StaffPage(CompanionProcess process, uint16_t port) : process_(std::move(process)), port_(port) {}
 
-  pid_t process_;
-  int link_;
+  CompanionProcess process_;
   uint16_t port_;
 };
 
