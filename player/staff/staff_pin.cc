@@ -1,34 +1,17 @@
 #include "player/staff/staff_pin.h"
 
 #include <sodium.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <string>
 
-#include "shared/core/file.h"
-#include "shared/core/plain_text.h"
+#include "player/kiosk/secret_file.h"
 
 namespace lararium::player {
-namespace {
-
-constexpr uint64_t kMostFileBytes = 4096;
-
-}  // namespace
-
 Result<StaffPin> StaffPin::Load(const std::filesystem::path& path) {
-  struct stat info = {};
-  if (::stat(path.c_str(), &info) == 0 && (info.st_mode & (S_IROTH | S_IWOTH)) != 0) {
-    return Status::Error(path.string(), "other users of this machine can read or write it",
-                         "chmod 600 " + path.string());
-  }
-  LARARIUM_ASSIGN_OR_RETURN(std::string bytes, ReadText(path, kMostFileBytes));
-  std::string text = PlainText(bytes);
-  std::string_view line = std::string_view(text).substr(0, text.find('\n'));
-  line = line.substr(0, line.find_last_not_of(" \t") + 1);
+  LARARIUM_ASSIGN_OR_RETURN(std::string line, ReadSecretLine(path));
   Result<StaffPin> pin = Create(line, path.string());
-  sodium_memzero(bytes.data(), bytes.size());
-  sodium_memzero(text.data(), text.size());
+  sodium_memzero(line.data(), line.size());
   return pin;
 }
 
