@@ -34,9 +34,9 @@ struct Route {
   std::string_view path;
   bool does = false;
 };
-constexpr Route kRoutes[] = {{"/"},           {"/page.css"},     {"/page.js"},
-                             {"/state.json"}, {"/mirror.jpg"},   {"/statistics.csv"},
-                             {"/pin", true},  {"/command", true}};
+constexpr Route kRoutes[] = {
+    {"/"},           {"/page.css"},       {"/page.js"},   {"/parts.js"},     {"/state.json"},
+    {"/mirror.jpg"}, {"/statistics.csv"}, {"/pin", true}, {"/command", true}};
 
 // The page may not load anything from other sites, and other pages may not embed it.
 constexpr std::pair<const char*, const char*> kHeaders[] = {
@@ -257,8 +257,8 @@ StaffReply StaffServer::AnswerRead(const StaffRequest& request) {
   if (request.path == "/page.css") {
     return FileNamed("page.css", "text/css; charset=utf-8");
   }
-  if (request.path == "/page.js") {
-    return FileNamed("page.js", "text/javascript; charset=utf-8");
+  if (request.path == "/page.js" || request.path == "/parts.js") {
+    return FileNamed(request.path.substr(1), "text/javascript; charset=utf-8");
   }
   return {.content_type = "text/html; charset=utf-8",
           .body = StaffPageIn(StaffLanguage(request.accept_language)),

@@ -10,7 +10,7 @@
 
 namespace lararium::player {
 
-// The files page.html, page.css and page.js.
+// The files page.html, page.css, page.js, parts.js and words.json.
 std::span<const EmbeddedText> StaffPageFiles();
 
 // The language of the page that a browser prefers according to its header Accept-Language; English

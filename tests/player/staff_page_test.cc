@@ -175,7 +175,7 @@ TEST_F(StaffPageTest, IsOnePageInTheReadersLanguageThatNeedsNothingFromElsewhere
   EXPECT_THAT(page, HasSubstr("lang=\"it\""));
   EXPECT_THAT(page, HasSubstr("Ritrova il luogo"));
   EXPECT_THAT(Get("/"), HasSubstr("Find the place again"));
-  for (const char* path : {"/", "/page.css", "/page.js"}) {
+  for (const char* path : {"/", "/page.css", "/page.js", "/parts.js"}) {
     const std::string reply = Get(path);
     EXPECT_THAT(reply, HasSubstr("Content-Security-Policy: default-src 'none'")) << path;
     EXPECT_THAT(reply, HasSubstr("X-Content-Type-Options: nosniff")) << path;
