@@ -1,12 +1,19 @@
 #include "player/app/show_maker.h"
 
 #include <chrono>
+#include <span>
 #include <utility>
 
-#include "shared/bundle/bundle.h"
+#include "shared/bundle/sha256.h"
+#include "shared/bundle/show_manifest.h"
 #include "shared/bundle/signature.h"
 
 namespace lararium::player {
+namespace {
+
+constexpr size_t kVersionDigits = 12;
+
+}  // namespace
 
 void ShowMaker::SetDevice(const Device& device, bool camera_look) {
   camera_look_ = camera_look;
@@ -22,17 +29,24 @@ void ShowMaker::SetPicture(const PictureSize& size, const show::ViewPart& part, 
 
 Result<show::ShowContent> ShowMaker::Load(const show::LanguageChoice& languages, float finest) {
   languages_ = languages;
-  return Read(languages, finest);
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, Open());
+  const std::string manifest = bundle::FormatShowManifest(bundle.manifest());
+  version_ = bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(manifest))))
+                 .substr(0, kVersionDigits);
+  return Read(bundle, languages, finest);
 }
 
-Result<show::ShowContent> ShowMaker::Read(const show::LanguageChoice& languages,
-                                          float finest) const {
+Result<bundle::Bundle> ShowMaker::Open() const {
   bundle::OpenOptions opening;
   if (!bundle_.trust.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(opening.trusted, bundle::LoadPublicKey(bundle_.trust));
   }
-  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle,
-                            bundle::Bundle::Open(bundle_.show, opening));
+  return bundle::Bundle::Open(bundle_.show, opening);
+}
+
+Result<show::ShowContent> ShowMaker::Read(const bundle::Bundle& bundle,
+                                          const show::LanguageChoice& languages,
+                                          float finest) const {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
                             show::LoadShowContent(bundle, bundle_.place, languages, finest));
   for (show::ShowPlace& place : content.places) {
@@ -63,7 +77,8 @@ Result<std::unique_ptr<show::Show>> ShowMaker::Make(show::ShowContent content) c
 Result<std::unique_ptr<show::Show>> ShowMaker::MakeAt(double time,
                                                       const show::LanguageChoice& languages,
                                                       float finest) const {
-  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Read(languages, finest));
+  LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, Open());
+  LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Read(bundle, languages, finest));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
   if (drama_.past == drama::Past::kForgotten) {  // A recording needs the earlier actions.
     LARARIUM_RETURN_IF_ERROR(show->PrepareAt(time));

@@ -6,10 +6,12 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "player/app/device_file.h"
 #include "player/app/options.h"
+#include "shared/bundle/bundle.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 #include "shared/drama/visitor.h"
@@ -37,6 +39,9 @@ class ShowMaker {
 
   // Reads and checks the bundle. finest: see show::LoadShowContent.
   Result<show::ShowContent> Load(const show::LanguageChoice& languages, float finest);
+  // Identity of the bundle that was loaded: the first twelve digits of the SHA-256 of its manifest,
+  // which has the hashes of everything else.
+  const std::string& version() const { return version_; }
   // Creates a show at the beginning of its drama.
   Result<std::unique_ptr<show::Show>> Make(show::ShowContent content) const;
 
@@ -51,7 +56,10 @@ class ShowMaker {
   Result<std::unique_ptr<show::Show>> TakeOther();
 
  private:
-  Result<show::ShowContent> Read(const show::LanguageChoice& languages, float finest) const;
+  Result<bundle::Bundle> Open() const;
+  Result<show::ShowContent> Read(const bundle::Bundle& bundle,
+                                 const show::LanguageChoice& languages,
+                                 float finest) const;
   Result<std::unique_ptr<show::Show>> MakeAt(double time,
                                              const show::LanguageChoice& languages,
                                              float finest) const;
@@ -67,6 +75,7 @@ class ShowMaker {
   bool around_ = false;
   std::optional<drama::VisitorLog> visitor_;
   show::LanguageChoice languages_;
+  std::string version_;
   // The show in other languages, and these. Declared last, because its thread uses the other
   // members.
   show::LanguageChoice other_languages_;

@@ -369,6 +369,7 @@ void ShowSession::TellStaff(const show::StagedFrame& staged) {
   }
   staff_->AfterFrame(staged, output_->picture(), [&](StaffState& state) {
     controls_->FillStaffState(staged, state);
+    state.show = maker_.version();
     state.quality = quality_.level();
     state.audible = sound_ != nullptr;
     state.up_seconds = Seconds(last_shown_);

@@ -24,8 +24,9 @@ enum class StaffMessage : char {
   kNote = 'N',           // a text for the log
 };
 
-// Limit on the bytes of a message including its kind.
+// Limits on the bytes of a message including its kind, and of a command from the network.
 inline constexpr size_t kMostStaffMessage = 150'000;
+inline constexpr size_t kMostStaffCommand = 1024;
 
 // Returns false if the message was dropped, or if the other side has ended.
 bool SendStaffMessage(int link, StaffMessage kind, std::string_view content);

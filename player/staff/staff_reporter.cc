@@ -27,6 +27,10 @@ void StaffReporter::AfterFrame(const show::StagedFrame& staged,
   state.seconds = staged.time;
   state.tracking = tracked.state;
   state.reason = tracked.reason;
+  if (tracked.camera_from_map && staged.camera.camera_from_stage) {
+    const Eigen::Vector3d position = staged.camera.camera_from_stage->Inverse().translation;
+    state.position = {position.x(), position.y(), position.z()};
+  }
   state.lost_seconds = staged.camera.lost_seconds;
   state.confidence = tracked.confidence;
   state.tracked = tally_.since_start();

@@ -23,7 +23,6 @@ constexpr size_t kMemoryOfConnection = 16 << 10;  // bytes, headers included
 // Bytes of a body that is too long which are read and ignored before the connection is closed.
 constexpr size_t kMostDiscarded = 64 << 10;
 constexpr int kLongestPollMs = 1000;
-constexpr double kSilentSeconds = 3.0;   // the player counts as not answering after this silence
 constexpr double kPictureSeconds = 6.0;  // older pictures are discarded
 constexpr double kPictureAskSeconds = 1.0;
 
@@ -100,7 +99,7 @@ MHD_Result Send(MHD_Connection* connection, const StaffReply& reply) {
 // True if a request announces a body that is too long to be read.
 bool AnnouncesTooMuch(MHD_Connection* connection) {
   const std::string length(Header(connection, "Content-Length"));
-  return !length.empty() && std::strtoull(length.c_str(), nullptr, 10) > StaffServer::kMostBody;
+  return !length.empty() && std::strtoull(length.c_str(), nullptr, 10) > kMostStaffCommand;
 }
 
 }  // namespace
@@ -122,13 +121,13 @@ struct StaffServer::Calls {
     auto& incoming = *static_cast<Incoming*>(*context);
     if (*upload_size > 0) {
       incoming.bytes += *upload_size;
-      if (incoming.bytes <= kMostBody) {
+      if (incoming.bytes <= kMostStaffCommand) {
         incoming.body.append(upload, *upload_size);
       }
       *upload_size = 0;
       return incoming.bytes <= kMostDiscarded ? MHD_YES : MHD_NO;
     }
-    if (incoming.bytes > kMostBody) {
+    if (incoming.bytes > kMostStaffCommand) {
       return Send(connection, TooMuch());
     }
     return Send(connection, static_cast<StaffServer*>(server)->Answer(
@@ -198,8 +197,7 @@ bool StaffServer::TakeMessages() {
   bool open = true;
   while (const auto message = ReceiveStaffMessage(options_.link, buffer_, open)) {
     if (message->kind == StaffMessage::kState) {
-      state_ = message->content;
-      state_came_ = Clock::now();
+      state_.Set(message->content);
     } else if (message->kind == StaffMessage::kPicture) {
       picture_ = message->content;
       picture_came_ = Clock::now();
@@ -208,10 +206,6 @@ bool StaffServer::TakeMessages() {
     }
   }
   return open;
-}
-
-bool StaffServer::PlayerAnswers() const {
-  return !state_.empty() && SecondsSince(state_came_) < kSilentSeconds;
 }
 
 bool StaffServer::IsOurHost(std::string_view host) const {
@@ -266,16 +260,9 @@ StaffReply StaffServer::AnswerRead(const StaffRequest& request) {
 }
 
 StaffReply StaffServer::State() const {
-  // The JSON text of the player is inserted unchanged.
   const Json pin = {{"set", options_.pin.has_value()},
                     {"locked_seconds", lock_.LockedFor(SecondsSince(began_))}};
-  Json rest = {{"answers", PlayerAnswers()},
-               {"pin", pin},
-               {"silent_seconds", state_.empty() ? 0.0 : SecondsSince(state_came_)}};
-  std::string text = rest.dump();
-  text.pop_back();
-  text += ",\"player\":" + (state_.empty() ? "null" : state_) + "}";
-  return {.content_type = kJson, .body = std::move(text)};
+  return {.content_type = kJson, .body = state_.ToJson({{"pin", pin}})};
 }
 
 // Returns the last picture. Each request also asks the player for a new one.
@@ -335,7 +322,7 @@ StaffReply StaffServer::Carry(const StaffRequest& request) {
   if (const Result<StaffCommand> command = ParseStaffCommand(request.body); !command.ok()) {
     return Refusal(400, command.message());
   }
-  if (!PlayerAnswers() || !SendStaffMessage(options_.link, StaffMessage::kCommand, request.body)) {
+  if (!state_.answers() || !SendStaffMessage(options_.link, StaffMessage::kCommand, request.body)) {
     return Refusal(503, "the show does not answer");
   }
   return {.status = 202, .body = "told\n"};

@@ -12,6 +12,7 @@
 
 #include "player/staff/staff_messages.h"
 #include "player/staff/staff_pin.h"
+#include "player/staff/staff_state.h"
 #include "shared/core/status.h"
 
 struct MHD_Daemon;
@@ -47,8 +48,6 @@ class StaffServer {
     // names may come from pages of attackers (DNS rebinding).
     std::vector<std::string> names;
   };
-  static constexpr size_t kMostBody = 1024;  // bytes
-
   // Borrows both sockets of options.
   static Result<std::unique_ptr<StaffServer>> Create(Options options);
   ~StaffServer();
@@ -74,7 +73,6 @@ class StaffServer {
   StaffReply Carry(const StaffRequest& request);
   StaffReply State() const;
   StaffReply Picture();
-  bool PlayerAnswers() const;
 
   Options options_;
   MHD_Daemon* daemon_ = nullptr;
@@ -82,10 +80,9 @@ class StaffServer {
   PinLock lock_;
   Clock::time_point began_ = Clock::now();
   // The last messages of the player, and their times.
-  std::string state_;
+  LastState state_;
   std::string statistics_;
   std::string picture_;
-  Clock::time_point state_came_;
   Clock::time_point picture_came_;
   Clock::time_point picture_asked_;
 };

@@ -8,6 +8,7 @@ namespace lararium::player {
 namespace {
 
 constexpr size_t kMostLanguages = 32;
+constexpr int kSchema = 1;
 
 double Share(int64_t part, int64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -86,7 +87,9 @@ std::string StaffJson(const StaffState& state, const StaffMachine& machine) {
   const Json json = {
       {"version", LARARIUM_VERSION},
       {"title", state.title},
+      {"show", state.show},
       {"place", state.place},
+      {"position", OrNull(state.position)},
       {"seconds", state.seconds},
       {"length", OrNull(state.length)},
       {"kiosk", state.kiosk},
@@ -108,6 +111,21 @@ std::string StaffJson(const StaffState& state, const StaffMachine& machine) {
       {"memory_mib", machine.memory_mib},
       {"warnings", JsonOf(machine.warnings)}};
   return DumpJson(json);
+}
+
+void LastState::Set(std::string_view player) {
+  player_ = player;
+  came_ = Clock::now();
+}
+
+std::string LastState::ToJson(Json more) const {
+  more["schema"] = kSchema;
+  more["answers"] = answers();
+  more["silent_seconds"] = silent_seconds();
+  // The player's own text is inserted unchanged.
+  std::string text = DumpJson(more);
+  text.pop_back();
+  return text + ",\"player\":" + (player_.empty() ? "null" : player_) + "}";
 }
 
 }  // namespace lararium::player

@@ -1,11 +1,13 @@
 #pragma once
 
-// The state that the staff page shows, and how it is collected from frames.
+// The state that the staff page and the page of a fleet show, and how it is collected from frames.
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "player/kiosk/kiosk_state.h"
@@ -52,7 +54,10 @@ class TrackingTally {
 // The state at one moment. Durations are in seconds.
 struct StaffState {
   std::string title;
+  std::string show;  // Identity of the bundle (ShowMaker::version()).
   std::string place;
+  // Position of the camera in metres, stage axes of the place; nullopt: unknown.
+  std::optional<std::array<double, 3>> position;
   double seconds = 0.0;          // drama time
   std::optional<double> length;  // length of the story, if the author states it
   bool kiosk = false;
@@ -83,8 +88,31 @@ struct StaffMachine {
   std::vector<RecentWarnings::Entry> warnings;
 };
 
-// Converts the state to JSON for staff_page/page.js. The text is valid UTF-8 and fits into a
-// message.
+// Converts the state to JSON, the field `player` of a state (docs/file-formats.md). The text is
+// valid UTF-8 and fits into a message.
 std::string StaffJson(const StaffState& state, const StaffMachine& machine);
+
+// What a process beside the player knows of it: the last state, and for how long it has been
+// silent.
+class LastState {
+ public:
+  // player: text that StaffJson() made.
+  void Set(std::string_view player);
+  // False: the player is starting, or hangs.
+  bool answers() const { return !player_.empty() && silent_seconds() < kSilentSeconds; }
+  // The state as it is published (docs/file-formats.md). more: fields that are added to it.
+  std::string ToJson(Json more) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr double kSilentSeconds = 3.0;
+
+  double silent_seconds() const {
+    return player_.empty() ? 0.0 : std::chrono::duration<double>(Clock::now() - came_).count();
+  }
+
+  std::string player_;
+  Clock::time_point came_;
+};
 
 }  // namespace lararium::player

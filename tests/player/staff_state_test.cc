@@ -42,6 +42,26 @@ TEST(StaffJson, IsJsonWhateverItHolds) {
   EXPECT_LT(text.size(), 50'000u);
 }
 
+TEST(LastState, HoldsWhatThePlayerSaidAndWhetherItAnswers) {
+  LastState last;
+  const auto before = ParseJson(last.ToJson({{"name", "tablet-01"}}), "state");
+  ASSERT_TRUE(before.ok()) << before.message();
+  EXPECT_EQ((*before)["schema"], 1);
+  EXPECT_EQ((*before)["name"], "tablet-01");
+  EXPECT_EQ((*before)["answers"], false);
+  EXPECT_EQ((*before)["player"], Json());
+  StaffState state;
+  state.show = "0123456789ab";
+  state.position = {1.0, 1.6, -2.5};
+  last.Set(StaffJson(state, {}));
+  const auto after = ParseJson(last.ToJson(Json::object()), "state");
+  ASSERT_TRUE(after.ok()) << after.message();
+  EXPECT_EQ((*after)["answers"], true);
+  EXPECT_LT((*after)["silent_seconds"], 3.0);
+  EXPECT_EQ((*after)["player"]["show"], "0123456789ab");
+  EXPECT_EQ((*after)["player"]["position"][2], -2.5);
+}
+
 TEST(RecentWarnings, KeepsTheLastAndCountsWhatIsSaidAgain) {
   const auto log = MakeSilentLog();
   const auto recent = RecentWarnings::Of(*log);
