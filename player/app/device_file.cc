@@ -39,19 +39,25 @@ void DescribeDevice(Fields& fields, Device& device) {
   fields.Object(Optional("lost"), device.lost, DescribeLost);
   fields.Object("headset", device.headset);
   DescribeButtons(fields, Optional("buttons"), device.buttons);
-  constexpr const char* kFields[] = {"buttons", "camera", "capture", "headset", "look", "lost"};
-  fields.Require(
-      std::any_of(std::begin(kFields), std::end(kFields),
-                  [&](auto name) { return fields.Has(name); }),
-      "has none of \"buttons\", \"camera\", \"capture\", \"headset\", \"look\", \"lost\"",
-      "docs/file-formats.md says what they hold");
+  fields.Object("fleet", device.fleet);
+  constexpr const char* kFields[] = {"buttons", "camera", "capture", "fleet",
+                                     "headset", "look",   "lost"};
+  fields.Require(std::any_of(std::begin(kFields), std::end(kFields),
+                             [&](auto name) { return fields.Has(name); }),
+                 "has none of \"buttons\", \"camera\", \"capture\", \"fleet\", \"headset\", "
+                 "\"look\", \"lost\"",
+                 "docs/file-formats.md says what they hold");
 }
 
 }  // namespace
 
 Result<Device> LoadDevice(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxDeviceBytes));
-  return ParseDevice(text, file.string());
+  LARARIUM_ASSIGN_OR_RETURN(Device device, ParseDevice(text, file.string()));
+  if (device.fleet) {
+    ResolvePaths(file.parent_path(), *device.fleet);
+  }
+  return device;
 }
 
 Result<Device> ParseDevice(std::string_view text, const std::string& where) {

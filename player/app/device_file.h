@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "player/fleet/fleet_options.h"
 #include "player/kiosk/visitor_actions.h"
 #include "player/openxr/headset.h"
 #include "shared/capture/frame_source.h"
@@ -24,6 +25,7 @@ struct Device {
   capture::CameraSettings capture;              // format, size, exposure and so on
   std::optional<Headset> headset;               // the visitors' headset
   Buttons buttons;                              // keys and buttons of visitors
+  std::optional<FleetOptions> fleet;            // the fleet that the device belongs to
   show::TrackingLossFaderOptions lost;          // reaction to the loss of tracking
 };
 

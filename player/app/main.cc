@@ -86,6 +86,13 @@ Result<PlayEnd> PlayNewest(PlayOptions options,
   return Play(options, started, log, links);
 }
 
+Status SetUp(const FleetSetupOptions& options, Log& log) {
+  LARARIUM_ASSIGN_OR_RETURN(const size_t devices, SetUpFleet(options));
+  log.Info("{}: {} devices; docs/how-to-run-a-fleet.md says where the files go",
+           options.folder.string(), devices);
+  return Status();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -106,6 +113,9 @@ int main(int argc, char** argv) {
   }
   if (const auto* latency = std::get_if<LatencyOptions>(&command)) {
     return Report(MeasureLatency(*latency), **log);
+  }
+  if (const auto* setup = std::get_if<FleetSetupOptions>(&command)) {
+    return Report(SetUp(*setup, **log), **log);
   }
   if (play == nullptr) {
     return Report(PrintInfo(std::get<InfoOptions>(command)), **log);

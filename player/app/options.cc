@@ -260,6 +260,30 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("--log", play.output.log, "Write the log here too");
 }
 
+CLI::App* AddFleetSetup(CLI::App& app, FleetSetupOptions& setup) {
+  CLI::App* command = app.add_subcommand(
+      "fleet-setup", "Write what a fleet needs: the broker's files, and a folder for each device");
+  command->add_option("FOLDER", setup.folder, "A new folder, or one to be changed")->required();
+  command->add_option("--host", setup.host, "The broker's IP address or name, as devices reach it");
+  command->add_option("--site", setup.site, "Name of the site");
+  command->add_option("--add", setup.devices,
+                      "Devices to add: NAME or NAME:GROUP; or another group for one");
+  command->add_option("--remove", setup.removed, "Names of devices to remove");
+  command->add_option("--port", setup.port, "The broker's port for devices (8883)")
+      ->check(CLI::Range(1, 65535));
+  command->add_option("--page-port", setup.page_port, "The broker's port for fleet pages (8884)")
+      ->check(CLI::Range(1, 65535));
+  command->add_option("--broker-folder", setup.broker_folder,
+                      "Where the broker's files will lie on its machine (/etc/mosquitto/lararium)");
+  command
+      ->add_option_function<std::string>(
+          "--devices-prove-by",
+          [&setup](const std::string& means) { setup.certificates = means == "certificates"; },
+          "How devices prove their names: passwords (which is usual) or certificates")
+      ->check(CLI::IsMember({"passwords", "certificates"}));
+  return command;
+}
+
 }  // namespace
 
 Command ParseCommandLine(int argc, const char* const* argv) {
@@ -267,9 +291,11 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   InfoOptions info;
   DoctorOptions doctor;
   LatencyOptions latency;
+  FleetSetupOptions fleet_setup;
   CLI::App app("Plays a Lararium show: people of the past on the place before the camera.");
   app.set_version_flag("--version", LARARIUM_VERSION);
   AddPlayOptions(app, play);
+  const CLI::App* setup_command = AddFleetSetup(app, fleet_setup);
   CLI::App* info_command = app.add_subcommand("info", "Say what a bundle holds");
   info_command->add_option("SHOW", info.show)->required()->check(CLI::ExistingFile);
   CLI::App* doctor_command =
@@ -304,7 +330,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
     const size_t numbers = play.camera.intrinsics.size();
-    if (!*info_command && !*doctor_command && !*latency_command && play.bundle.show.empty()) {
+    if (app.get_subcommands().empty() && play.bundle.show.empty()) {
       throw CLI::RequiredError("SHOW");
     }
     if (numbers != 0 && numbers != 4 && numbers != 8) {
@@ -355,6 +381,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   }
   if (*latency_command) {
     return latency;
+  }
+  if (*setup_command) {
+    return fleet_setup;
   }
   const bool shown_on_monitor = !play.display.headless && play.display.mode != Display::kOpenXr;
   if (play.kiosk.enabled && shown_on_monitor && play.display.monitor < 0) {

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "player/fleet/fleet_setup.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/text/caption_style.h"
 #include "shared/vision/pose_smoother.h"
@@ -165,7 +166,8 @@ struct LatencyOptions {
 
 // The options of the chosen command; or the exit code if the command line asked for help or is
 // wrong, after the message was printed.
-using Command = std::variant<PlayOptions, InfoOptions, DoctorOptions, LatencyOptions, int>;
+using Command =
+    std::variant<PlayOptions, InfoOptions, DoctorOptions, LatencyOptions, FleetSetupOptions, int>;
 Command ParseCommandLine(int argc, const char* const* argv);
 
 }  // namespace lararium::player

@@ -1,11 +1,14 @@
 // libFuzzer harness: any text as a device file, as a kiosk's state and statistics, as a command of
-// its staff page, and as the key that shows must be signed with.
+// its staff page, as the address and the plan of a fleet, and as the key that shows
+// must be signed with.
 
 #include <cmath>
 #include <span>
 #include <string_view>
 
 #include "player/app/device_file.h"
+#include "player/fleet/fleet_options.h"
+#include "player/fleet/fleet_setup.h"
 #include "player/kiosk/kiosk_state.h"
 #include "player/kiosk/visit_statistics.h"
 #include "player/staff/staff_messages.h"
@@ -19,6 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (const auto device = player::ParseDevice(text, "device.json"); device.ok()) {
     CHECK(device->lost.Validate().ok());
     CHECK(!device->camera || device->camera->Validate().ok());
+    CHECK(!device->fleet || player::ParseFleetAddress("fleet", device->fleet->address).ok());
     if (device->headset && device->headset->panel) {
       const Eigen::AlignedBox2d part = device->headset->SeenPart();
       CHECK(part.isEmpty() || part.sizes().allFinite());
@@ -36,6 +40,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   if (const auto command = player::ParseStaffCommand(text); command.ok()) {
     CHECK(!command->volume || (*command->volume >= 0.0 && *command->volume <= 1.0));
+  }
+  if (const auto address = player::ParseFleetAddress("--fleet", text); address.ok()) {
+    CHECK(player::IsHost(address->host) && player::IsFleetName(address->site));
+  }
+  if (const auto plan = player::ParseFleetPlan(text, "fleet.json"); plan.ok()) {
+    CHECK(plan->devices.size() <= player::FleetPlan::kMostDevices);
   }
   CHECK(player::StaffLanguage(text).size() == 2);
   if (const auto key = bundle::ParsePublicKey(text, "museum.pub"); key.ok()) {

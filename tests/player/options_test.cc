@@ -87,6 +87,22 @@ TEST_F(OptionsTest, AStaffPageHasAPortAndMayHaveAPin) {
   EXPECT_EQ(ExitCode({"doctor", "--size", "641x480"}), 2);
 }
 
+TEST_F(OptionsTest, AFleetIsSetUpWithoutAShow) {
+  const Command command = Parse({"fleet-setup", "fleet", "--host", "192.168.1.5", "--site",
+                                 "pompeii", "--add", "tablet-01:red", "tablet-02"});
+  const auto* setup = std::get_if<FleetSetupOptions>(&command);
+  ASSERT_NE(setup, nullptr);
+  EXPECT_EQ(setup->folder, "fleet");
+  EXPECT_EQ(setup->devices, (std::vector<std::string>{"tablet-01:red", "tablet-02"}));
+  EXPECT_FALSE(setup->certificates.has_value());
+  EXPECT_EQ(std::get<FleetSetupOptions>(
+                Parse({"fleet-setup", "fleet", "--devices-prove-by", "certificates"}))
+                .certificates,
+            true);
+  EXPECT_EQ(ExitCode({"fleet-setup"}), 2);
+  EXPECT_EQ(ExitCode({"fleet-setup", "fleet", "--port", "70000"}), 2);
+}
+
 TEST_F(OptionsTest, HowCaptionsLookIsLeftToTheVisitorUnlessItIsGiven) {
   EXPECT_FALSE(std::get<PlayOptions>(Parse({show_})).choices.caption_size.has_value());
   const auto play = std::get<PlayOptions>(

@@ -1,0 +1,70 @@
+#pragma once
+
+// How a device joins a fleet: the players of a site that one MQTT broker connects.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shared/core/json_fields.h"
+#include "shared/core/status.h"
+
+namespace lararium::player {
+
+// The broker, and the site whose devices it connects.
+struct FleetAddress {
+  static constexpr uint16_t kPort = 8883;
+
+  std::string host;
+  uint16_t port = kPort;
+  std::string site;
+};
+
+struct FleetOptions {
+  std::string address;  // "mqtts://HOST[:PORT]/SITE"; empty: the device belongs to no fleet.
+  std::string name;     // Name of the device; empty: that of the machine.
+  std::string group;    // Group of the device; empty: none.
+  // Certificate of the authority that signed the broker's; empty: those that the system trusts.
+  std::filesystem::path authority;
+  // How the device proves its name, either by a password (first line of a file) or by a
+  // certificate and its key (PEM).
+  std::filesystem::path password;
+  std::filesystem::path certificate;
+  std::filesystem::path key;
+
+  FleetAddress broker() const;  // Requires Validate().
+  Status Validate() const;
+
+  friend bool operator==(const FleetOptions&, const FleetOptions&) = default;
+};
+
+// 1 to 64 letters, digits, "_" and "-": sites, devices and groups, which are parts of topics.
+bool IsFleetName(std::string_view name);
+Status CheckFleetName(std::string_view where, std::string_view name);
+// True for an IP address, or for a name that has only characters of host names.
+bool IsHost(std::string_view host);
+
+// Parses "mqtts://HOST[:PORT]/SITE"; an IPv6 address stands in brackets. where: see Status.
+Result<FleetAddress> ParseFleetAddress(std::string_view where, std::string_view text);
+
+// Describes the field `fleet` of a device file. Paths are relative to its folder.
+void DescribeFields(Fields& fields, FleetOptions& options);
+// Makes relative paths begin at `folder`.
+void ResolvePaths(const std::filesystem::path& folder, FleetOptions& options);
+// Uses the name of the machine where options have none.
+void NameDevice(FleetOptions& options);
+
+// The topics of a device (docs/file-formats.md).
+struct FleetTopics {
+  std::string state;                  // Retained. Written by the device.
+  std::string presence;               // Retained. Written by the device, or as its last will.
+  std::vector<std::string> commands;  // Topics of the device and of its group.
+};
+FleetTopics TopicsOf(std::string_view site, std::string_view name, std::string_view group);
+// Topic of the commands to one device, or to a group.
+std::string DeviceCommands(std::string_view site, std::string_view name);
+std::string GroupCommands(std::string_view site, std::string_view group);
+
+}  // namespace lararium::player
