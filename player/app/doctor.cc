@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "player/app/camera_choice.h"
+#include "player/fleet/fleet_client.h"
 #include "player/kiosk/kiosk.h"
 #include "player/kiosk/power_sensors.h"
 #include "player/openxr/openxr_headset.h"
@@ -239,6 +240,12 @@ Finding LookAtStaffPage(const DoctorOptions& options) {
   return JudgeStaffPage(port.status(), pin, StaffPageUrls(*address));
 }
 
+Finding LookAtFleet(FleetOptions fleet) {
+  NameDevice(fleet);
+  const Status valid = fleet.Validate();
+  return JudgeFleet(valid.ok() ? TryFleet(fleet) : valid, fleet);
+}
+
 }  // namespace
 
 Finding JudgeCamera(const CameraProbe& probe) {
@@ -417,6 +424,14 @@ Finding JudgeStaffPage(const Status& port,
   return {"staff", Verdict::kGood, found};
 }
 
+Finding JudgeFleet(const Status& connected, const FleetOptions& fleet) {
+  if (!connected.ok()) {
+    return {"fleet", Verdict::kBad, connected.message(),
+            "docs/how-to-run-a-fleet.md has what to do; the show plays without it"};
+  }
+  return {"fleet", Verdict::kGood, fleet.address + " knows \"" + fleet.name + "\""};
+}
+
 std::string FormatFindings(const std::vector<Finding>& findings) {
   std::string text;
   for (const Finding& finding : findings) {
@@ -493,6 +508,9 @@ bool RunDoctor(const DoctorOptions& options, Log& log) {
   findings.push_back(JudgePower(ReadPower()));
   if (!options.staff_page.empty()) {
     findings.push_back(LookAtStaffPage(options));
+  }
+  if (device.fleet) {
+    findings.push_back(LookAtFleet(*device.fleet));
   }
   const bool bad = std::any_of(findings.begin(), findings.end(),
                                [](const Finding& f) { return f.verdict == Verdict::kBad; });

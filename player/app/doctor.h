@@ -64,6 +64,7 @@ Finding JudgeRuntime(const Result<std::string>& runtime);
 // port: whether the port of the staff page is free. pin: whether its PIN is valid. urls: addresses
 // of the page.
 Finding JudgeStaffPage(const Status& port, const Status& pin, const std::vector<std::string>& urls);
+Finding JudgeFleet(const Status& connected, const FleetOptions& fleet);
 
 // One line for each finding, with its advice below.
 std::string FormatFindings(const std::vector<Finding>& findings);

@@ -4,12 +4,14 @@
 #include <variant>
 
 #include "player/app/curtain.h"
+#include "player/app/device_file.h"
 #include "player/app/doctor.h"
 #include "player/app/info.h"
 #include "player/app/latency.h"
 #include "player/app/options.h"
 #include "player/app/play.h"
 #include "player/benchmark/benchmark.h"
+#include "player/fleet/fleet_link.h"
 #include "player/kiosk/kiosk.h"
 #include "player/staff/staff_page.h"
 #include "player/updates/updater.h"
@@ -45,6 +47,22 @@ Result<std::unique_ptr<StaffPage>> OpenStaffPage(const PlayOptions& options, Log
   LARARIUM_ASSIGN_OR_RETURN(const ListenAddress address,
                             ParseListenAddress("--staff-page", options.staff_page.address));
   return StaffPage::Start({address, options.staff_page.pin, options.sandbox}, log);
+}
+
+// Joins the fleet of the options, or else of the device file; nullptr: there is none. Call this as
+// OpenStaffPage().
+Result<std::unique_ptr<FleetLink>> JoinFleet(const PlayOptions& options, Log& log) {
+  std::optional<FleetOptions> fleet;
+  if (!options.fleet.address.empty()) {
+    fleet = options.fleet;
+  } else if (!options.camera.device.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const Device device, LoadDevice(options.camera.device));
+    fleet = device.fleet;
+  }
+  if (!fleet) {
+    return std::unique_ptr<FleetLink>();
+  }
+  return FleetLink::Start(*std::move(fleet), options.sandbox, log);
 }
 
 std::filesystem::path UpdateFolder(const PlayOptions& options) {
@@ -142,9 +160,14 @@ int main(int argc, char** argv) {
   if (!updater.ok()) {
     return Report(updater.status(), **log);
   }
-  const int staff_link = *page != nullptr ? (*page)->link() : -1;
+  const Result<std::unique_ptr<FleetLink>> fleet = JoinFleet(*play, **log);
+  if (!fleet.ok()) {
+    return Report(fleet.status(), **log);
+  }
+  const StaffLinks staff = {*page != nullptr ? (*page)->link() : -1,
+                            *fleet != nullptr ? (*fleet)->link() : -1};
   if (!play->kiosk.enabled) {
-    return Report(Play(*play, start, **log, {.staff_link = staff_link}), **log);
+    return Report(Play(*play, start, **log, {.staff = staff}), **log);
   }
   std::optional<Curtain> curtain;
   if (!play->display.headless && play->display.mode != Display::kOpenXr) {
@@ -152,9 +175,9 @@ int main(int argc, char** argv) {
   }
   const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
     const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();
-    return Report(PlayNewest(*play, begun, **log,
-                             {.start = number, .heartbeat = heartbeat, .staff_link = staff_link}),
-                  **log);
+    return Report(
+        PlayNewest(*play, begun, **log, {.start = number, .heartbeat = heartbeat, .staff = staff}),
+        **log);
   };
   return Supervise(child, {}, **log);
 }

@@ -260,6 +260,31 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
   app.add_option("--log", play.output.log, "Write the log here too");
 }
 
+void AddFleetOptions(CLI::App& app, FleetOptions& fleet) {
+  CLI::Option* broker = app.add_option(
+      "--fleet", fleet.address,
+      "Join the fleet of a site: mqtts://HOST[:PORT]/SITE. Unless it is given, as the device file "
+      "says");
+  app.add_option("--fleet-name", fleet.name, "Name of this device there; that of the machine")
+      ->needs(broker);
+  app.add_option("--group", fleet.group, "Group of this device there")->needs(broker);
+  app.add_option("--fleet-authority", fleet.authority,
+                 "Certificate of the authority that signed the broker's; otherwise one that the "
+                 "system trusts")
+      ->check(CLI::ExistingFile)
+      ->needs(broker);
+  app.add_option("--fleet-password-file", fleet.password, "File with this device's password there")
+      ->check(CLI::ExistingFile)
+      ->needs(broker);
+  app.add_option("--fleet-certificate", fleet.certificate,
+                 "This device's certificate there, instead of a password")
+      ->check(CLI::ExistingFile)
+      ->needs(broker);
+  app.add_option("--fleet-key", fleet.key, "The key of that certificate")
+      ->check(CLI::ExistingFile)
+      ->needs(broker);
+}
+
 CLI::App* AddFleetSetup(CLI::App& app, FleetSetupOptions& setup) {
   CLI::App* command = app.add_subcommand(
       "fleet-setup", "Write what a fleet needs: the broker's files, and a folder for each device");
@@ -295,6 +320,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   CLI::App app("Plays a Lararium show: people of the past on the place before the camera.");
   app.set_version_flag("--version", LARARIUM_VERSION);
   AddPlayOptions(app, play);
+  AddFleetOptions(app, play.fleet);
   const CLI::App* setup_command = AddFleetSetup(app, fleet_setup);
   CLI::App* info_command = app.add_subcommand("info", "Say what a bundle holds");
   info_command->add_option("SHOW", info.show)->required()->check(CLI::ExistingFile);
@@ -344,6 +370,16 @@ Command ParseCommandLine(int argc, const char* const* argv) {
         throw CLI::ValidationError("--staff-page",
                                    ParseListenAddress("--staff-page", page).message());
       }
+    }
+    if (!play.fleet.address.empty()) {
+      FleetOptions fleet = play.fleet;
+      NameDevice(fleet);
+      if (const Status status = fleet.Validate(); !status.ok()) {
+        throw CLI::ValidationError("--fleet", status.message());
+      }
+    }
+    if (!play.benchmark.folder.empty() && !play.fleet.address.empty()) {
+      throw CLI::ValidationError("--fleet", "cannot go with --benchmark");
     }
     if (!play.benchmark.folder.empty() && !play.staff_page.address.empty()) {
       throw CLI::ValidationError("--staff-page", "cannot go with --benchmark");

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "player/fleet/fleet_options.h"
 #include "player/fleet/fleet_setup.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/text/caption_style.h"
@@ -114,6 +115,7 @@ struct PlayOptions {
   CameraOptions camera;
   DisplayOptions display;
   PageOptions staff_page;
+  FleetOptions fleet;  // The device file's are used if these have no address.
   KioskOptions kiosk;
   UpdateOptions updates;
   SequenceOptions benchmark;

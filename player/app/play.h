@@ -4,6 +4,7 @@
 
 #include "player/app/options.h"
 #include "player/kiosk/watchdog.h"
+#include "player/staff/staff_link.h"
 #include "player/updates/update_watch.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
@@ -18,7 +19,7 @@ struct PlayLinks {
   // Of a kiosk (watchdog.h).
   ChildStart start = {};
   Heartbeat heartbeat = Heartbeat();
-  int staff_link = -1;             // StaffPage::link(); -1: there is no staff page.
+  StaffLinks staff = {};           // Links to the processes that show its state.
   UpdateWatch* updates = nullptr;  // nullptr: there are no updates.
 };
 

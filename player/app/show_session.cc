@@ -97,8 +97,8 @@ ShowSession::ShowSession(const PlayOptions& options,
       updates_(links.updates),
       maker_(options.bundle, DramaOptionsOf(options), log) {
   // Created first, because it collects all warnings of the log.
-  if (links.staff_link >= 0) {
-    staff_.emplace(links.staff_link, log);
+  if (links.staff.any()) {
+    staff_.emplace(links.staff, log);
   }
   controls_.emplace(options.choices, options.kiosk, links.start, log);
 }

@@ -102,7 +102,7 @@ class ShowSession {
   std::unique_ptr<show::Show> show_;
   std::unique_ptr<PictureOutput> output_;
   std::optional<VisitorControls> controls_;  // The constructor always sets it.
-  std::optional<StaffReporter> staff_;       // nullopt: no staff page.
+  std::optional<StaffReporter> staff_;       // nullopt: neither a staff page nor a fleet.
   UpdateWatch* updates_;                     // nullptr: no updates
   int64_t told_statistics_ = -1;
   std::optional<Recorder> recorder_;

@@ -1,13 +1,19 @@
 #include "player/kiosk/sandbox.h"
 
+#include <fcntl.h>
+#include <linux/landlock.h>
 #include <seccomp.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -79,8 +85,8 @@ constexpr const char* kNeededToOpen[] = {
     "fchownat", "chmod",    "fchmodat", "mknod", "mknodat", "listen", "accept", "accept4",
 };
 
-// System calls that a web server with open sockets needs. All others fail.
-constexpr const char* kOfPage[] = {
+// System calls that a process with open sockets needs. All others fail.
+constexpr const char* kOfConnections[] = {
     "recvfrom",
     "recvmsg",
     "read",
@@ -128,6 +134,33 @@ constexpr const char* kOfPage[] = {
 #endif
 };
 
+// System calls that a client needs besides: it finds the address of its server, reads certificates,
+// and gives up what takes too long.
+constexpr const char* kOfClient[] = {
+    "connect",   "sendmmsg", "pselect6",  "select", "ioctl",     "lseek",      "newfstatat",
+    "fstatat64", "statx",    "readlink",  "uname",  "getuid",    "geteuid",    "getgid",
+    "getegid",   "getcwd",   "setitimer", "access", "faccessat", "faccessat2", "readlinkat",
+};
+
+// Files that resolvers of names read.
+constexpr const char* kOfResolver[] = {"/etc", "/run/systemd/resolve", "/run/NetworkManager",
+                                       "/run/resolvconf"};
+
+// Landlock as linux/landlock.h of Linux 6.7 has it; Debian 12's header is older.
+constexpr uint64_t kAllFileRights = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;
+constexpr uint64_t kConnectTcp = 2;
+constexpr uint64_t kBindTcp = 1;
+constexpr int kPortRule = 2;
+constexpr long kVersionWithPorts = 4;
+struct LandlockRules {
+  uint64_t files = kAllFileRights;
+  uint64_t ports = kConnectTcp | kBindTcp;
+};
+struct LandlockPort {
+  uint64_t allowed = kConnectTcp;
+  uint64_t port = 0;
+};
+
 struct Release {
   void operator()(void* filter) const { seccomp_release(filter); }
 };
@@ -169,6 +202,75 @@ Status Load(scmp_filter_ctx filter) {
   seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
   const int loaded = seccomp_load(filter);
   return loaded == 0 ? Status() : Problem("the system does not take it", loaded);
+}
+
+using AllowCall = std::function<void(const char*, std::initializer_list<scmp_arg_cmp>)>;
+
+// Enters a sandbox in which only the use of connections and memory is allowed, and `calls`, and
+// what `more` allows.
+Status EnterConnectionSandbox(std::span<const char* const> calls,
+                              const std::function<void(const AllowCall&)>& more) {
+  const Filter filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)));
+  if (filter == nullptr) {
+    return Problem("cannot be created", -ENOMEM);
+  }
+  int failed = 0;
+  const AllowCall allow = [&](const char* name, std::initializer_list<scmp_arg_cmp> conditions) {
+    const int call = seccomp_syscall_resolve_name(name);
+    const int added =
+        call == __NR_SCMP_ERROR  // this kernel or machine does not have the call
+            ? 0
+            : seccomp_rule_add_array(filter.get(), SCMP_ACT_ALLOW, call,
+                                     static_cast<unsigned>(conditions.size()), conditions.begin());
+    failed = added != 0 && added != -EDOM ? added : failed;
+  };
+  for (const std::span<const char* const> names :
+       {std::span<const char* const>(kOfConnections), calls}) {
+    for (const char* name : names) {
+      allow(name, {});
+    }
+  }
+  more(allow);
+  // With MSG_FASTOPEN, sending would also connect.
+  allow("sendto", {Without(3, MSG_FASTOPEN)});
+  allow("sendmsg", {Without(2, MSG_FASTOPEN)});
+  // Memory must not be executable, so that received data cannot be run.
+  allow("mmap", {Without(2, PROT_EXEC)});
+  allow("mprotect", {Without(2, PROT_EXEC)});
+  return failed != 0 ? Problem("cannot be created", failed) : Load(filter.get());
+}
+
+// Permits to read `files` and the resolver's, and to connect to `port`, as far as the kernel knows
+// such limits.
+Status LimitFilesAndPorts(std::span<const std::filesystem::path> files, uint16_t port) {
+  const long version =
+      ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+  const LandlockRules limits;
+  const size_t size = version < kVersionWithPorts ? sizeof(limits.files) : sizeof(limits);
+  const auto rules =
+      static_cast<int>(version < 1 ? -1 : ::syscall(SYS_landlock_create_ruleset, &limits, size, 0));
+  if (rules < 0) {
+    return Status::Error("sandbox", "this kernel does not limit which files are read (Landlock)");
+  }
+  std::vector<std::filesystem::path> readable(files.begin(), files.end());
+  readable.insert(readable.end(), std::begin(kOfResolver), std::end(kOfResolver));
+  for (const std::filesystem::path& path : readable) {
+    const int file = ::open(path.c_str(), O_PATH | O_CLOEXEC);
+    if (file >= 0) {
+      const landlock_path_beneath_attr beneath = {LANDLOCK_ACCESS_FS_READ_FILE, file};
+      ::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &beneath, 0);
+      ::close(file);
+    }
+  }
+  if (version >= kVersionWithPorts) {
+    const LandlockPort allowed = {.port = port};
+    ::syscall(SYS_landlock_add_rule, rules, kPortRule, &allowed, 0);
+  }
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  const long restricted = ::syscall(SYS_landlock_restrict_self, rules, 0);
+  const int error = errno;
+  ::close(rules);
+  return restricted == 0 ? Status() : Problem("the system does not take it", -error);
 }
 
 }  // namespace
@@ -216,37 +318,24 @@ Status EnterUpdateSandbox() {
 }
 
 Status EnterPageSandbox(int listening) {
-  const Filter filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)));
-  if (filter == nullptr) {
-    return Problem("cannot be created", -ENOMEM);
-  }
-  const auto allow = [&](const char* name, std::initializer_list<scmp_arg_cmp> conditions) {
-    const int call = seccomp_syscall_resolve_name(name);
-    return call == __NR_SCMP_ERROR  // this kernel or machine does not have the call
-               ? 0
-               : seccomp_rule_add_array(filter.get(), SCMP_ACT_ALLOW, call,
-                                        static_cast<unsigned>(conditions.size()),
-                                        conditions.begin());
-  };
-  std::vector<int> added;
-  for (const char* name : kOfPage) {
-    added.push_back(allow(name, {}));
-  }
-  for (const char* name : {"accept", "accept4"}) {
-    added.push_back(allow(name, {First(SCMP_CMP_EQ, static_cast<scmp_datum_t>(listening))}));
-  }
-  // With MSG_FASTOPEN, sending would also connect.
-  added.push_back(allow("sendto", {Without(3, MSG_FASTOPEN)}));
-  added.push_back(allow("sendmsg", {Without(2, MSG_FASTOPEN)}));
-  // Memory must not be executable, so that received data cannot be run.
-  added.push_back(allow("mmap", {Without(2, PROT_EXEC)}));
-  added.push_back(allow("mprotect", {Without(2, PROT_EXEC)}));
-  for (const int code : added) {
-    if (code != 0 && code != -EDOM) {
-      return Problem("cannot be created", code);
+  return EnterConnectionSandbox({}, [&](const AllowCall& allow) {
+    for (const char* name : {"accept", "accept4"}) {
+      allow(name, {First(SCMP_CMP_EQ, static_cast<scmp_datum_t>(listening))});
     }
-  }
-  return Load(filter.get());
+  });
+}
+
+Status EnterClientSandbox(std::span<const std::filesystem::path> files, uint16_t port) {
+  const Status limited = LimitFilesAndPorts(files, port);
+  const Status entered = EnterConnectionSandbox(kOfClient, [](const AllowCall& allow) {
+    for (const int family : {AF_INET, AF_INET6}) {
+      allow("socket", {First(SCMP_CMP_EQ, static_cast<scmp_datum_t>(family))});
+    }
+    allow("socketpair", {First(SCMP_CMP_EQ, AF_UNIX)});
+    allow("open", {Without(1, O_ACCMODE | O_CREAT)});
+    allow("openat", {Without(2, O_ACCMODE | O_CREAT)});
+  });
+  return entered.ok() ? limited : entered;
 }
 
 }  // namespace lararium::player

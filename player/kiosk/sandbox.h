@@ -4,6 +4,10 @@
 // parser, it can then reach no other programs, no network, no other processes and no settings of
 // the machine.
 
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
 #include "shared/core/status.h"
 
 namespace lararium::player {
@@ -26,5 +30,12 @@ Status EnterUpdateSandbox();
 // may accept connections on the listening socket, use these connections and allocate memory. It
 // cannot open files or sockets or connect to other machines.
 Status EnterPageSandbox(int listening);
+
+// For the process of the fleet (fleet_link.h), which connects to one broker. It may find the
+// address of a name, connect to `port` over TCP, use its connections, allocate memory, and read
+// `files` and what the resolver of names reads. It cannot write files, accept connections or reach
+// programs of this machine. Before Linux 6.7 it could connect to other ports too, and without
+// Landlock it could read other files; the latter is an error after everything else was entered.
+Status EnterClientSandbox(std::span<const std::filesystem::path> files, uint16_t port);
 
 }  // namespace lararium::player

@@ -3,6 +3,7 @@
 #include <poll.h>
 
 #include <chrono>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <utility>
@@ -32,8 +33,9 @@ std::string OneLine(std::string_view text) {
 
 }  // namespace
 
-StaffLink::StaffLink(int link, Log& log)
-    : link_(link),
+StaffLink::StaffLink(const StaffLinks& links, Log& log)
+    : page_{"staff page", links.page},
+      fleet_{"fleet", links.fleet},
       log_(log),
       warnings_(RecentWarnings::Of(log)),
       thread_([this](const std::stop_token& stop) { Run(stop); }) {}
@@ -43,37 +45,44 @@ double StaffLink::Now() {
 }
 
 void StaffLink::Run(const std::stop_token& stop) {
-  bool open = true;
-  while (!stop.stop_requested() && open) {
-    pollfd waiting = {link_, POLLIN, 0};
-    if (::poll(&waiting, 1, kLookUpMs) > 0) {
-      Receive(open);
+  while (!stop.stop_requested() && (page_.socket >= 0 || fleet_.socket >= 0)) {
+    // Negative sockets are ignored.
+    pollfd waiting[] = {{page_.socket, POLLIN, 0}, {fleet_.socket, POLLIN, 0}};
+    if (::poll(waiting, std::size(waiting), kLookUpMs) > 0) {
+      Receive(page_);
+      Receive(fleet_);
     }
     if (const std::optional<StaffState> state = state_.TryTake()) {
       SendState(*state);
     }
     if (const std::optional<VisitStatistics> statistics = statistics_.TryTake()) {
-      SendStaffMessage(link_, StaffMessage::kStatistics, statistics->ToCsv());
+      SendStaffMessage(page_.socket, StaffMessage::kStatistics, statistics->ToCsv());
     }
     if (const std::optional<cv::Mat> picture = picture_.TryTake()) {
       SendPicture(*picture);
     }
   }
-  if (!open) {
-    log_.Warn("the staff page ended; the show goes on without it");
-  }
 }
 
-// Messages of the page are checked here again, because other machines can reach the page.
-void StaffLink::Receive(bool& open) {
-  while (const auto message = ReceiveStaffMessage(link_, buffer_, open)) {
+// Messages are checked here again, because other machines can reach the processes.
+void StaffLink::Receive(End& end) {
+  bool open = true;
+  while (end.socket >= 0) {
+    const auto message = ReceiveStaffMessage(end.socket, buffer_, open);
+    if (!open) {
+      log_.Warn("the process of the {} ended; the show goes on without it", end.name);
+      end.socket = -1;
+    }
+    if (!message) {
+      return;
+    }
     if (message->kind == StaffMessage::kPictureWanted) {
       wanted_until_.store(Now() + kWantedSeconds, std::memory_order_relaxed);
     } else if (message->kind == StaffMessage::kNote) {
-      log_.Warn("staff page: {}", OneLine(message->content));
+      log_.Warn("{}: {}", end.name, OneLine(message->content));
     } else if (message->kind == StaffMessage::kCommand) {
       if (Result<StaffCommand> command = ParseStaffCommand(message->content); command.ok()) {
-        log_.Info("staff page: {}", OneLine(message->content));
+        log_.Info("{}: {}", end.name, OneLine(message->content));
         AddCommand(*std::move(command));
       }
     }
@@ -102,7 +111,10 @@ void StaffLink::ReadMachine() {
 
 void StaffLink::SendState(const StaffState& state) {
   ReadMachine();
-  SendStaffMessage(link_, StaffMessage::kState, StaffJson(state, machine_));
+  const std::string json = StaffJson(state, machine_);
+  for (const End& end : {page_, fleet_}) {
+    SendStaffMessage(end.socket, StaffMessage::kState, json);
+  }
 }
 
 void StaffLink::SendPicture(const cv::Mat& rgba) {
@@ -112,7 +124,7 @@ void StaffLink::SendPicture(const cv::Mat& rgba) {
   if (!jpeg.ok()) {
     return;  // the page then shows that there is no picture
   }
-  SendStaffMessage(link_, StaffMessage::kPicture,
+  SendStaffMessage(page_.socket, StaffMessage::kPicture,
                    {reinterpret_cast<const char*>(jpeg->data()), jpeg->size()});
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 
-// The player's end of the link to its staff page.
+// The player's ends of the links to the processes that show its state and pass commands on.
 
 #include <atomic>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -19,17 +20,26 @@
 
 namespace lararium::player {
 
+// Links to processes beside the player. The number is -1 where there is no such process.
+struct StaffLinks {
+  int page = -1;   // StaffPage::link()
+  int fleet = -1;  // FleetLink::link()
+
+  bool any() const { return page >= 0 || fleet >= 0; }
+};
+
 // Sends state and pictures and receives commands without delaying frames: slow work (JSON, JPEG,
 // sensors, the socket) is done on its own thread.
 class StaffLink {
  public:
   static constexpr int kPictureWidth = 320;  // maximum
 
-  // link: StaffPage::link(); the page must outlive this object. The constructor starts to collect
-  // the log's warnings, so no other thread may write to the log meanwhile. Borrows log.
-  StaffLink(int link, Log& log);
+  // The processes of the links must outlive this object. The constructor starts to collect the
+  // log's warnings, so no other thread may write to the log meanwhile. Borrows log.
+  StaffLink(const StaffLinks& links, Log& log);
 
-  // Send a state, statistics or a picture. If several wait, only the newest is sent.
+  // Send a state, statistics or a picture. If several wait, only the newest is sent. The fleet gets
+  // only states.
   void Tell(StaffState state) { state_.Put(std::move(state)); }
   void TellStatistics(VisitStatistics statistics) { statistics_.Put(std::move(statistics)); }
   // rgba: result of render::AsyncReadback.
@@ -48,14 +58,21 @@ class StaffLink {
  private:
   using Commands = std::vector<StaffCommand>;
 
+  // One process that the player tells.
+  struct End {
+    std::string_view name;  // Name in the log.
+    int socket = -1;        // -1: there is no process, or it has ended.
+  };
+
   void Run(const std::stop_token& stop);
-  void Receive(bool& open);
+  void Receive(End& end);
   void AddCommand(StaffCommand command);
   void SendState(const StaffState& state);
   void SendPicture(const cv::Mat& rgba);
   void ReadMachine();
 
-  int link_;
+  End page_;
+  End fleet_;
   Log& log_;
   std::shared_ptr<RecentWarnings> warnings_;
   Mailbox<StaffState> state_;

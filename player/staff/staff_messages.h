@@ -1,7 +1,8 @@
 #pragma once
 
-// Messages between the player and the process of its staff page, over a pair of sockets that keep
-// message boundaries. Neither side waits for the other: messages that do not fit are dropped.
+// Messages between the player and the processes beside it, that of its staff page and that of its
+// fleet, over a pair of sockets that keep message boundaries. Neither side waits for the other:
+// messages that do not fit are dropped.
 
 #include <cstddef>
 #include <optional>
@@ -14,13 +15,13 @@
 namespace lararium::player {
 
 enum class StaffMessage : char {
-  // Messages to the page.
+  // Messages to the processes. Only the page gets the last two.
   kState = 'S',       // JSON, staff_state.h
   kPicture = 'P',     // a JPEG
   kStatistics = 'C',  // VisitStatistics::ToCsv
   // Messages to the player.
   kCommand = 'A',        // JSON, ParseStaffCommand
-  kPictureWanted = 'W',  // empty
+  kPictureWanted = 'W',  // empty; only the page sends it
   kNote = 'N',           // a text for the log
 };
 

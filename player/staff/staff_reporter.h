@@ -1,7 +1,7 @@
 #pragma once
 
-// Collects the state for the staff page while frames are drawn. The work for each frame is small;
-// the state is sent twice a second, and pictures only while a browser shows them.
+// Collects the state for the staff page and the fleet while frames are drawn. The work for each
+// frame is small; the state is sent twice a second, and pictures only while a browser shows them.
 
 #include <functional>
 
@@ -17,8 +17,9 @@ namespace lararium::player {
 // Use it on the thread that draws, while its context exists.
 class StaffReporter {
  public:
-  // link and log: see StaffLink.
-  StaffReporter(int link, Log& log) : link_(link, log), mirror_(StaffLink::kPictureWidth) {}
+  // links and log: see StaffLink.
+  StaffReporter(const StaffLinks& links, Log& log)
+      : link_(links, log), mirror_(StaffLink::kPictureWidth) {}
 
   // Call this before the first frame, when the context exists. picture: has the size of the
   // pictures that will be mirrored.

@@ -1,5 +1,5 @@
 // libFuzzer harness: any text as a device file, as a kiosk's state and statistics, as a command of
-// its staff page, as the address and the plan of a fleet, and as the key that shows
+// its staff page or its fleet, as the address and the plan of a fleet, and as the key that shows
 // must be signed with.
 
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "player/app/device_file.h"
+#include "player/fleet/command_gate.h"
 #include "player/fleet/fleet_options.h"
 #include "player/fleet/fleet_setup.h"
 #include "player/kiosk/kiosk_state.h"
@@ -40,6 +41,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   if (const auto command = player::ParseStaffCommand(text); command.ok()) {
     CHECK(!command->volume || (*command->volume >= 0.0 && *command->volume <= 1.0));
+  }
+  player::CommandGate gate;
+  CHECK(gate.Check(text, true, {}).ok() == false);
+  if (gate.Check(text, false, {}).ok()) {
+    CHECK(size <= player::kMostStaffCommand);
   }
   if (const auto address = player::ParseFleetAddress("--fleet", text); address.ok()) {
     CHECK(player::IsHost(address->host) && player::IsFleetName(address->site));

@@ -140,5 +140,14 @@ TEST(Doctor, SaysHowTheStaffPageIsAskedFor) {
   EXPECT_EQ(JudgeStaffPage({}, Status::Error("pin", "short"), {}).verdict, Verdict::kBad);
 }
 
+TEST(Doctor, SaysWhetherTheFleetKnowsTheDevice) {
+  FleetOptions fleet;
+  fleet.address = "mqtts://10.0.0.5/pompeii";
+  fleet.name = "tablet-01";
+  EXPECT_EQ(JudgeFleet({}, fleet).found, "mqtts://10.0.0.5/pompeii knows \"tablet-01\"");
+  EXPECT_EQ(JudgeFleet({}, fleet).verdict, Verdict::kGood);
+  EXPECT_EQ(JudgeFleet(Status::Error("broker", "no answer"), fleet).verdict, Verdict::kBad);
+}
+
 }  // namespace
 }  // namespace lararium::player

@@ -3,17 +3,20 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/landlock.h>
 #include <netinet/in.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <thread>
 
@@ -179,6 +182,62 @@ TEST_F(PageSandbox, NoFileIsOpenedAndNothingElseIsRun) {
               return memory == MAP_FAILED ? errno : 0;
             }),
             EPERM);
+}
+
+// The sandbox of a process that connects to a port of this machine.
+class ClientSandbox : public PageSandbox {
+ protected:
+  int InClient(const std::function<int()>& function) const {
+    return InsideOf(
+        [this] {
+          const std::filesystem::path files[] = {"/proc/self/status"};
+          return EnterClientSandbox(files, ntohs(address_.sin_port));
+        },
+        function);
+  }
+};
+
+TEST_F(ClientSandbox, TheServerIsCalledAndTheFilesAreRead) {
+  EXPECT_EQ(InClient([this] {
+              const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+              return ErrorOf(::connect(socket, Address(), sizeof(address_)));
+            }),
+            0);
+  EXPECT_EQ(InClient([] { return ErrorOf(::open("/etc/hosts", O_RDONLY)); }), 0);
+}
+
+TEST_F(ClientSandbox, NoOtherFileIsReadAndNoneIsWritten) {
+  EXPECT_EQ(InClient([] { return ErrorOf(::open("/usr/bin/env", O_RDONLY)); }), EACCES);
+  EXPECT_EQ(InClient([] { return ErrorOf(::open("/etc/hosts", O_RDWR)); }), EPERM);
+  EXPECT_EQ(InClient([] {
+              return ErrorOf(::open("/tmp/lararium_no_such_file", O_RDONLY | O_CREAT, 0600));
+            }),
+            EPERM);
+  EXPECT_EQ(InClient([] { return ErrorOf(::unlink("/tmp/lararium_no_such_file")); }), EPERM);
+}
+
+TEST_F(ClientSandbox, ProgramsOfThisMachineAreNotReachedAndNobodyCalls) {
+  EXPECT_EQ(InClient([] { return ErrorOf(::socket(AF_UNIX, SOCK_STREAM, 0)); }), EPERM);
+  EXPECT_EQ(InClient([this] { return ErrorOf(::accept(listening_, nullptr, nullptr)); }), EPERM);
+  EXPECT_EQ(InClient([] { return ErrorOf(::execl("/bin/true", "true", nullptr)); }), EPERM);
+  EXPECT_EQ(InClient([] { return ErrorOf(::fork()); }), EPERM);
+  EXPECT_EQ(InClient([] { return ErrorOf(::kill(::getppid(), 0)); }), EPERM);
+}
+
+TEST_F(ClientSandbox, OtherPortsAreNotCalledWhereTheKernelLimitsThem) {
+  constexpr int kWithPorts = 4;
+  if (::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) <
+      kWithPorts) {
+    GTEST_SKIP() << "needs Linux 6.7 with Landlock";
+  }
+  EXPECT_EQ(
+      InClient([this] {
+        sockaddr_in other = address_;
+        other.sin_port = htons(static_cast<uint16_t>(ntohs(address_.sin_port) ^ 1));
+        const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+        return ErrorOf(::connect(socket, reinterpret_cast<const sockaddr*>(&other), sizeof(other)));
+      }),
+      EACCES);
 }
 
 }  // namespace

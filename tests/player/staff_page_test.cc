@@ -105,7 +105,7 @@ class StaffPageTest : public ::testing::Test {
   // The player's end of the link, which has sent a state that the page has received.
   StaffLink& Player() {
     if (!player_) {
-      player_.emplace(page_->link(), *log_);
+      player_.emplace(StaffLinks{.page = page_->link()}, *log_);
       StaffState state;
       state.title = "The <thermopolium>";
       state.languages = {"la", "it"};

@@ -1,0 +1,290 @@
+#include "player/fleet/fleet_client.h"
+
+#include <mosquitto.h>
+#include <poll.h>
+#include <sys/time.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <iterator>
+#include <optional>
+
+#include "player/kiosk/secret_file.h"
+#include "player/staff/staff_messages.h"
+
+namespace lararium::player {
+namespace {
+
+// The broker notices within one and a half times this that a device is gone.
+constexpr int kKeepAliveSeconds = 5;  // The shortest that libmosquitto accepts.
+constexpr int kPollMs = 100;
+constexpr long kConnectSeconds = 10;
+constexpr int kTryMs = 10'000;  // time that a broker has to answer the doctor
+constexpr char kTrustedBySystem[] = "/etc/ssl/certs";
+constexpr std::chrono::seconds kLongestPause(30);
+// Between two states at least the first time passes, and at most the second.
+constexpr std::chrono::milliseconds kLeastBetween(500);
+constexpr std::chrono::milliseconds kMostBetween(2000);
+constexpr int kOnce = 2;         // Quality of service: a command arrives exactly once.
+constexpr int kAtLeastOnce = 1;  // Quality of service of presence.
+constexpr int kNewestWins = 0;   // Quality of service of states.
+
+constexpr char kOnline[] = R"({"online": true})";
+constexpr char kOffline[] = R"({"online": false})";
+
+// Says what a code of libmosquitto means.
+std::string TextOf(int code) {
+  if (code != MOSQ_ERR_ERRNO) {
+    return mosquitto_strerror(code);
+  }
+  return errno == EINTR ? "it does not answer" : std::strerror(errno);
+}
+
+const char* OrNull(const std::filesystem::path& path) {
+  return path.empty() ? nullptr : path.c_str();
+}
+
+// Makes a client that knows how to prove its name. kind: beginning of the name of its session; the
+// broker ends an older session of the same name.
+Result<MosquittoClient> MakeClient(const FleetOptions& options,
+                                   const std::string& kind,
+                                   void* user) {
+  constexpr bool kForget = true;  // The broker keeps no commands for a device that is away.
+  const std::string id = kind + "-" + options.broker().site + "-" + options.name;
+  mosquitto_lib_init();
+  MosquittoClient client(mosquitto_new(id.c_str(), kForget, user));
+  if (client == nullptr) {
+    return Status::Error("fleet", TextOf(MOSQ_ERR_ERRNO));
+  }
+  if (!options.password.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(std::string password, ReadSecretLine(options.password));
+    const int code =
+        mosquitto_username_pw_set(client.get(), options.name.c_str(), password.c_str());
+    ::explicit_bzero(password.data(), password.size());
+    if (code != MOSQ_ERR_SUCCESS) {
+      return Status::Error(options.password.string(), TextOf(code));
+    }
+  }
+  // Without the function, OpenSSL would ask for the password of an encrypted key.
+  const auto no_password = [](char* /*text*/, int /*size*/, int /*use*/, void* /*data*/) {
+    return 0;
+  };
+  if (const int code =
+          mosquitto_tls_set(client.get(), OrNull(options.authority),
+                            options.authority.empty() ? kTrustedBySystem : nullptr,
+                            OrNull(options.certificate), OrNull(options.key), no_password);
+      code != MOSQ_ERR_SUCCESS) {
+    return Status::Error("fleet", TextOf(code), "check the files with the certificates");
+  }
+  // The signal of ConnectInTime() does nothing but interrupt.
+  struct sigaction interrupt = {};
+  interrupt.sa_handler = [](int) {};
+  ::sigaction(SIGALRM, &interrupt, nullptr);
+  return client;
+}
+
+// A host may have several addresses; each is given up after a while by a signal.
+int ConnectInTime(mosquitto* client, const FleetAddress& broker) {
+  const itimerval signals = {{kConnectSeconds, 0}, {kConnectSeconds, 0}};
+  const itimerval none = {};
+  ::setitimer(ITIMER_REAL, &signals, nullptr);
+  const int code = mosquitto_connect(client, broker.host.c_str(), broker.port, kKeepAliveSeconds);
+  ::setitimer(ITIMER_REAL, &none, nullptr);
+  return code;
+}
+
+}  // namespace
+
+void FreeMosquitto::operator()(mosquitto* client) const {
+  mosquitto_destroy(client);
+  mosquitto_lib_cleanup();
+}
+
+Status TryFleet(const FleetOptions& options) {
+  struct Answer {
+    std::optional<int> code;
+    std::string error;
+  } answer;
+  LARARIUM_ASSIGN_OR_RETURN(const MosquittoClient client, MakeClient(options, "doctor", &answer));
+  mosquitto_connect_callback_set(client.get(), [](mosquitto* /*client*/, void* user, int code) {
+    static_cast<Answer*>(user)->code = code;
+  });
+  mosquitto_log_callback_set(client.get(),
+                             [](mosquitto* /*client*/, void* user, int level, const char* text) {
+                               if (level == MOSQ_LOG_ERR) {
+                                 static_cast<Answer*>(user)->error = text;
+                               }
+                             });
+  int code = ConnectInTime(client.get(), options.broker());
+  for (int waited = 0; code == MOSQ_ERR_SUCCESS && !answer.code; waited += kPollMs) {
+    code = waited < kTryMs ? mosquitto_loop(client.get(), kPollMs, 1) : MOSQ_ERR_NO_CONN;
+  }
+  if (answer.code == 0) {
+    mosquitto_disconnect(client.get());
+    return Status();
+  }
+  return Status::Error(options.address, answer.code ? mosquitto_connack_string(*answer.code)
+                                        : !answer.error.empty() ? answer.error
+                                                                : TextOf(code));
+}
+
+struct FleetClient::Calls {
+  static void Connected(mosquitto* /*client*/, void* self, int code) {
+    static_cast<FleetClient*>(self)->Connected(code);
+  }
+  // Errors of TLS are told only here.
+  static void Logged(mosquitto* /*client*/, void* self, int level, const char* text) {
+    if (level == MOSQ_LOG_ERR) {
+      static_cast<FleetClient*>(self)->library_says_ = text;
+    }
+  }
+  static void Received(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
+    static_cast<FleetClient*>(self)->Take(*message);
+  }
+};
+
+FleetClient::FleetClient(const FleetOptions& options, int link)
+    : broker_(options.broker()),
+      topics_(TopicsOf(broker_.site, options.name, options.group)),
+      name_(options.name),
+      group_(options.group),
+      link_(link) {}
+
+Result<std::unique_ptr<FleetClient>> FleetClient::Create(const FleetOptions& options, int link) {
+  std::unique_ptr<FleetClient> client(new FleetClient(options, link));
+  LARARIUM_RETURN_IF_ERROR(client->Prepare(options));
+  return client;
+}
+
+Status FleetClient::Prepare(const FleetOptions& options) {
+  LARARIUM_ASSIGN_OR_RETURN(client_, MakeClient(options, "lararium", this));
+  mosquitto_will_set(client_.get(), topics_.presence.c_str(), sizeof(kOffline) - 1, kOffline,
+                     kAtLeastOnce, true);
+  mosquitto_connect_callback_set(client_.get(), &Calls::Connected);
+  mosquitto_message_callback_set(client_.get(), &Calls::Received);
+  mosquitto_log_callback_set(client_.get(), &Calls::Logged);
+  return Status();
+}
+
+void FleetClient::Run() {
+  while (true) {
+    const int socket = has_socket_ ? mosquitto_socket(client_.get()) : -1;
+    const auto wanted = static_cast<short>(
+        POLLIN | (has_socket_ && mosquitto_want_write(client_.get()) ? POLLOUT : 0));
+    pollfd waiting[] = {{link_, POLLIN, 0}, {socket, wanted, 0}};
+    ::poll(waiting, std::size(waiting), kPollMs);
+    if (!TakeMessages()) {
+      break;
+    }
+    if (has_socket_) {
+      Serve();
+    } else if (Clock::now() >= next_try_) {
+      Connect();
+    }
+    PublishState();
+  }
+  if (connected_) {
+    PublishPresence(false);
+    mosquitto_loop(client_.get(), kPollMs, 1);
+    mosquitto_disconnect(client_.get());
+    mosquitto_loop(client_.get(), kPollMs, 1);
+  }
+}
+
+bool FleetClient::TakeMessages() {
+  bool open = true;
+  while (const auto message = ReceiveStaffMessage(link_, buffer_, open)) {
+    if (message->kind == StaffMessage::kState) {
+      state_.Set(message->content);
+      has_news_ = true;
+    }
+  }
+  return open;
+}
+
+// The player's messages wait meanwhile; those that do not fit are dropped.
+void FleetClient::Connect() {
+  const int code = ConnectInTime(client_.get(), broker_);
+  has_socket_ = code == MOSQ_ERR_SUCCESS;
+  if (!has_socket_) {
+    Lost(TextOf(code));
+  }
+}
+
+void FleetClient::Serve() {
+  if (const int code = mosquitto_loop(client_.get(), 0, 1);
+      code != MOSQ_ERR_SUCCESS && has_socket_) {
+    Lost(TextOf(code));
+  }
+}
+
+void FleetClient::Connected(int code) {
+  if (code != 0) {
+    Lost(mosquitto_connack_string(code));
+    return;
+  }
+  connected_ = true;
+  pause_ = std::chrono::seconds(1);
+  if (lost_told_) {
+    Note("connected again");
+    lost_told_ = false;
+  }
+  for (const std::string& topic : topics_.commands) {
+    mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kOnce);
+  }
+  PublishPresence(true);
+  published_ = {};
+}
+
+void FleetClient::Lost(std::string_view why) {
+  has_socket_ = false;
+  connected_ = false;
+  next_try_ = Clock::now() + pause_;
+  pause_ = std::min(2 * pause_, kLongestPause);
+  if (!lost_told_) {
+    lost_told_ = true;
+    const std::string reason = library_says_.empty() ? std::string(why) : library_says_;
+    Note("no connection to " + broker_.host + " (" + reason + "); the show goes on");
+  }
+  library_says_.clear();
+}
+
+void FleetClient::Take(const mosquitto_message& message) {
+  const std::string_view payload(static_cast<const char*>(message.payload),
+                                 static_cast<size_t>(message.payloadlen));
+  if (const Status status = gate_.Check(payload, message.retain, Clock::now()); status.ok()) {
+    SendStaffMessage(link_, StaffMessage::kCommand, payload);
+  } else if (gate_.tells()) {
+    Note(status.message() + "; refused so far: " + std::to_string(gate_.refused()));
+  }
+}
+
+void FleetClient::PublishState() {
+  const auto passed = Clock::now() - published_;
+  const bool due = has_news_ ? passed >= kLeastBetween : passed >= kMostBetween;
+  // What is not sent yet is not queued behind.
+  if (!connected_ || !due || mosquitto_want_write(client_.get())) {
+    return;
+  }
+  const std::string json =
+      state_.ToJson({{"name", name_}, {"group", group_}, {"time", std::time(nullptr)}});
+  mosquitto_publish(client_.get(), nullptr, topics_.state.c_str(), static_cast<int>(json.size()),
+                    json.data(), kNewestWins, true);
+  published_ = Clock::now();
+  has_news_ = false;
+}
+
+void FleetClient::PublishPresence(bool online) {
+  const std::string_view text = online ? kOnline : kOffline;
+  mosquitto_publish(client_.get(), nullptr, topics_.presence.c_str(), static_cast<int>(text.size()),
+                    text.data(), kAtLeastOnce, true);
+}
+
+void FleetClient::Note(const std::string& text) {
+  SendStaffMessage(link_, StaffMessage::kNote, text);
+}
+
+}  // namespace lararium::player
