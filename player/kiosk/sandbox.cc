@@ -124,6 +124,9 @@ constexpr const char* kOfConnections[] = {
     "rt_sigreturn",
     "sigaltstack",
     "sched_yield",
+    // A thread that has just been made calls these.
+    "rseq",
+    "set_robust_list",
     "restart_syscall",
     "exit",
     "exit_group",
