@@ -15,6 +15,7 @@
 #include "player/fleet/fleet_client.h"
 #include "player/kiosk/kiosk.h"
 #include "player/kiosk/power_sensors.h"
+#include "player/kiosk/web_address.h"
 #include "player/openxr/openxr_headset.h"
 #include "player/staff/staff_page.h"
 #include "shared/audio/audio_out.h"
@@ -231,13 +232,13 @@ Finding LookAtStaffPage(const DoctorOptions& options) {
   if (!address.ok()) {
     return JudgeStaffPage(address.status(), {}, {});
   }
-  const Result<int> port = ListenForStaff(*address);
+  const Result<int> port = ListenForPage("staff page", "--staff-page", *address);
   if (port.ok()) {
     ::close(*port);
   }
   const Status pin =
       options.staff_pin.empty() ? Status() : StaffPin::Load(options.staff_pin).status();
-  return JudgeStaffPage(port.status(), pin, StaffPageUrls(*address));
+  return JudgeStaffPage(port.status(), pin, PageUrls("http", *address));
 }
 
 Finding LookAtFleet(FleetOptions fleet) {

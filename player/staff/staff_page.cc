@@ -1,8 +1,5 @@
 #include "player/staff/staff_page.h"
 
-#include <arpa/inet.h>
-#include <ifaddrs.h>
-#include <net/if.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,21 +12,12 @@
 
 #include "player/kiosk/recent_warnings.h"
 #include "player/kiosk/sandbox.h"
+#include "player/kiosk/web_address.h"
 #include "player/staff/staff_server.h"
 #include "shared/core/lower_case.h"
 
 namespace lararium::player {
 namespace {
-
-constexpr int kWaiting = 16;  // limit of connections that wait to be accepted
-
-std::string UrlOf(uint32_t ip, uint16_t port) {
-  in_addr address = {};
-  address.s_addr = htonl(ip);
-  char text[INET_ADDRSTRLEN] = "";
-  inet_ntop(AF_INET, &address, text, sizeof(text));
-  return std::string("http://") + text + ":" + std::to_string(port) + "/";
-}
 
 // Names of this machine on the network, for example "kiosk" and "kiosk.local".
 std::vector<std::string> NamesOfMachine() {
@@ -61,60 +49,13 @@ int Serve(int listening, int link, std::optional<StaffPin> pin, bool sandbox) {
 
 }  // namespace
 
-Result<int> ListenForStaff(const ListenAddress& address) {
-  const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const int yes = 1;
-  sockaddr_in bound = {};
-  bound.sin_family = AF_INET;
-  bound.sin_addr.s_addr = htonl(address.ip);
-  bound.sin_port = htons(address.port);
-  if (file >= 0 && ::setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes)) == 0 &&
-      ::bind(file, reinterpret_cast<const sockaddr*>(&bound), sizeof(bound)) == 0 &&
-      ::listen(file, kWaiting) == 0) {
-    return file;
-  }
-  const int error = errno;
-  if (file >= 0) {
-    ::close(file);
-  }
-  const std::string place = "staff page " + UrlOf(address.ip, address.port);
-  if (error == EADDRINUSE) {
-    return Status::Error(place, "another program listens there, perhaps another player",
-                         "end that program, or choose another port with --staff-page");
-  }
-  return Status::Error(place, std::string("cannot be opened: ") + std::strerror(error),
-                       "choose an address that \"ip -4 address\" lists with --staff-page");
-}
-
-std::vector<std::string> StaffPageUrls(const ListenAddress& address) {
-  if (address.ip != INADDR_ANY) {
-    return {UrlOf(address.ip, address.port)};
-  }
-  std::vector<std::string> urls;
-  ifaddrs* list = nullptr;
-  if (getifaddrs(&list) == 0) {
-    for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next) {
-      if (entry->ifa_addr != nullptr && entry->ifa_addr->sa_family == AF_INET &&
-          (entry->ifa_flags & IFF_LOOPBACK) == 0) {
-        sockaddr_in found = {};
-        std::memcpy(&found, entry->ifa_addr, sizeof(found));
-        urls.push_back(UrlOf(ntohl(found.sin_addr.s_addr), address.port));
-      }
-    }
-    freeifaddrs(list);
-  }
-  if (urls.empty()) {
-    urls.push_back(UrlOf(INADDR_LOOPBACK, address.port));
-  }
-  return urls;
-}
-
 Result<std::unique_ptr<StaffPage>> StaffPage::Start(const StaffPageOptions& options, Log& log) {
   std::optional<StaffPin> pin;
   if (!options.pin_file.empty()) {
     LARARIUM_ASSIGN_OR_RETURN(pin, StaffPin::Load(options.pin_file));
   }
-  LARARIUM_ASSIGN_OR_RETURN(const int listening, ListenForStaff(options.address));
+  LARARIUM_ASSIGN_OR_RETURN(const int listening,
+                            ListenForPage("staff page", "--staff-page", options.address));
   sockaddr_in bound = {};
   socklen_t size = sizeof(bound);
   if (::getsockname(listening, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
@@ -131,7 +72,7 @@ Result<std::unique_ptr<StaffPage>> StaffPage::Start(const StaffPageOptions& opti
   if (!process.ok()) {
     return process.status();
   }
-  for (const std::string& url : StaffPageUrls(address)) {
+  for (const std::string& url : PageUrls("http", address)) {
     log.Info("staff page: {} ({})", url, pin ? "with the PIN" : "it only shows");
   }
   return std::unique_ptr<StaffPage>(new StaffPage(*std::move(process), address.port));

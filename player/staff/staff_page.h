@@ -27,12 +27,6 @@ struct StaffPageOptions {
   bool sandbox = true;
 };
 
-// Opens the port and returns its socket. Fails if the port is in use or the address does not belong
-// to this machine.
-Result<int> ListenForStaff(const ListenAddress& address);
-// URLs of the page, one for each known address of the machine.
-std::vector<std::string> StaffPageUrls(const ListenAddress& address);
-
 class StaffPage {
  public:
   // Must be called while there is one thread. Borrows log.
