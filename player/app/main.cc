@@ -15,7 +15,9 @@
 #include "player/kiosk/kiosk.h"
 #include "player/staff/staff_page.h"
 #include "player/updates/updater.h"
+#include "shared/core/file.h"
 #include "shared/core/log.h"
+#include "shared/core/program.h"
 #include "shared/core/uncaught.h"
 
 namespace {
@@ -104,7 +106,11 @@ Result<PlayEnd> PlayNewest(PlayOptions options,
   return Play(options, started, log, links);
 }
 
-Status SetUp(const FleetSetupOptions& options, Log& log) {
+Status SetUp(FleetSetupOptions options, Log& log) {
+  options.page = ShippedData("lararium/fleet", "build/fleet-page");
+  if (!FileExists(options.page)) {
+    log.Info("the fleet's page is left out: scripts/make_fleet_page.sh writes it");
+  }
   LARARIUM_ASSIGN_OR_RETURN(const size_t devices, SetUpFleet(options));
   log.Info("{}: {} devices; docs/how-to-run-a-fleet.md says where the files go",
            options.folder.string(), devices);
@@ -131,6 +137,9 @@ int main(int argc, char** argv) {
   }
   if (const auto* latency = std::get_if<LatencyOptions>(&command)) {
     return Report(MeasureLatency(*latency), **log);
+  }
+  if (const auto* page = std::get_if<PageServerOptions>(&command)) {
+    return Report(ServeFleetPage(*page, **log), **log);
   }
   if (const auto* setup = std::get_if<FleetSetupOptions>(&command)) {
     return Report(SetUp(*setup, **log), **log);

@@ -294,6 +294,8 @@ CLI::App* AddFleetSetup(CLI::App& app, FleetSetupOptions& setup) {
   command->add_option("--add", setup.devices,
                       "Devices to add: NAME or NAME:GROUP; or another group for one");
   command->add_option("--remove", setup.removed, "Names of devices to remove");
+  command->add_option("--show", setup.show, "Show the places of this bundle on the fleet's page")
+      ->check(CLI::ExistingFile);
   command->add_option("--port", setup.port, "The broker's port for devices (8883)")
       ->check(CLI::Range(1, 65535));
   command->add_option("--page-port", setup.page_port, "The broker's port for fleet pages (8884)")
@@ -309,6 +311,24 @@ CLI::App* AddFleetSetup(CLI::App& app, FleetSetupOptions& setup) {
   return command;
 }
 
+CLI::App* AddFleetPage(CLI::App& app, PageServerOptions& page) {
+  CLI::App* command =
+      app.add_subcommand("fleet-page", "Serve the page of a fleet, by HTTPS, until it is ended");
+  command->add_option("FOLDER", page.folder, "The broker's folder that fleet-setup wrote")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--address", page.address,
+                   "ADDRESS:PORT, INTERFACE:PORT, or PORT for this machine")
+      ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--sandbox", [&page](const std::string& sandbox) { page.sandbox = sandbox == "on"; },
+          "on: nothing but serving; off")
+      ->check(CLI::IsMember({"on", "off"}));
+  return command;
+}
+
 }  // namespace
 
 Command ParseCommandLine(int argc, const char* const* argv) {
@@ -317,11 +337,13 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   DoctorOptions doctor;
   LatencyOptions latency;
   FleetSetupOptions fleet_setup;
+  PageServerOptions fleet_page;
   CLI::App app("Plays a Lararium show: people of the past on the place before the camera.");
   app.set_version_flag("--version", LARARIUM_VERSION);
   AddPlayOptions(app, play);
   AddFleetOptions(app, play.fleet);
   const CLI::App* setup_command = AddFleetSetup(app, fleet_setup);
+  const CLI::App* page_command = AddFleetPage(app, fleet_page);
   CLI::App* info_command = app.add_subcommand("info", "Say what a bundle holds");
   info_command->add_option("SHOW", info.show)->required()->check(CLI::ExistingFile);
   CLI::App* doctor_command =
@@ -364,6 +386,10 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     }
     if (!play.osc.empty() && !ParseListenAddress("--osc", play.osc).ok()) {
       throw CLI::ValidationError("--osc", ParseListenAddress("--osc", play.osc).message());
+    }
+    if (!ParseListenAddress("--address", fleet_page.address).ok()) {
+      throw CLI::ValidationError("--address",
+                                 ParseListenAddress("--address", fleet_page.address).message());
     }
     for (const std::string& page : {play.staff_page.address, doctor.staff_page}) {
       if (!page.empty() && !ParseListenAddress("--staff-page", page).ok()) {
@@ -420,6 +446,9 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   }
   if (*setup_command) {
     return fleet_setup;
+  }
+  if (*page_command) {
+    return fleet_page;
   }
   const bool shown_on_monitor = !play.display.headless && play.display.mode != Display::kOpenXr;
   if (play.kiosk.enabled && shown_on_monitor && play.display.monitor < 0) {

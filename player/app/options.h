@@ -11,6 +11,7 @@
 
 #include "player/fleet/fleet_options.h"
 #include "player/fleet/fleet_setup.h"
+#include "player/fleet/page_server.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/text/caption_style.h"
 #include "shared/vision/pose_smoother.h"
@@ -168,8 +169,13 @@ struct LatencyOptions {
 
 // The options of the chosen command; or the exit code if the command line asked for help or is
 // wrong, after the message was printed.
-using Command =
-    std::variant<PlayOptions, InfoOptions, DoctorOptions, LatencyOptions, FleetSetupOptions, int>;
+using Command = std::variant<PlayOptions,
+                             InfoOptions,
+                             DoctorOptions,
+                             LatencyOptions,
+                             FleetSetupOptions,
+                             PageServerOptions,
+                             int>;
 Command ParseCommandLine(int argc, const char* const* argv);
 
 }  // namespace lararium::player

@@ -8,6 +8,7 @@
 
 #include "player/fleet/fleet_certificates.h"
 #include "player/fleet/fleet_options.h"
+#include "player/fleet/floor_plan.h"
 #include "player/kiosk/secret_file.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
@@ -178,8 +179,9 @@ std::string Configuration(const FleetPlan& plan) {
 }
 
 // A device may write its own state and presence, and read its own commands and those of its group.
+// The staff may write states to delete those of devices that are no more.
 std::string Rights(const FleetPlan& plan) {
-  const std::string all = "topic read lararium/" + plan.site + "/device/+/";
+  const std::string all = "topic readwrite lararium/" + plan.site + "/device/+/";
   std::string text = std::string("user ") + FleetPlan::kStaff + "\n" + all + "state\n" + all +
                      "presence\ntopic write " + DeviceCommands(plan.site, "+") + "\ntopic write " +
                      GroupCommands(plan.site, "+") + "\n";
@@ -225,6 +227,27 @@ Status WriteDevice(const fs::path& folder,
   return SaveJson(folder / "device.json", json);
 }
 
+// Writes the page with what it has to know.
+Status WritePage(const fs::path& folder, const FleetPlan& plan, const FleetSetupOptions& options) {
+  LARARIUM_RETURN_IF_ERROR(MakeFolder(folder));
+  std::error_code error;
+  if (FileExists(options.page)) {
+    fs::copy(options.page, folder,
+             fs::copy_options::overwrite_existing | fs::copy_options::recursive, error);
+  }
+  if (error) {
+    return Status::Error(options.page.string(), "cannot be copied: " + error.message());
+  }
+  if (!options.show.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, bundle::Bundle::Open(options.show));
+    LARARIUM_ASSIGN_OR_RETURN(const Json plans, PlansOf(bundle));
+    LARARIUM_RETURN_IF_ERROR(SaveJson(folder / "plans.json", plans));
+  }
+  const Json settings = {
+      {"schema", 1}, {"site", plan.site}, {"host", plan.host}, {"page_port", plan.page_port}};
+  return SaveJson(folder / "settings.json", settings);
+}
+
 }  // namespace
 
 Result<FleetPlan> ParseFleetPlan(std::string_view text, const std::string& where) {
@@ -239,6 +262,7 @@ Result<size_t> SetUpFleet(const FleetSetupOptions& options) {
   const fs::path broker = options.folder / "broker";
   const fs::path devices = options.folder / "devices";
   LARARIUM_RETURN_IF_ERROR(MakeFolder(broker));
+  LARARIUM_RETURN_IF_ERROR(WritePage(broker / "page", plan, options));
   LARARIUM_ASSIGN_OR_RETURN(const CertificateAuthority authority,
                             LoadOrMakeAuthority(options.folder, plan.site));
   LARARIUM_ASSIGN_OR_RETURN(const CertificateFiles server, authority.MakeServer(plan.host));

@@ -48,6 +48,9 @@ struct FleetSetupOptions {
   std::optional<bool> certificates;
   std::vector<std::string> devices;  // Added, or given another group: "NAME" or "NAME:GROUP".
   std::vector<std::string> removed;  // Names.
+  std::filesystem::path show;        // The bundle whose places are shown as plans; empty: none.
+  // Static files of the fleet's page, which are copied; a missing folder is left out.
+  std::filesystem::path page;
 };
 
 // Writes the folder. The authority, and passwords and certificates of devices that it has already,

@@ -87,6 +87,21 @@ TEST_F(FleetSetupTest, SettingUpAgainKeepsTheAuthorityAndWhatDevicesHaveAlready)
   EXPECT_THAT(Read("broker/rights"), Not(HasSubstr("tablet-01")));
 }
 
+TEST_F(FleetSetupTest, ThePageLiesBesideTheBrokersFilesAndKnowsWhereTheBrokerIs) {
+  const test::TemporaryFolder page;
+  ASSERT_TRUE(WriteFileAtomically(page / "index.html", "<html>").ok());
+  FleetSetupOptions options = New();
+  options.page = page.path();
+  ASSERT_TRUE(SetUpFleet(options).ok());
+  ASSERT_TRUE(SetUpFleet(options).ok()) << "again, over the files that are there";
+  EXPECT_EQ(Read("broker/page/index.html"), "<html>");
+  const auto settings = ParseJson(Read("broker/page/settings.json"), "settings.json");
+  ASSERT_TRUE(settings.ok()) << settings.message();
+  EXPECT_EQ((*settings)["host"], "192.168.1.5");
+  EXPECT_EQ((*settings)["page_port"], 8884);
+  EXPECT_EQ((*settings)["site"], "pompeii");
+}
+
 TEST_F(FleetSetupTest, WhatCannotBeDoneChangesNothingAndSaysWhy) {
   const auto refusal = [](const FleetSetupOptions& options) {
     const auto done = SetUpFleet(options);

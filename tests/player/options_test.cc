@@ -116,6 +116,9 @@ TEST_F(OptionsTest, AFleetIsSetUpWithoutAShow) {
                 Parse({"fleet-setup", "fleet", "--devices-prove-by", "certificates"}))
                 .certificates,
             true);
+  const auto page = std::get<PageServerOptions>(Parse({"fleet-page", folder_.path().string()}));
+  EXPECT_EQ(page.address, "0.0.0.0:8443");
+  EXPECT_EQ(ExitCode({"fleet-page", folder_.path().string(), "--address", "page"}), 2);
   EXPECT_EQ(ExitCode({"fleet-setup"}), 2);
   EXPECT_EQ(ExitCode({"fleet-setup", "fleet", "--port", "70000"}), 2);
 }

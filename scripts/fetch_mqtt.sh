@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Fetches mqtt, the npm package by which the page of a fleet speaks with the broker (fleet/README.md).
+#
+#   scripts/fetch_mqtt.sh [FOLDER]      default: build/mqtt
+#
+# FOLDER then has mqtt.min.js. Exit status: 0 it is there, 1 it could not be fetched, 2 wrong usage.
+set -euo pipefail
+
+package=mqtt@5.16.0
+integrity='G0VsEtuJz5sJUgZJaaADMVfW7SIFPzkIuHR+d6rk+tBeSwdCfd9BaIRycRfd2AbyFDEmLlFM+SDQeti/+IbOnw=='
+
+. "$(dirname "$0")/fetched.sh"
+begin_fetching mqtt "$integrity" "mqtt is in" "$@"
+need_programs "mqtt needs" npm openssl tar
+an_empty_folder
+fetch_from_npm "$package" "$integrity"
+mkdir -p "$folder"
+tar -xzf "$archive" -C "$folder" --strip-components=2 --no-same-owner package/dist/mqtt.min.js
+tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner package/LICENSE.md
+echo "$integrity" > "$folder/.complete"
+echo "$there"
