@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "player/staff/staff_messages.h"
+
 namespace lararium::player {
 namespace {
 
@@ -26,6 +28,22 @@ TEST(CommandGate, RefusesWhatIsNoCommandTooLongOrKept) {
               HasSubstr("1024 bytes"));
   EXPECT_THAT(gate.Check(kFromBeginning, true, kNow).message(), HasSubstr("kept it"));
   EXPECT_EQ(gate.refused(), 4);
+}
+
+TEST(CommandGate, EveryCutAndEveryChangedByteOfACommandEndsWell) {
+  const std::string command = R"({"do": "volume", "value": 0.5})";
+  for (size_t i = 0; i < command.size(); ++i) {
+    CommandGate gate;
+    EXPECT_FALSE(gate.Check(command.substr(0, i), false, kNow).ok()) << i;
+    for (int value = 0; value < 256; ++value) {
+      std::string changed = command;
+      changed[i] = static_cast<char>(value);
+      CommandGate other;
+      const bool passes = other.Check(changed, false, kNow).ok();
+      EXPECT_EQ(passes, ParseStaffCommand(changed).ok()) << changed;
+      EXPECT_EQ(other.refused(), passes ? 0 : 1);
+    }
+  }
 }
 
 TEST(CommandGate, LimitsHowManyComeInASecond) {
