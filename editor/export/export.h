@@ -26,7 +26,8 @@ struct PlaceContent {
 struct CastContent {
   std::string name;
   std::vector<std::byte> human;  // A serialised human (.larhuman).
-  // The same without meshes (bundle::CastEntry::motion). If it is not empty, only it has clips.
+  // The human without meshes (bundle::CastEntry::motion). If this is not empty, `human` has no
+  // clips.
   std::vector<std::byte> motion = {};
 };
 
@@ -34,7 +35,7 @@ struct ObjectContent {
   std::string name;
   std::vector<std::byte> prop;  // A serialised prop (.larprop).
   geometry::Rigid3 stage_from_object;
-  // The same without what is drawn (bundle::ObjectEntry::extent); may be empty.
+  // The prop without drawn surfaces (bundle::ObjectEntry::extent); may be empty.
   std::vector<std::byte> extent = {};
 };
 

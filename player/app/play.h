@@ -16,7 +16,7 @@ enum class PlayEnd { kOver, kStartAgain };
 
 // What only some runs of a show have.
 struct PlayLinks {
-  // Of a kiosk (watchdog.h).
+  // A kiosk has these two (watchdog.h).
   ChildStart start = {};
   Heartbeat heartbeat = Heartbeat();
   StaffLinks staff = {};           // Links to the processes that show its state.

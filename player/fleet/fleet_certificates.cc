@@ -18,7 +18,7 @@ constexpr long kSecondsBefore = 86400;  // Clocks of devices may be a day late.
 constexpr size_t kSerialBytes = 16;
 constexpr size_t kPasswordLetters = 20;
 constexpr std::string_view kLetters = "abcdefghijkmnpqrstuvwxyz23456789";
-// As mosquitto_passwd has them.
+// The program mosquitto_passwd uses these numbers.
 constexpr int kIterations = 101;
 constexpr size_t kSaltBytes = 12;
 constexpr size_t kHashBytes = 64;
@@ -58,7 +58,7 @@ bool AddExtension(x509_st* certificate, x509_st* issuer, int id, const std::stri
 
 }  // namespace
 
-// What a certificate is to say.
+// The content of a certificate that is to be made.
 struct CertificateAuthority::Wish {
   std::string name;
   std::vector<std::pair<int, std::string>> extensions;  // OpenSSL's number, and value.

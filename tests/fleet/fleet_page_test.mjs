@@ -18,8 +18,10 @@ skipWithout([BROKER, 'install mosquitto'], ['/usr/bin/mosquitto_pub', 'install m
 const COUNT = 50;
 const RED = 20;  // The first devices are in the group red, the others in blue.
 const names = Array.from({length: COUNT}, (_, i) => `tablet-${String(i + 1).padStart(2, '0')}`);
-const SILENT = names[COUNT - 2];  // The last of the first process.
-const HANGING = names[COUNT - 1];  // Alone in the second process.
+// The first process runs all devices but one, and its last device is silent. The second process runs the other device, which
+// hangs.
+const SILENT = names[COUNT - 2];
+const HANGING = names[COUNT - 1];
 
 const freePort = () => new Promise((resolve) => {
   const server = createServer().listen(0, '127.0.0.1', () => {
@@ -154,7 +156,8 @@ async function visit(browser, broker, devices, hanging) {
   console.log(`redraw of ${COUNT} devices: median ${times[times.length >> 1].toFixed(1)} ms, longest ${times.at(-1).toFixed(1)} ms of ${times.length}`);
   console.log(`broker: ${(10 * (processorSeconds(broker.pid) - before)).toFixed(1)} % of a core with ${COUNT} devices and a page`);
 
-  hanging.kill('SIGSTOP');  // As one whose network was unplugged.
+  // A stopped process is to the broker like a device whose network was unplugged.
+  hanging.kill('SIGSTOP');
   const began = Date.now();
   for (const word of ['is not heard', 'gone']) {
     await browser.until(`${cell(HANGING, 3)} === '${word}'`);

@@ -137,7 +137,7 @@ settle() {
   sleep "$1"
   for ((i = 0; i < 2 * $1 && same < 2; ++i)); do
     now=$(import -window root rgb:- | sha256sum)
-    same=$(([ "$now" = "$last" ] && echo $((same + 1))) || echo 0)
+    if [ "$now" = "$last" ]; then same=$((same + 1)); else same=0; fi
     last=$now
     sleep 1
   done

@@ -13,8 +13,9 @@ const [program, editor, page, work, project, show, ...moments] = process.argv.sl
 skipWithout([`${page}/module.wasm`, 'build the preset `web`'], [editor, 'build lararium-editor'], [project, 'run ./demo'],
   [show, 'run ./demo']);
 const LEAST_DB = 40;
-const KEYFRAME = 0;  // The view, which the folder's map has, too.
-const GREY = 110;  // The background.
+// The picture is seen from this keyframe, which the folder's map has, too.
+const KEYFRAME = 0;
+const GREY = 110;  // The background has this brightness.
 const LEAST_DRAWN = 0.05;  // Share of the picture that people and things cover.
 const MEGA = 1e6;
 

@@ -26,7 +26,7 @@ function clock(seconds) {
   return (hours > 0 ? `${hours}:${two(minutes)}` : String(minutes)) + ':' + two(whole % 60);
 }
 
-// As people say it: "45 s", "12 min", "3 h 20 min".
+// Writes a time span as people say it: "45 s", "12 min", "3 h 20 min".
 function span(seconds) {
   if (seconds < 60) {
     return `${Math.floor(seconds)} s`;
