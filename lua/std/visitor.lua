@@ -121,10 +121,10 @@ end
 
 local Actor = host.actor_class
 
--- Returns the position x, z of a target to face.
-local function place_of(target, what)
+-- Returns the position x, z of a target for an actor to face.
+local function place_of(actor, target, what)
   if target == "visitor" then
-    local _, x, _, z = host.visitor()
+    local _, x, _, z = host.visitor(actor.id)
     return x, z
   end
   local kind, a, _, c = table.unpack(target_of(target, what))
@@ -137,7 +137,7 @@ end
 
 -- Turns to an actor, an object, "visitor" or a point.
 function Actor:face(target, options)
-  local x, z = place_of(target, "face")
+  local x, z = place_of(self, target, "face")
   local x0, _, z0 = host.pose(self.id)
   if x ~= x0 or z ~= z0 then
     self:turn_to(math.deg(math.atan(x0 - x, z0 - z)), options)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -86,7 +87,14 @@ int AddTrigger(ScriptRuntime& run, lua_State* lua) {
                       static_cast<int>(kMaxTriggers));
   }
   trigger.id = ++run.state().last_trigger;
-  trigger.from = run.state().visitor.position;
+  const Visitor& visitor = run.state().visitor;
+  if (kind == TriggerSpec::Kind::kStays && visitor.group == nullptr) {
+    trigger.stays.push_back({0, visitor.position});
+  } else if (kind == TriggerSpec::Kind::kStays) {
+    for (const GroupVisitor& one : *visitor.group) {
+      trigger.stays.push_back({one.number, one.position});
+    }
+  }
   trigger.cue =
       run.cues().Find({run.PlaceNow(lua), kKinds[static_cast<size_t>(kind)], trigger.spec.text});
   run.state().triggers.push_back(std::move(trigger));
@@ -145,22 +153,28 @@ int AwaitFired(ScriptRuntime& run, lua_State* lua) {
   });
 }
 
-// visitor() -> tracked, x, y, z, heading; the last known pose if not tracked
+// visitor(), or visitor(actor) -> tracked, x, y, z, heading; the last known pose if not tracked. Of
+// several visitors the one whom the actor, or else the first one, may look at now
 int PushVisitor(ScriptRuntime& run, lua_State* lua) {
   const Visitor& visitor = run.state().visitor;
+  glm::vec3 position = visitor.position;
+  if (lua_isinteger(lua, 1) != 0) {
+    CheckActor(run, lua, 1);
+    position = run.stage().VisitorFor(CheckActorId(lua, 1)).value_or(position);
+  }
   lua_pushboolean(lua, visitor.tracked ? 1 : 0);
-  for (const float value : {visitor.position.x, visitor.position.y, visitor.position.z}) {
+  for (const float value : {position.x, position.y, position.z}) {
     lua_pushnumber(lua, value);
   }
   lua_pushnumber(lua, stage::HeadingOf({visitor.direction.x, visitor.direction.z}));
   return 5;
 }
 
-// distance(target...) -> metres between visitor and target on the floor; nil: unknown
+// distance(target...) -> metres between the nearest visitor and target on the floor; nil: unknown
 int PushDistance(ScriptRuntime& run, lua_State* lua) {
   const TriggerSpec spec = CheckTrigger(run, lua, 1);
-  const auto distance = DistanceTo(run.stage(), spec, run.state().visitor.position);
-  if (distance && run.state().visitor.tracked) {
+  const auto distance = DistanceTo(run.stage(), spec, run.state().visitor);
+  if (distance) {
     lua_pushnumber(lua, *distance);
   } else {
     lua_pushnil(lua);
@@ -168,12 +182,22 @@ int PushDistance(ScriptRuntime& run, lua_State* lua) {
   return 1;
 }
 
-// aside(actor, metres) -> x, z of a nearby place at this distance from the visitor; or nil
+// aside(actor, metres) -> x, z of a nearby place at this distance from the nearest visitor; or nil
 int PushAside(ScriptRuntime& run, lua_State* lua) {
   CheckFreeActor(run, lua);
   const auto metres = static_cast<float>(CheckFinite(lua, 2, "the distance"));
-  const glm::vec3& visitor = run.state().visitor.position;
-  const auto place = run.stage().FindAway(CheckActorId(lua, 1), {visitor.x, visitor.z}, metres);
+  const stage::ActorId actor = CheckActorId(lua, 1);
+  const glm::vec3& from = run.stage().Find(actor)->state.position;
+  glm::vec3 visitor = run.state().visitor.position;
+  float nearest = std::numeric_limits<float>::max();
+  ForEachTracked(run.state().visitor, [&](const GroupVisitor& one) {
+    const float away = std::hypot(one.position.x - from.x, one.position.z - from.z);
+    if (away < nearest) {
+      nearest = away;
+      visitor = one.position;
+    }
+  });
+  const auto place = run.stage().FindAway(actor, {visitor.x, visitor.z}, metres);
   if (!place) {
     lua_pushnil(lua);
     return 1;

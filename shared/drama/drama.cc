@@ -128,6 +128,23 @@ class LuaDrama : public Drama {
       (void)Seek(now).ok();
     }
   }
+  Status ReviseVisitorLog(int64_t tick, std::span<const VisitorLog::Entry> entries) override {
+    CHECK(follows_log_ && tick >= 1);
+    Status status;
+    if (run_->tick() >= tick) {
+      status = Seek(TimeOf(tick - 1));
+      ForgetFuture();
+    } else {
+      while (moments_.size() > 1 && moments_.back().tick >= tick) {
+        moments_.pop_back();  // A future that will not come.
+      }
+    }
+    visitors_.Truncate(tick - 1);
+    for (const VisitorLog::Entry& entry : entries) {
+      visitors_.Set(entry.tick, entry.visitor);
+    }
+    return status;
+  }
   void SetPastVisitor(VisitorLog log, double until) override {
     if (follows_log_ || forgets()) {
       return;

@@ -101,6 +101,10 @@ class Drama {
   virtual void SetVisitor(const Visitor& visitor) = 0;
   // From the beginning on, replaces SetVisitor() by a recorded visitor.
   virtual void SetVisitorLog(VisitorLog log) = 0;
+  // Replaces what a visitor log that is followed says from a tick (at least 1) on. If the tick was
+  // played already, the drama seeks to the one before it. For a drama that several devices play
+  // together: news of the past are late, and change it.
+  virtual Status ReviseVisitorLog(int64_t tick, std::span<const VisitorLog::Entry> entries) = 0;
   // Sets what the visitor did until a time (seconds), as recorded by another drama. Seeking up to
   // there repeats it; afterwards SetVisitor() counts. Call it before anything is played. No effect
   // while a visitor log is followed or with Past::kForgotten.

@@ -11,6 +11,8 @@
 namespace lararium::drama {
 namespace {
 
+// Actors look at the next visitor of a group after this time.
+constexpr int64_t kTurnTicks = int64_t{6} * Drama::kTicksPerSecond;
 constexpr int kLoadingTicks = 64;             // The instruction budget of loading, in ticks.
 constexpr Scheduler::TaskId kMainBegins = 0;  // Marks the start of main() in the recording.
 
@@ -108,9 +110,7 @@ Status ScriptRuntime::Begin(std::string_view script, const std::string& where) {
 void ScriptRuntime::Tick(const Visitor& visitor) {
   ++tick_;
   sandbox_->limits().Refill();
-  state_.visitor = visitor;
-  state_.lost_ticks = visitor.tracked ? 0 : state_.lost_ticks + 1;
-  stage_.SetVisitor(visitor.tracked ? std::optional(visitor.position) : std::nullopt);
+  SetVisitor(visitor);
   stage_.Advance();
   passed_.clear();
   timeline_player_.Advance(declared_->timeline, TimeOf(tick_), state_.timeline, passed_);
@@ -121,6 +121,47 @@ void ScriptRuntime::Tick(const Visitor& visitor) {
   ApplyTracks();
   stage_.Perform();
   followed_ = recording_.position();
+}
+
+void ScriptRuntime::SetVisitor(const Visitor& visitor) {
+  state_.visitor = visitor;
+  seen_.clear();
+  const int64_t turn = tick_ / kTurnTicks;
+  if (visitor.group != nullptr) {
+    TakeTurns(turn);
+  } else if (visitor.tracked) {
+    seen_.push_back(visitor.position);
+  }
+  state_.lost_ticks = state_.visitor.tracked ? 0 : state_.lost_ticks + 1;
+  stage_.SetVisitors(seen_, static_cast<size_t>(turn));
+}
+
+// Those who are tracked when a turn begins, or when no one was, are looked at until it ends, also
+// if they are lost meanwhile.
+void ScriptRuntime::TakeTurns(int64_t turn) {
+  Visitor& visitor = state_.visitor;
+  std::vector<int>& looked_at = state_.turn;
+  if (tick_ % kTurnTicks == 0 || looked_at.empty()) {
+    looked_at.clear();
+    ForEachTracked(visitor, [&](const GroupVisitor& one) { looked_at.push_back(one.number); });
+  }
+  std::erase_if(looked_at, [&](int number) {
+    return std::none_of(visitor.group->begin(), visitor.group->end(),
+                        [&](const GroupVisitor& one) { return one.number == number; });
+  });
+  const size_t first = looked_at.empty() ? 0 : static_cast<size_t>(turn) % looked_at.size();
+  visitor.tracked = false;
+  for (const GroupVisitor& one : *visitor.group) {
+    visitor.tracked = visitor.tracked || one.tracked;
+    if (std::find(looked_at.begin(), looked_at.end(), one.number) == looked_at.end()) {
+      continue;
+    }
+    if (seen_.size() == first) {
+      visitor.position = one.position;
+      visitor.direction = one.direction;
+    }
+    seen_.push_back(one.position);
+  }
 }
 
 Status ScriptRuntime::StartChunk(std::string_view script, const std::string& where) {

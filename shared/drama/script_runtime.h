@@ -44,6 +44,8 @@ struct RunState {
   // Arguments of the last message of each address, in the form of Message::arguments.
   std::map<std::string, std::string, std::less<>> heard;
   int64_t lost_ticks = 0;  // Ticks since tracking was lost.
+  // Visitors of a group at whom actors look in this turn (ScriptRuntime::TakeTurns).
+  std::vector<int> turn;
 };
 
 // The triggers that a script has armed, and whether they fired.
@@ -144,6 +146,8 @@ class ScriptRuntime {
   void PushHost(lua_State* lua);
   Status StartChunk(std::string_view script, const std::string& where);
   void StartMain();
+  void SetVisitor(const Visitor& visitor);
+  void TakeTurns(int64_t turn);
   void ApplyTracks();
   void UpdateTriggers();
   void HearMessages();
@@ -162,6 +166,7 @@ class ScriptRuntime {
   std::shared_ptr<Declared> declaring_;      // Set only while the script first loads.
   std::shared_ptr<const Declared> declared_;
   RunState state_;
+  std::vector<glm::vec3> seen_;      // Visitors at whom actors may look in this tick.
   std::vector<std::string> passed_;  // Markers passed in this tick.
   int64_t tick_ = 0;
   bool loading_ = false;

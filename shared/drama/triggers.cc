@@ -50,29 +50,33 @@ float FloorDistance(const glm::vec3& a, const glm::vec3& b) {
   return std::hypot(a.x - b.x, a.z - b.z);
 }
 
-// The smallest angle between the visitor's viewing direction and a target, radians.
+// The smallest angle between a visitor's viewing direction and a target, radians.
 std::optional<float> AngleTo(const TriggerContext& now, const TriggerSpec& spec) {
   const auto upright = UprightOf(now.stage, spec);
   if (!upright) {
     return std::nullopt;
   }
   constexpr int kSamples = 8;
-  float best = -1.0f;  // Cosine of the smallest angle.
-  for (int i = 0; i <= kSamples; ++i) {
-    const float share = static_cast<float>(i) / kSamples;
-    const glm::vec3 way =
-        (1.0f - share) * upright->low + share * upright->high - now.visitor.position;
-    const float length = glm::length(way);
-    best = length > 1e-4f ? std::max(best, glm::dot(way, now.visitor.direction) / length) : 1.0f;
-  }
-  return std::acos(std::clamp(best, -1.0f, 1.0f));
+  std::optional<float> best;  // Cosine of the smallest angle.
+  ForEachTracked(now.visitor, [&](const GroupVisitor& visitor) {
+    for (int i = 0; i <= kSamples; ++i) {
+      const float share = static_cast<float>(i) / kSamples;
+      const glm::vec3 way =
+          (1.0f - share) * upright->low + share * upright->high - visitor.position;
+      const float length = glm::length(way);
+      best = length > 1e-4f
+                 ? std::max(best.value_or(-1.0f), glm::dot(way, visitor.direction) / length)
+                 : 1.0f;
+    }
+  });
+  return best ? std::optional(std::acos(std::clamp(*best, -1.0f, 1.0f))) : std::nullopt;
 }
 
 void Fire(Trigger& trigger) { ++trigger.fired; }
 
 void UpdateNear(const TriggerContext& now, Trigger& trigger) {
-  const auto distance = DistanceTo(now.stage, trigger.spec, now.visitor.position);
-  if (!distance || !now.visitor.tracked) {
+  const auto distance = DistanceTo(now.stage, trigger.spec, now.visitor);
+  if (!distance) {
     return;
   }
   const bool was_near = trigger.on;
@@ -86,7 +90,7 @@ void UpdateNear(const TriggerContext& now, Trigger& trigger) {
 // true.
 void UpdateLook(const TriggerContext& now, Trigger& trigger) {
   const auto angle = AngleTo(now, trigger.spec);
-  if (!angle || !now.visitor.tracked) {
+  if (!angle) {
     return;
   }
   const bool fires_on_look = trigger.spec.kind == TriggerKind::kLooksAt;
@@ -103,28 +107,35 @@ void UpdateLook(const TriggerContext& now, Trigger& trigger) {
   }
 }
 
+Trigger::Stay& StayOf(Trigger& trigger, int number, const glm::vec3& position) {
+  const auto found = std::find_if(trigger.stays.begin(), trigger.stays.end(),
+                                  [&](const Trigger::Stay& stay) { return stay.number == number; });
+  if (found != trigger.stays.end()) {
+    return *found;
+  }
+  trigger.stays.push_back({number, position});
+  return trigger.stays.back();
+}
+
 void UpdateStay(const TriggerContext& now, Trigger& trigger) {
-  if (!now.visitor.tracked) {
-    return;
-  }
-  bool stays = false;
-  if (trigger.spec.target != TriggerSpec::Target::kNone) {
-    const auto distance = DistanceTo(now.stage, trigger.spec, now.visitor.position);
-    stays = distance && *distance < trigger.spec.metres;
-  } else {
-    stays = FloorDistance(trigger.from, now.visitor.position) < trigger.spec.metres;
-  }
-  if (!stays) {
-    trigger.from = now.visitor.position;
-    trigger.held = 0.0f;
-    trigger.on = false;
-    return;
-  }
-  trigger.held += now.passed;
-  if (!trigger.on && trigger.held >= trigger.spec.seconds) {
-    trigger.on = true;
-    Fire(trigger);
-  }
+  const TriggerSpec& spec = trigger.spec;
+  const bool has_target = spec.target != TriggerSpec::Target::kNone;
+  const auto upright = UprightOf(now.stage, spec);
+  ForEachTracked(now.visitor, [&](const GroupVisitor& visitor) {
+    Trigger::Stay& stay = StayOf(trigger, visitor.number, visitor.position);
+    const bool stays = has_target
+                           ? upright && FloorDistance(upright->low, visitor.position) < spec.metres
+                           : FloorDistance(stay.from, visitor.position) < spec.metres;
+    if (!stays) {
+      stay = {visitor.number, visitor.position};
+      return;
+    }
+    stay.held += now.passed;
+    if (!stay.fired && stay.held >= spec.seconds) {
+      stay.fired = true;
+      Fire(trigger);
+    }
+  });
 }
 
 void UpdateTimeout(const TriggerContext& now, Trigger& trigger) {
@@ -200,9 +211,15 @@ Status TriggerSpec::Validate() const {
 
 std::optional<float> DistanceTo(const stage::Stage& stage,
                                 const TriggerSpec& spec,
-                                const glm::vec3& visitor) {
-  const auto upright = UprightOf(stage, spec);
-  return upright ? std::optional(FloorDistance(upright->low, visitor)) : std::nullopt;
+                                const Visitor& visitor) {
+  std::optional<float> nearest;
+  if (const auto upright = UprightOf(stage, spec)) {
+    ForEachTracked(visitor, [&](const GroupVisitor& one) {
+      const float distance = FloorDistance(upright->low, one.position);
+      nearest = std::min(nearest.value_or(distance), distance);
+    });
+  }
+  return nearest;
 }
 
 void UpdateTrigger(const TriggerContext& now, Trigger& trigger) {

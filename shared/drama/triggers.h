@@ -16,6 +16,7 @@ namespace lararium::drama {
 
 struct TriggerSpec {
   enum class Kind : uint8_t {
+    // Where there are several visitors, a condition holds if it holds for any of them.
     kNear,       // The visitor comes within `metres`; fires again after going beyond `leave`.
     kLeaves,     // The visitor goes beyond `leave` after having been within `metres`.
     kLooksAt,    // The visitor looks within `angle` of the target for `seconds`; fires again after
@@ -55,8 +56,16 @@ struct Trigger {
   int64_t fired = 0;  // Number of times that it fired.
   // State that depends on the kind, such as near, looking, or past the hour.
   bool on = false;
-  float held = 0.0f;                 // Seconds that the state has lasted.
-  glm::vec3 from = glm::vec3(0.0f);  // kStays: where the visitor stopped.
+  float held = 0.0f;  // Seconds that the state has lasted.
+
+  // kStays: where each visitor stopped, and for how long that one has stayed.
+  struct Stay {
+    int number = 0;  // GroupVisitor::number
+    glm::vec3 from = glm::vec3(0.0f);
+    float held = 0.0f;  // Seconds.
+    bool fired = false;
+  };
+  std::vector<Stay> stays;
 };
 
 // Input of UpdateTrigger() in one tick.
@@ -70,10 +79,10 @@ struct TriggerContext {
 
 void UpdateTrigger(const TriggerContext& now, Trigger& trigger);
 
-// Distance on the floor between the visitor and a trigger's target, metres; none: the target is not
-// there.
+// Distance on the floor between a trigger's target and the nearest visitor who is tracked, metres;
+// none: there is no such visitor, or the target is not there.
 std::optional<float> DistanceTo(const stage::Stage& stage,
                                 const TriggerSpec& spec,
-                                const glm::vec3& visitor);
+                                const Visitor& visitor);
 
 }  // namespace lararium::drama

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,16 @@
 
 namespace lararium::drama {
 
+// One of several visitors who watch the same drama, each on a device of their own.
+struct GroupVisitor {
+  int number = 0;        // Order in which they joined.
+  bool tracked = false;  // Position and direction: see Visitor.
+  glm::vec3 position = glm::vec3(0.0f);
+  glm::vec3 direction = glm::vec3(0.0f, 0.0f, -1.0f);
+
+  friend bool operator==(const GroupVisitor&, const GroupVisitor&) = default;
+};
+
 struct Visitor {
   bool tracked = false;                  // False: position and direction are the last known ones.
   glm::vec3 position = glm::vec3(0.0f);  // Eyes, stage frame, metres.
@@ -24,9 +35,26 @@ struct Visitor {
   // Names of the keys pressed since the tick before, separated by blanks. Messages of other
   // programs (OSC) are among them and begin with '/'.
   std::string keys = {};
+  // All visitors, by number, if there are several: then they count instead of the pose above. Null:
+  // there is one. A visitor log that is written to a file has no groups.
+  std::shared_ptr<const std::vector<GroupVisitor>> group = nullptr;
 
   friend bool operator==(const Visitor&, const Visitor&) = default;
 };
+
+// Calls visit(GroupVisitor) for each visitor whose camera is tracked.
+template <typename Visit>
+void ForEachTracked(const Visitor& visitor, const Visit& visit) {
+  if (visitor.group == nullptr && visitor.tracked) {
+    visit(GroupVisitor{0, true, visitor.position, visitor.direction});
+  } else if (visitor.group != nullptr) {
+    for (const GroupVisitor& one : *visitor.group) {
+      if (one.tracked) {
+        visit(one);
+      }
+    }
+  }
+}
 
 // Limit of the keys of one tick; further keys are ignored.
 inline constexpr size_t kMaxKeyBytes = 16384;

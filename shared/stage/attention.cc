@@ -65,7 +65,8 @@ Choice Choose(const World& world, ActorId id, Random& random) {
       add({Target::kActor, {}, other_id, {}}, 2.0f / (1.0f + away));
     }
   }
-  if (world.visitor && IsInView(actor, *world.visitor, kNotice)) {
+  const std::optional<glm::vec3> visitor = world.VisitorFor(id);
+  if (visitor && IsInView(actor, *visitor, kNotice)) {
     add({Target::kVisitor, {}, {}, {}}, 0.8f);
   }
   auto chance = static_cast<float>(random.Uniform()) * total;
@@ -105,14 +106,14 @@ Choice Decide(const World& world, const Tasks& tasks, ActorId id, Actor& actor, 
   return attention.chosen;
 }
 
-void LookAt(const World& world, const Choice& choice, human::Gaze& gaze) {
+void LookAt(const World& world, ActorId id, const Choice& choice, human::Gaze& gaze) {
   gaze.kind = human::GazeKind::kNothing;
   if (choice.target == Target::kPoint) {
     gaze.kind = human::GazeKind::kObject;
     gaze.target = choice.point;
-  } else if (choice.target == Target::kVisitor && world.visitor) {
+  } else if (choice.target == Target::kVisitor && !world.visitors.empty()) {
     gaze.kind = human::GazeKind::kPerson;
-    gaze.target = *world.visitor;
+    gaze.target = *world.VisitorFor(id);
   } else if (choice.target == Target::kActor) {
     const Actor* other = world.actors.Find(choice.actor);
     if (other != nullptr && other->state.visible) {
@@ -137,7 +138,7 @@ void DirectAttention(World& world, const Tasks& tasks, float seconds) {
       continue;
     }
     human::Gaze& gaze = actor.state.animation_state.gaze;
-    LookAt(world, Decide(world, tasks, id, actor, seconds), gaze);
+    LookAt(world, id, Decide(world, tasks, id, actor, seconds), gaze);
     gaze.speaking = actor.state.utterance.speaking;
   }
 }

@@ -119,12 +119,15 @@ Result<ObjectId> Stage::AddObject(std::string name,
   return id;
 }
 
-Status Stage::AddSpeech(std::string name, human::VisemeTrack track) {
+Status Stage::AddSpeech(std::string name,
+                        human::VisemeTrack track,
+                        std::optional<human::VisemeTrack> timing) {
   LARARIUM_RETURN_IF_ERROR(track.Validate(name));
+  LARARIUM_RETURN_IF_ERROR(timing ? timing->Validate(name) : Status());
   if (FindSpeech(name)) {
     return Status::Error("stage", "two lines are called '" + name + "'", "rename one of them");
   }
-  world_->speeches.push_back({std::move(name), std::move(track)});
+  world_->speeches.push_back({std::move(name), std::move(track), std::move(timing)});
   return Status();
 }
 
@@ -169,19 +172,24 @@ std::optional<int> Stage::FindSpeech(std::string_view name) const {
                                  : std::optional(static_cast<int>(found - speeches.begin()));
 }
 
-double Stage::SpeechSeconds(int speech) const {
-  return world_->speeches[static_cast<size_t>(speech)].track.duration;
-}
+double Stage::SpeechSeconds(int speech) const { return SpeechTrack(speech).duration; }
 
 const human::VisemeTrack& Stage::SpeechTrack(int speech) const {
-  return world_->speeches[static_cast<size_t>(speech)].track;
+  const World::Speech& line = world_->speeches[static_cast<size_t>(speech)];
+  return line.timing ? *line.timing : line.track;
 }
 
 Actor* Stage::Find(ActorId id) { return world_->actors.Find(id); }
 const Actor* Stage::Find(ActorId id) const { return world_->actors.Find(id); }
 Object* Stage::Find(ObjectId id) { return world_->objects.Find(id); }
 const Object* Stage::Find(ObjectId id) const { return world_->objects.Find(id); }
-void Stage::SetVisitor(const std::optional<glm::vec3>& position) { world_->visitor = position; }
+void Stage::SetVisitors(std::span<const glm::vec3> positions, size_t turn) {
+  world_->visitors.assign(positions.begin(), positions.end());
+  world_->turn = turn;
+}
+std::optional<glm::vec3> Stage::VisitorFor(ActorId actor) const {
+  return world_->VisitorFor(actor);
+}
 std::span<const ActorId> Stage::actors() const { return world_->actor_ids; }
 std::span<const ObjectId> Stage::objects() const { return world_->object_ids; }
 

@@ -97,8 +97,11 @@ class Stage {
   Result<ObjectId> AddObject(std::string name,
                              std::shared_ptr<const ObjectModel> model,
                              const Pose& stage_from_object);
-  // Adds a line that actors can say; `name` is the id of the line.
-  Status AddSpeech(std::string name, human::VisemeTrack track);
+  // Adds a line that actors can say; `name` is the id of the line. The line takes the time of
+  // `timing`, if there is one, and else that of `track`, which moves the mouth.
+  Status AddSpeech(std::string name,
+                   human::VisemeTrack track,
+                   std::optional<human::VisemeTrack> timing = std::nullopt);
   // Sets the floor and the occluders of all places. A drama must run the same way in every place,
   // so actors avoid the solids of all of them.
   Status SetFloor(const NavigationOptions& options, std::span<const Place> places);
@@ -107,7 +110,7 @@ class Stage {
   std::optional<ObjectId> FindObject(std::string_view name) const;
   std::optional<int> FindSpeech(std::string_view name) const;
   double SpeechSeconds(int speech) const;
-  const human::VisemeTrack& SpeechTrack(int speech) const;
+  const human::VisemeTrack& SpeechTrack(int speech) const;  // Timing of the line.
   // nullptr when the id is stale.
   Actor* Find(ActorId id);
   const Actor* Find(ActorId id) const;
@@ -155,8 +158,11 @@ class Stage {
   // can be reached.
   std::optional<glm::vec2> FindAway(ActorId id, glm::vec2 from, float metres);
 
-  // Position of the visitor's eyes, stage frame; none: unknown. Only gazes depend on it.
-  void SetVisitor(const std::optional<glm::vec3>& position);
+  // Positions of the eyes of visitors, stage frame; none: unknown. Only gazes depend on them. An
+  // actor looks at one of them, and in the next turn at the next.
+  void SetVisitors(std::span<const glm::vec3> positions, size_t turn);
+  // The eyes of the visitor at whom an actor may look; none: unknown.
+  std::optional<glm::vec3> VisitorFor(ActorId actor) const;
 
   // ---- time ----
 

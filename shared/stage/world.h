@@ -19,6 +19,7 @@ struct World {
   struct Speech {
     std::string name;
     human::VisemeTrack track;
+    std::optional<human::VisemeTrack> timing;  // None: that of `track`.
   };
 
   SlotMap<Actor> actors;
@@ -27,10 +28,16 @@ struct World {
   std::vector<ObjectId> object_ids;
   std::vector<Speech> speeches;
   std::shared_ptr<Navigation> navigation;  // Null until the first task.
-  std::optional<glm::vec3> visitor;        // Eyes of the visitor, stage frame; none: unknown.
+  std::vector<glm::vec3> visitors;         // Eyes of visitors, stage frame.
+  size_t turn = 0;                         // Each turn, actors look at the next visitor.
 
   Actor& actor(ActorId id) { return *actors.Find(id); }
   Object& object(ObjectId id) { return *objects.Find(id); }
+  // The visitor at whom an actor may look now: two actors begin with different ones.
+  std::optional<glm::vec3> VisitorFor(ActorId id) const {
+    return visitors.empty() ? std::nullopt
+                            : std::optional(visitors[(turn + id.index) % visitors.size()]);
+  }
 };
 
 // Quotes a name for a message to the author of the drama.

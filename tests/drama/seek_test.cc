@@ -226,6 +226,50 @@ TEST_F(SeekingTest, AnotherDramaGoesOnWithWhatTheVisitorDid) {
   EXPECT_EQ(after->visitor_log().Write(), log);
 }
 
+TEST_F(SeekingTest, LateNewsOfAVisitorsLogGiveTheStateThatTimelyNewsWouldHaveGiven) {
+  const auto drama = Make(kBusy);
+  std::vector<VisitorLog::Entry> all;
+  for (int64_t tick = 30; tick < 40 * Drama::kTicksPerSecond; tick += 60) {
+    all.push_back({tick, VisitorAt(static_cast<double>(tick) / Drama::kTicksPerSecond)});
+  }
+  drama->SetVisitorLog({});
+  // Entries come with delays of up to half a second, some of several at once.
+  Random random(5);
+  size_t told = 0;
+  int64_t late = 0;
+  for (int64_t now = 0; now < 40 * Drama::kTicksPerSecond;) {
+    const size_t behind = random.Below(3);
+    size_t come = told;
+    while (come + behind < all.size() &&
+           all[come].tick + 60 * static_cast<int64_t>(behind) <= now) {
+      ++come;
+    }
+    if (come > told) {
+      late += all[told].tick <= now ? 1 : 0;
+      ASSERT_TRUE(
+          drama->ReviseVisitorLog(all[told].tick, std::span(all).subspan(told, come - told)).ok());
+      told = come;
+    }
+    now += 10;
+    PlayTo(*drama, static_cast<double>(now) / Drama::kTicksPerSecond);
+  }
+  ASSERT_GT(late, 20);
+  if (told < all.size()) {
+    ASSERT_TRUE(drama->ReviseVisitorLog(all[told].tick, std::span(all).subspan(told)).ok());
+  }
+  PlayTo(*drama, 40.0);
+  const stage::StageSnapshot revised = Snapshot();
+  VisitorLog log;
+  for (const VisitorLog::Entry& entry : all) {
+    log.Set(entry.tick, entry.visitor);
+  }
+  const auto timely = Make(kBusy);
+  timely->SetVisitorLog(log);
+  PlayTo(*timely, 40.0);
+  EXPECT_EQ(Snapshot(), revised);
+  EXPECT_EQ(drama->errors().size(), timely->errors().size());
+}
+
 TEST_F(SeekingTest, AVisitorsLogThatIsNoneIsAnErrorWithItsLine) {
   const std::string header = "lararium visitor 1\n";
   const std::string good = "3 1 0 1.6 0 0 0 -1 9.5 space a\n";

@@ -2,7 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <memory>
+#include <set>
+#include <vector>
 
 #include "shared/drama/sync_points.h"
 #include "shared/drama/triggers.h"
@@ -497,6 +501,107 @@ TEST(VisitorKeys, TextsOfMessagesComeBackAsTheyWere) {
   EXPECT_FALSE(ReadMessageText("oak").has_value());
   EXPECT_FALSE(ReadMessageText("'%4").has_value());
   EXPECT_FALSE(ReadMessageText("'%zz").has_value());
+}
+
+// ---- several visitors
+
+Visitor Group(std::vector<GroupVisitor> visitors) {
+  return {.group = std::make_shared<const std::vector<GroupVisitor>>(std::move(visitors))};
+}
+GroupVisitor One(int number, const glm::vec3& position, const glm::vec3& at) {
+  return {number, true, position, glm::normalize(at - position)};
+}
+
+TEST_F(VisitorTest, AnyVisitorOfAGroupFiresATrigger) {
+  const GroupVisitor away = One(0, kAway, kFar);
+  for (const char* trigger : {"visitor:near('keeper', 1.5)", "visitor:looks_at('keeper')",
+                              "visitor:stays(1, {at = 'keeper', metres = 1.5})"}) {
+    const auto drama = Counting(trigger);
+    drama->SetVisitor(Group({away, One(1, kFar, kAway)}));
+    PlayTo(*drama, 0.5);
+    EXPECT_EQ(Count(), 0) << trigger;
+    drama->SetVisitor(Group({away, One(1, kNear, kKeeper)}));
+    PlayTo(*drama, 2.5);
+    EXPECT_EQ(Count(), 1) << trigger;
+    GroupVisitor lost = One(1, kNear, kKeeper);
+    lost.tracked = false;
+    drama->SetVisitor(Group({away, lost}));
+    PlayTo(*drama, 5.0);
+    EXPECT_EQ(Count(), 1) << trigger;
+  }
+}
+
+TEST_F(VisitorTest, EachVisitorOfAGroupStaysForThemselves) {
+  const auto drama = Counting("visitor:stays(2)");
+  for (int i = 0; i < 10; ++i) {  // One moves all the time, the other comes after a second.
+    const float step = static_cast<float>(i);
+    drama->SetVisitor(
+        Group({One(0, {5.0f + step, 1.6f, 0.0f}, kKeeper), One(4, i < 5 ? kFar : kNear, kKeeper)}));
+    PlayTo(*drama, 0.3 * (i + 1));
+  }
+  EXPECT_EQ(Count(), 0);
+  PlayTo(*drama, 5.0);
+  EXPECT_EQ(Count(), 2) << "both, once each";
+}
+
+TEST_F(VisitorTest, OfAGroupTheNearestIsMeasuredAndAllHaveToBeLost) {
+  const auto drama = Make(R"(
+    local keeper, guest = actor("keeper"), actor("guest")
+    keeper:place{} guest:place{}
+    on(tracking("lost", 0.5), function() guest:place{ x = 50 } end)
+    function main() wait(1) guest:place{ x = visitor:distance(keeper) } end
+  )");
+  drama->SetVisitor(Group({One(0, kFar, kKeeper), One(1, kNear, kKeeper)}));
+  PlayTo(*drama, 2.0);
+  EXPECT_FLOAT_EQ(State("guest").position.x, 1.0f);
+  GroupVisitor lost = One(1, kNear, kKeeper);
+  lost.tracked = false;
+  drama->SetVisitor(Group({One(0, kFar, kKeeper), lost}));
+  PlayTo(*drama, 4.0);
+  EXPECT_FLOAT_EQ(State("guest").position.x, 1.0f);
+  drama->SetVisitor(Group({lost}));
+  PlayTo(*drama, 6.0);
+  EXPECT_FLOAT_EQ(State("guest").position.x, 50.0f);
+}
+
+TEST_F(VisitorTest, ActorsLookAtTheVisitorsOfAGroupInTurnAndNotAtTheSameOne) {
+  const auto drama = Make(R"(
+    for _, name in ipairs{"keeper", "guest"} do
+      actor(name):place{}
+      actor(name):look_at("visitor")
+    end
+  )");
+  const std::vector<glm::vec3> places = {
+      {1.0f, 1.6f, -3.0f}, {0.0f, 1.6f, -3.0f}, {-1.0f, 1.6f, -3.0f}};
+  drama->SetVisitor(
+      Group({One(0, places[0], kKeeper), One(1, places[1], kKeeper), One(7, places[2], kKeeper)}));
+  const auto looked_at = [&](const char* name) {
+    return std::find(places.begin(), places.end(), State(name).animation_state.gaze.target) -
+           places.begin();
+  };
+  std::set<std::ptrdiff_t> by_keeper;
+  for (double time = 3.0; time < 20.0; time += 6.0) {
+    PlayTo(*drama, time);
+    ASSERT_LT(looked_at("keeper"), 3);
+    EXPECT_EQ(looked_at("guest"), (looked_at("keeper") + 1) % 3);
+    by_keeper.insert(looked_at("keeper"));
+  }
+  EXPECT_EQ(by_keeper.size(), 3u) << "each in turn";
+}
+
+TEST_F(VisitorTest, WhoIsLostIsLookedAtUntilTheTurnEndsAndWhoComesWaits) {
+  const auto drama = Make("actor('keeper'):place{} actor('keeper'):look_at('visitor')");
+  GroupVisitor first = One(0, kNear, kKeeper);
+  const auto target = [&] { return State("keeper").animation_state.gaze.target; };
+  drama->SetVisitor(Group({first}));
+  PlayTo(*drama, 1.0);
+  EXPECT_EQ(target(), kNear);
+  first.tracked = false;
+  drama->SetVisitor(Group({first, One(1, kFar, kKeeper)}));
+  PlayTo(*drama, 5.9);
+  EXPECT_EQ(target(), kNear);
+  PlayTo(*drama, 6.1);
+  EXPECT_EQ(target(), kFar);
 }
 
 }  // namespace

@@ -95,6 +95,31 @@ struct SpeakingStage {
   ActorId keeper = *stage.Add("keeper", test::MakeTestHuman());
 };
 
+TEST(Stage, ALineTakesTheTimeOfAnotherLanguageWithTheMouthOfItsOwn) {
+  SpeakingStage speaking(1.0f, {});
+  Stage& stage = speaking.stage;
+  human::VisemeTrack own;
+  own.keys = {{0.0f, human::Viseme::kAa, 1.0f}};
+  own.duration = 1.0f;
+  human::VisemeTrack longer;
+  longer.keys = {{0.0f, human::Viseme::kOu, 1.0f}};
+  longer.duration = 2.0f;
+  ASSERT_TRUE(stage.AddSpeech("salvete", own, longer).ok());
+  EXPECT_DOUBLE_EQ(stage.SpeechSeconds(0), 2.0);
+  EXPECT_EQ(stage.SpeechTrack(0).keys[0].viseme, human::Viseme::kOu);
+  stage.Find(speaking.keeper)->state.visible = true;
+  stage.Say(speaking.keeper, 0);
+  speaking.Advance(0.5);
+  const ActorState& state = stage.Find(speaking.keeper)->state;
+  const auto& mouth = state.animation_state.face.visemes;
+  EXPECT_GT(mouth[static_cast<size_t>(human::Viseme::kAa)], 0.5f);
+  EXPECT_EQ(mouth[static_cast<size_t>(human::Viseme::kOu)], 0.0f);
+  speaking.Advance(1.0);
+  EXPECT_TRUE(state.utterance.speaking);
+  speaking.Advance(0.6);
+  EXPECT_FALSE(state.utterance.speaking);
+}
+
 TEST(Stage, AnUtteranceIsSpokenThenReadOnThenGone) {
   SpeakingStage speaking(1.0f, {"salvete"});
   Stage& stage = speaking.stage;
