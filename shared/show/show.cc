@@ -7,6 +7,7 @@
 #include "shared/core/check.h"
 #include "shared/core/release.h"
 #include "shared/geometry/glm_convert.h"
+#include "shared/stage/state_hash.h"
 
 namespace lararium::show {
 namespace {
@@ -52,7 +53,7 @@ Status Show::FillStage(Log& log) {
   cast_.emplace(content_, std::move(actors), stage_, log);
   light_.emplace(content_);
   for (Speech& speech : content_.speech) {
-    LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes));
+    LARARIUM_RETURN_IF_ERROR(stage_.AddSpeech(speech.name, speech.visemes, speech.timing));
   }
   return Status();
 }
@@ -81,6 +82,9 @@ void Show::TickOnce() {
   drama_->Tick();
   stage_.Capture(current_);
   ++tick_;
+  if (seat_ && tick_ % GroupSeat::kMarkTicks == 0) {
+    seat_->NoteMark(tick_, stage::HashState(current_));
+  }
 }
 
 void Show::AdvanceTo(double time) {
@@ -206,9 +210,8 @@ PoseStage::Located Show::Locate(const vision::TrackedFrame& tracked) const {
   return {stage::CameraFromStage(place, *tracked.camera_from_map), tracked.map};
 }
 
-void Show::UpdateVisitor(const VisitorInput::Values& input,
-                         const std::optional<geometry::Rigid3>& camera_from_stage) {
-  picture_hour_ = input.hour;
+drama::Visitor Show::VisitorOf(const VisitorInput::Values& input,
+                               const std::optional<geometry::Rigid3>& camera_from_stage) {
   drama::Visitor visitor;
   visitor.keys = input.keys;
   visitor.hour = input.hour;
@@ -219,7 +222,26 @@ void Show::UpdateVisitor(const VisitorInput::Values& input,
         camera_from_stage->rotation.conjugate() * Eigen::Vector3d::UnitZ();
     visitor.direction = geometry::ToGlm(ahead);
   }
-  drama_->SetVisitor(visitor);
+  return visitor;
+}
+
+void Show::Join(DramaGroup& group) { seat_ = std::make_unique<GroupSeat>(group, *drama_); }
+
+Status Show::CatchUpWithGroup() {
+  const Status status = seat_ ? seat_->CatchUp() : Status();
+  ShowTick();
+  return status;
+}
+
+double Show::GroupTime(const VisitorInput::Values& input,
+                       const std::optional<geometry::Rigid3>& camera_from_stage,
+                       double time) {
+  const double wanted =
+      seat_->Next(VisitorOf(input, camera_from_stage), input.restart.has_value(), time);
+  if (std::llround(drama_->time() * kTicksPerSecond) != tick_) {
+    ShowTick();
+  }
+  return wanted;
 }
 
 double Show::DramaTime(double time) {
@@ -235,6 +257,9 @@ double Show::DramaTime(double time) {
 
 Status Show::ResumeFrom(const Show& before) {
   sound_->ResumeFrom(*before.sound_);
+  if (seat_) {
+    return CatchUpWithGroup();
+  }
   const double time = before.drama_->time();
   drama_->SetPastVisitor(before.drama_->visitor_log(), time);
   return PrepareAt(time);
@@ -404,7 +429,7 @@ void Show::StageSounds(double time,
 void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& staged) {
   const VisitorInput::Values input = input_.Take();
   time = std::max(time, 0.0);
-  if (input.restart) {
+  if (input.restart && !seat_) {
     start_ = time - *input.restart;
     last_time_ = time;
     held_seconds_ = 0.0;
@@ -417,8 +442,14 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
   staged.camera = poses_.Next(tracked, located, content_.places[located.place].map.get(),
                               !input.reduced_motion);
   staged.tracked = std::move(tracked);
-  UpdateVisitor(input, located.camera_from_stage);
-  staged.time = DramaTime(time);
+  picture_hour_ = input.hour;
+  if (seat_) {
+    staged.time = GroupTime(input, located.camera_from_stage, time);
+    staged.camera.opacity *= seat_->catching_up() ? 0.0f : 1.0f;
+  } else {
+    drama_->SetVisitor(VisitorOf(input, located.camera_from_stage));
+    staged.time = DramaTime(time);
+  }
   AdvanceTo(staged.time);
   const double behind = static_cast<double>(tick_) - staged.time * kTicksPerSecond;  // 0..1 ticks
   stage::Interpolate(previous_, current_, static_cast<float>(std::clamp(1.0 - behind, 0.0, 1.0)),

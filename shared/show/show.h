@@ -13,6 +13,7 @@
 #include "shared/core/status.h"
 #include "shared/drama/drama.h"
 #include "shared/show/cast_stage.h"
+#include "shared/show/drama_group.h"
 #include "shared/show/light_director.h"
 #include "shared/show/pose_stage.h"
 #include "shared/show/show_content.h"
@@ -55,6 +56,12 @@ class Show {
   // As VisitorInput::RestartAt(), but plays the drama up to that time immediately. Call before the
   // first frame.
   Status PrepareAt(double seconds);
+
+  // From the next frame on, the show plays its drama together with others. Until it is where they
+  // are, people are hidden. Call it before the first frame. Borrows the group.
+  void Join(DramaGroup& group);
+  // Plays the drama of a group to where it is now, so that the first frame need not.
+  Status CatchUpWithGroup();
 
   // For interactive staging: changes the transform, nudge, light or occluders of places[index]. Do
   // not call while a frame is being staged.
@@ -109,8 +116,12 @@ class Show {
   void AdvanceTo(double time);
   void TickOnce();
   PoseStage::Located Locate(const vision::TrackedFrame& tracked) const;
-  void UpdateVisitor(const VisitorInput::Values& input,
-                     const std::optional<geometry::Rigid3>& camera_from_stage);
+  static drama::Visitor VisitorOf(const VisitorInput::Values& input,
+                                  const std::optional<geometry::Rigid3>& camera_from_stage);
+  // Time of the drama for a frame of a show that has joined a group.
+  double GroupTime(const VisitorInput::Values& input,
+                   const std::optional<geometry::Rigid3>& camera_from_stage,
+                   double time);
   // Converts the frames' time into the drama's time: seconds since the drama's start, less the time
   // for which it was held.
   double DramaTime(double time);
@@ -133,7 +144,8 @@ class Show {
   stage::Stage stage_;
   std::vector<stage::ObjectId> object_ids_;  // Parallel to ShowContent::objects.
   std::unique_ptr<drama::Drama> drama_;
-  bool floor_changed_ = false;  // True if something has changed since LayFloor().
+  std::unique_ptr<GroupSeat> seat_;  // nullptr: the show plays alone.
+  bool floor_changed_ = false;       // True if something has changed since LayFloor().
   VisitorInput input_;
   float picture_hour_ = -1.0f;  // VisitorInput::Values::hour of the current frame.
   double start_ = 0.0;          // Time of the frames at which the drama's time is 0.

@@ -288,6 +288,21 @@ const T* FindIn(const stage::CaptionBook::ById<stage::CaptionBook::ByLanguage<T>
   return found == languages->second.end() ? nullptr : &found->second;
 }
 
+// Mouth movements of the language in which a line takes longest.
+Result<human::VisemeTrack> LoadLongest(const bundle::Bundle& bundle,
+                                       const bundle::LineEntry& entry) {
+  human::VisemeTrack longest;
+  for (const auto& [language, members] : entry.spoken) {
+    LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, members.visemes));
+    LARARIUM_ASSIGN_OR_RETURN(human::VisemeTrack track,
+                              stage::ParseVisemes(text, bundle.place() + ": " + members.visemes));
+    if (track.duration > longest.duration) {
+      longest = std::move(track);
+    }
+  }
+  return longest;
+}
+
 // said_in: the show's languages for this kind of line, speech or audio description.
 Result<Speech> LoadLine(const bundle::Bundle& bundle,
                         const bundle::LineEntry& entry,
@@ -304,6 +319,9 @@ Result<Speech> LoadLine(const bundle::Bundle& bundle,
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, LoadText(bundle, members.visemes));
   LARARIUM_ASSIGN_OR_RETURN(line.visemes,
                             stage::ParseVisemes(text, bundle.place() + ": " + members.visemes));
+  if (languages.in_step) {
+    LARARIUM_ASSIGN_OR_RETURN(line.timing, LoadLongest(bundle, entry));
+  }
   if (bundle.Has(members.sound)) {
     LARARIUM_ASSIGN_OR_RETURN(const auto sound, bundle.member(members.sound));
     line.sound.assign(sound.begin(), sound.end());
@@ -377,7 +395,7 @@ struct Languages {
 
   // The languages in which a line is said.
   LanguageChoice Of(bool describes) const {
-    return describes ? LanguageChoice{read, chosen.captions} : chosen;
+    return describes ? LanguageChoice{read, chosen.captions, chosen.in_step} : chosen;
   }
 };
 
@@ -385,6 +403,7 @@ Result<Languages> ResolveLanguages(const bundle::ShowManifest& manifest,
                                    const LanguageChoice& choice,
                                    const std::string& where) {
   Languages languages;
+  languages.chosen.in_step = choice.in_step;
   LARARIUM_ASSIGN_OR_RETURN(
       languages.chosen.spoken,
       ChooseLanguage(SpokenLanguages(manifest), choice.spoken, "speech", where));

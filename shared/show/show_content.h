@@ -72,6 +72,8 @@ struct StageObject {
 struct Speech {
   std::string name;  // The line's id in the drama.
   human::VisemeTrack visemes;
+  // The time that the line takes, if it is not that of `visemes`: LanguageChoice::in_step.
+  std::optional<human::VisemeTrack> timing = {};
   // FLAC or Ogg, starting together with the visemes; empty: the line is silent.
   std::vector<std::byte> sound = {};
   std::vector<stage::CaptionCue> captions = {};  // Empty: the line has no captions.
@@ -84,6 +86,9 @@ struct Speech {
 struct LanguageChoice {
   std::string spoken;
   std::string captions;
+  // A line takes the time of its longest language, so that shows in several languages stay
+  // together.
+  bool in_step = false;
 
   friend bool operator==(const LanguageChoice&, const LanguageChoice&) = default;
 };

@@ -60,8 +60,11 @@ TEST(ShowCaptions, WhatNobodySaysHasNoNameAndStaysAsLongAsItIsShown) {
 
 TEST(ShowCaptions, WhatIsDescribedIsInBracketsAndHasNoName) {
   ShowContent content;
-  content.speech = {{"salvete", {}, {}, {{0.0, 1.0, "Greetings!"}}},
-                    {"d_bar", {}, {}, {{0.0, 2.0, "A bar\nat dawn."}}, true}};
+  content.speech = {{.name = "salvete", .visemes = {}, .captions = {{0.0, 1.0, "Greetings!"}}},
+                    {.name = "d_bar",
+                     .visemes = {},
+                     .captions = {{0.0, 2.0, "A bar\nat dawn."}},
+                     .describes = true}};
   StagedFrame staged;
   staged.lines = {{StagedLine::kDescription, 1, 0.5, true}};
   std::vector<render::Caption> captions;

@@ -466,8 +466,11 @@ TEST_F(ShowTest, WhatIsDescribedIsHeardAndReadByWhoeverChoseIt) {
   ShowContent content = test::SmallContent();
   human::VisemeTrack track;
   track.duration = 2.0f;
-  content.speech = {
-      {"d_bar", track, test::Encode(test::Noise(2.0), 1), {{0.0, 2.0, "A bar."}}, true}};
+  content.speech = {{.name = "d_bar",
+                     .visemes = track,
+                     .sound = test::Encode(test::Noise(2.0), 1),
+                     .captions = {{0.0, 2.0, "A bar."}},
+                     .describes = true}};
   content.drama = "track{descriptions = {{at = 1, line = \"d_bar\"}}}";
   const std::unique_ptr<Show> show = Show::Create(std::move(content), {}, *log_).value();
   const StagedFrame without = At(*show, 1.5);
