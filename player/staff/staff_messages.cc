@@ -14,6 +14,7 @@ namespace lararium::player {
 namespace {
 
 constexpr size_t kMostLanguage = 64;
+constexpr size_t kMostMarker = 512;
 
 constexpr std::pair<std::string_view, Action> kActions[] = {{"restart", Action::kRestart},
                                                             {"find_anew", Action::kFindAnew},
@@ -47,6 +48,11 @@ void DescribeCommand(Fields& fields, StaffCommand& command) {
     command.end = true;
   } else if (what == "begin_again") {
     command.begin_again = true;
+  } else if (what == "hold" || what == "resume") {
+    command.hold = what == "hold";
+  } else if (what == "go_to") {
+    fields.Text("value", command.go_to, kMostMarker);
+    fields.Require(!command.go_to.empty(), "\"value\" must name a marker");
   } else {
     fields.Require(false, "there is no such thing to do");
   }

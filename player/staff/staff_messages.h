@@ -23,6 +23,8 @@ enum class StaffMessage : char {
   kCommand = 'A',        // JSON, ParseStaffCommand
   kPictureWanted = 'W',  // empty; only the page sends it
   kNote = 'N',           // a text for the log
+  // To and from the process of a fleet whose device is in a group (player/fleet/group_message.h).
+  kGroup = 'G',
 };
 
 // Limits on the bytes of a message including its kind, and of a command from the network.
@@ -52,6 +54,9 @@ struct StaffCommand {
   std::optional<bool> reduced_motion;
   bool end = false;          // ends the player, also a kiosk
   bool begin_again = false;  // ends the player; a kiosk's watchdog starts it again
+  // Of a group's drama. A player alone ignores them.
+  std::optional<bool> hold;  // holds it, or lets it go on
+  std::string go_to;         // a marker; empty: none
 
   friend bool operator==(const StaffCommand&, const StaffCommand&) = default;
 };
@@ -61,7 +66,8 @@ void Choose(const StaffCommand& command, const Offer& offer, Choices& choices);
 
 // {"do": "restart" | "find_anew" | "louder" | "quieter" | "end" | "begin_again"}, or
 // {"do": "volume" | "language" | "captions" | "caption_size" | "caption_contrast" |
-// "descriptions" | "reduced_motion", "value": ...}. The text may come from an attacker.
+// "descriptions" | "reduced_motion", "value": ...}, or, for a group, {"do": "hold" | "resume"} or
+// {"do": "go_to", "value": MARKER}. The text may come from an attacker.
 Result<StaffCommand> ParseStaffCommand(std::string_view text);
 
 }  // namespace lararium::player

@@ -1,0 +1,283 @@
+// Groups of simulated devices: LARARIUM_GROUP_SECONDS is how long the long test plays.
+
+#include "player/fleet/group_member.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/player/simulated_group.h"
+
+namespace lararium::player {
+namespace {
+
+using test::SimulatedGroup;
+using ::testing::HasSubstr;
+
+// 2 to 80 ms, with jitter and 2 % loss.
+const SimulatedGroup::Network kBad = {
+    .delays = {2'000, 10'000, 20'000, 30'000, 40'000, 50'000, 65'000, 80'000},
+    .jitter = 8'000,
+    .loss = 0.02};
+// How long a broker is away; a split lasts twice as long.
+constexpr double kAway = std::clamp(LARARIUM_GROUP_SECONDS / 3.0, 4.0, 30.0);
+const SimulatedGroup::Network kGood = {.delays = {2'000}, .jitter = 1'000, .loss = 0.0};
+
+double Percentile95(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 1e9 : values[values.size() * 95 / 100];
+}
+
+// Whether all follow one leader, have the same log but for what is under way, and are within 20 ms.
+bool IsInStep(SimulatedGroup& group) {
+  const GroupLog& first = group.device(0).member().log();
+  for (size_t i = 0; i < group.size(); ++i) {
+    const GroupMember& member = group.device(i).member();
+    const size_t both = std::min(first.size(), member.log().size());
+    if (!member.ready() || member.leader() != group.device(0).member().leader() ||
+        !first.Has(member.log().PlaceAt(both)) || first.size() > both + 50 ||
+        member.schedule().run != group.device(0).member().schedule().run) {
+      return false;
+    }
+  }
+  return group.Spread() <= 0.02;
+}
+
+// Plays until all are in step for half a second. Returns how long that took; -1: too long.
+double SecondsUntilInStep(SimulatedGroup& group, double most) {
+  const double begin = group.now();
+  double since = begin;
+  while (group.now() - begin < most) {
+    group.Play(1.0 / 60.0);
+    since = IsInStep(group) ? since : group.now();
+    if (group.now() - since > 0.5) {
+      return since - begin;
+    }
+  }
+  return -1.0;
+}
+
+int64_t Leaders(SimulatedGroup& group) {
+  int64_t leaders = 0;
+  for (size_t i = 0; i < group.size(); ++i) {
+    leaders += group.device(i).runs && group.device(i).member().leads() ? 1 : 0;
+  }
+  return leaders;
+}
+
+TEST(Group, OfEightInABadNetworkPlaysOneDrama) {
+  SimulatedGroup group(kBad, 1);
+  for (int i = 0; i < 8; ++i) {
+    group.Add();
+    group.Play(0.2);
+  }
+  group.Play(4.0);
+  std::vector<double> spreads;
+  int events = 0;
+  for (int second = 0; second < LARARIUM_GROUP_SECONDS; ++second) {
+    if (second % 3 == 0) {
+      group.device(static_cast<size_t>(events) % 8).keys = events % 2 == 0 ? "a" : "/door,1";
+      ++events;
+    }
+    group.Play(1.0, [&] { spreads.push_back(group.Spread()); });
+  }
+  group.Play(3.0);
+  int64_t backwards = 0;
+  int64_t jumps = 0;
+  for (size_t i = 0; i < group.size(); ++i) {
+    backwards += group.device(i).player->backwards();
+    jumps += group.device(i).player->jumps();
+  }
+  std::printf(
+      "%d s, %d keys: p95 of the largest difference %.1f ms, worst %.1f ms; %zu states "
+      "compared, %zu differ; log %zu entries; %.1f kB/s\n",
+      LARARIUM_GROUP_SECONDS, events, 1e3 * Percentile95(spreads),
+      1e3 * *std::max_element(spreads.begin(), spreads.end()), group.Compare().compared,
+      group.Compare().different, group.device(0).member().log().size(),
+      1e-3 * static_cast<double>(group.bytes_sent()) / group.now());
+  EXPECT_LE(Percentile95(spreads), 0.02);
+  EXPECT_GE(group.Compare().compared + 10, static_cast<size_t>(LARARIUM_GROUP_SECONDS));
+  EXPECT_EQ(group.Compare().different, 0u);
+  EXPECT_EQ(Leaders(group), 1);
+  EXPECT_EQ(backwards, 0);
+  EXPECT_EQ(jumps, 0);
+  // The drama would have been another one without the visitors.
+  EXPECT_GT(group.device(0).player->drama().cues().size(), 4u);
+}
+
+TEST(Group, TakesLateDevicesInWithinASecondOfHearingThem) {
+  SimulatedGroup group(kBad, 2);
+  for (int i = 0; i < 4; ++i) {
+    group.Add();
+  }
+  group.Play(LARARIUM_GROUP_SECONDS * 0.7);
+  group.Add();
+  const double took = SecondsUntilInStep(group, 10.0);
+  std::printf("in step after %.2f s\n", took);
+  EXPECT_GE(took, 0.0);
+  EXPECT_LE(took, 1.0);
+  group.Play(10.0);
+  EXPECT_EQ(group.Compare().different, 0u);
+  EXPECT_FALSE(group.device(4).player->marks().empty());
+}
+
+TEST(Group, GoesOnWhenItsLeaderIsKilled) {
+  for (const bool told : {true, false}) {
+    SimulatedGroup group(kBad, 3);
+    for (int i = 0; i < 4; ++i) {
+      group.Add();
+      group.Play(1.0);
+    }
+    group.Play(10.0);
+    ASSERT_TRUE(group.device(0).member().leads()) << "the one that has been there longest";
+    group.Kill(0, told);
+    const double before = group.device(1).seconds();
+    const double begin = group.now();
+    while (Leaders(group) == 0 && group.now() < begin + 5.0) {
+      group.Play(1.0 / 60.0);
+    }
+    std::printf("another leader after %.2f s\n", group.now() - begin);
+    EXPECT_LE(group.now() - begin, told ? 0.5 : 2.5);
+    EXPECT_TRUE(group.device(1).member().leads()) << "the next one";
+    EXPECT_LE(group.Spread(), 0.02) << "nothing is seen of it";
+    group.device(2).keys = "a";
+    group.Play(10.0);
+    EXPECT_NEAR(group.device(1).seconds() - before, group.now() - begin, 0.05);
+    EXPECT_EQ(group.Compare().different, 0u);
+    EXPECT_EQ(Leaders(group), 1);
+  }
+}
+
+TEST(Group, GoesOnWithoutItsBrokerAndIsInStepAgain) {
+  SimulatedGroup group(kBad, 4);
+  for (int i = 0; i < 4; ++i) {
+    group.Add();
+  }
+  group.Play(8.0);
+  const double before = group.device(3).seconds();
+  group.SetBroker(false);
+  group.Play(kAway);
+  for (size_t i = 0; i < group.size(); ++i) {
+    EXPECT_NEAR(group.device(i).seconds() - before, kAway, 0.1) << "the show went on";
+    EXPECT_TRUE(group.device(i).member().leads()) << "each for itself";
+  }
+  group.SetBroker(true);
+  const double took = SecondsUntilInStep(group, 10.0);
+  const double back = group.device(0).seconds();
+  group.Play(8.0);
+  std::printf("in step after %.2f s\n", took);
+  EXPECT_GE(took, 0.0);
+  EXPECT_LE(took, 2.0);
+  EXPECT_EQ(Leaders(group), 1);
+  EXPECT_EQ(group.Compare(back + 1.0).different, 0u);
+}
+
+TEST(Group, ThatWasSplitBecomesOneWithTheLargerSide) {
+  SimulatedGroup group(kBad, 5);
+  constexpr size_t kDevices = LARARIUM_GROUP_SECONDS < 100 ? 5 : 8;
+  constexpr size_t kCut = kDevices * 3 / 8;  // The leader is one of these.
+  for (size_t i = 0; i < kDevices; ++i) {
+    group.Add();
+    group.Play(0.5);
+  }
+  group.Play(6.0);
+  ASSERT_TRUE(group.device(0).member().leads());
+  for (size_t i = 0; i < kCut; ++i) {
+    group.device(i).side = 1;
+  }
+  group.Play(2.0 * kAway);
+  EXPECT_EQ(Leaders(group), 2);
+  EXPECT_GT(group.Compare().different, 0u) << "each side has its own drama meanwhile";
+  for (size_t i = 0; i < kCut; ++i) {
+    group.device(i).side = 0;
+  }
+  // States that were noted until now belong to two dramas.
+  const double back = group.device(kCut).seconds() + 4.0;
+  const double took = SecondsUntilInStep(group, 10.0);
+  group.Play(10.0);
+  std::printf("in step after %.2f s\n", took);
+  EXPECT_GE(took, 0.0);
+  EXPECT_LE(took, 2.0);
+  EXPECT_EQ(Leaders(group), 1);
+  for (size_t i = 0; i < kCut; ++i) {
+    EXPECT_FALSE(group.device(i).member().leads());
+  }
+  EXPECT_EQ(group.Compare(back).different, 0u);
+}
+
+TEST(Group, IsLedByItsGuideWhoComesLast) {
+  SimulatedGroup group(kGood, 6);
+  group.Add();
+  group.Add();
+  group.Play(10.0);
+  group.Add(true);
+  group.Play(5.0);
+  EXPECT_TRUE(group.device(2).member().leads());
+  EXPECT_EQ(Leaders(group), 1);
+  EXPECT_GT(group.device(2).seconds(), 12.0) << "with the drama of the group";
+  EXPECT_EQ(group.Compare().different, 0u);
+}
+
+TEST(Group, IsHeldAndGoesOnAndToAMarkerWhereTheGuideWants) {
+  SimulatedGroup group(kBad, 7);
+  for (int i = 0; i < 3; ++i) {
+    group.Add();
+  }
+  group.Play(10.0);
+  GroupRelay& last = *group.device(2).relay;
+  const auto want = [&](const char* command) {
+    // The clock of a device is passed by its next frame; any time of before will do.
+    EXPECT_TRUE(last.TakeCommand(
+        command, false, group.device(2).clock_offset + static_cast<int64_t>(1e6 * group.now())));
+  };
+  want(R"({"do": "hold"})");
+  group.Play(2.0);
+  const double held = group.device(0).seconds();
+  group.Play(3.0);
+  EXPECT_DOUBLE_EQ(group.device(0).seconds(), held);
+  EXPECT_LE(group.Spread(), 0.02);
+  want(R"({"do": "resume"})");
+  group.Play(3.0);
+  EXPECT_NEAR(group.device(0).seconds(), held + 2.4, 0.4);
+  want(R"({"do": "go_to", "value": "noon"})");
+  group.Play(3.0);
+  EXPECT_NEAR(group.device(1).seconds(), 22.6, 0.4);
+  EXPECT_LE(group.Spread(), 0.02);
+  want(R"({"do": "restart"})");
+  group.Play(3.0);
+  EXPECT_NEAR(group.device(1).seconds(), 2.6, 0.4);
+  group.Play(10.0);
+  EXPECT_LE(group.Spread(), 0.02);
+  EXPECT_EQ(group.Compare().different, 0u);
+  EXPECT_GT(group.Compare().compared, 20u);
+}
+
+TEST(Group, IgnoresWhatWasSentBefore) {
+  SimulatedGroup group(kGood, 8);
+  group.Add();
+  group.Add();
+  group.Play(5.0);
+  // A wish of a device and its repetition.
+  GroupMember& leader = group.device(0).relay->member();
+  const GroupWish wish = {0, 5, GroupWish::What::kRestart, ""};
+  const uint64_t run = leader.schedule().run;
+  leader.Receive("tablet-1", wish, group.device(0).clock_offset + 5'000'000);
+  EXPECT_EQ(leader.schedule().run, run) << "of another start of that device";
+  leader.Receive("nobody", wish, group.device(0).clock_offset + 5'000'000);
+  EXPECT_EQ(leader.schedule().run, run) << "of a device that is not there";
+}
+
+TEST(Group, OfOtherShowsAreApart) {
+  SimulatedGroup group(kGood, 9);
+  group.Add();
+  group.Add().player->feed().SetShow("another", {});
+  group.Play(5.0);
+  EXPECT_EQ(Leaders(group), 2);
+  const auto notes = group.device(0).relay->member().TakeNotes();
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes[0], HasSubstr("\"tablet-1\" plays another show"));
+}
+
+}  // namespace
+}  // namespace lararium::player
