@@ -228,8 +228,12 @@ function showSelection() {
   offer(byId('choose-voices'), ['', ...offered('languages')], (code) => code === '' ? '–' : languageName(code));
   offer(byId('choose-captions'), ['', ...captions, ...(captions.length > 0 ? ['off'] : [])],
     (code) => code === '' ? '–' : languageName(code));
+  offer(byId('choose-marker'), ['', ...distinct(chosen.flatMap(({state}) => state?.drama?.markers ?? []))],
+    (marker) => marker === '' ? '–' : marker);
+  const grouped = chosen.some(({state}) => state?.drama);
   for (const control of document.querySelectorAll('[data-do]')) {
-    control.disabled = chosen.length === 0;
+    const ofDrama = ['hold', 'resume', 'go_to'].includes(control.dataset.do);
+    control.disabled = chosen.length === 0 || (ofDrama && !grouped);
   }
   byId('forget').disabled = chosen.every(({online}) => online);
 }

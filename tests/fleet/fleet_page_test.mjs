@@ -138,9 +138,11 @@ async function visit(browser, broker, devices, hanging) {
   await browser.until(`document.getElementById('sent').textContent === 'Sent to ${RED} devices'`);
   await browser.until(`[...document.getElementById('choose-voices').options].some((option) => option.value === 'it')`);
   await choose(browser, 'choose-voices', 'it');
+  await click(browser, 'button[data-do=hold]');
   await sleep(2);
   const obeyed = devices.text.split('\n').filter((line) => line.includes('{')).sort();
-  assert.deepEqual(obeyed, names.slice(0, RED).flatMap((name) => [`${name} {"do":"language","value":"it"}`, `${name} {"do":"restart"}`]).sort());
+  assert.deepEqual(obeyed, names.slice(0, RED).flatMap((name) => [
+    `${name} {"do":"hold"}`, `${name} {"do":"language","value":"it"}`, `${name} {"do":"restart"}`]).sort());
   check(true, `commands reached the ${RED} devices that were selected, once, and no other`);
   await choose(browser, 'group', '');
 
