@@ -267,7 +267,10 @@ void AddFleetOptions(CLI::App& app, FleetOptions& fleet) {
       "says");
   app.add_option("--fleet-name", fleet.name, "Name of this device there; that of the machine")
       ->needs(broker);
-  app.add_option("--group", fleet.group, "Group of this device there")->needs(broker);
+  CLI::Option* group =
+      app.add_option("--group", fleet.group, "Play one drama together with this group's devices")
+          ->needs(broker);
+  app.add_flag("--guide", fleet.guide, "This is the device of the group's guide")->needs(group);
   app.add_option("--fleet-authority", fleet.authority,
                  "Certificate of the authority that signed the broker's; otherwise one that the "
                  "system trusts")
@@ -293,6 +296,7 @@ CLI::App* AddFleetSetup(CLI::App& app, FleetSetupOptions& setup) {
   command->add_option("--site", setup.site, "Name of the site");
   command->add_option("--add", setup.devices,
                       "Devices to add: NAME or NAME:GROUP; or another group for one");
+  command->add_option("--guide", setup.guides, "Names of devices that lead their groups");
   command->add_option("--remove", setup.removed, "Names of devices to remove");
   command->add_option("--show", setup.show, "Show the places of this bundle on the fleet's page")
       ->check(CLI::ExistingFile);

@@ -21,6 +21,7 @@ struct PlayLinks {
   Heartbeat heartbeat = Heartbeat();
   StaffLinks staff = {};           // Links to the processes that show its state.
   UpdateWatch* updates = nullptr;  // nullptr: there are no updates.
+  bool in_group = false;           // The fleet's process plays one drama with other devices.
 };
 
 // Runs a show until its source ends, the window closes, the process gets SIGINT or SIGTERM, or it

@@ -47,8 +47,10 @@ Result<bundle::Bundle> ShowMaker::Open() const {
 Result<show::ShowContent> ShowMaker::Read(const bundle::Bundle& bundle,
                                           const show::LanguageChoice& languages,
                                           float finest) const {
+  show::LanguageChoice choice = languages;
+  choice.in_step = group_ != nullptr;
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
-                            show::LoadShowContent(bundle, bundle_.place, languages, finest));
+                            show::LoadShowContent(bundle, bundle_.place, choice, finest));
   for (show::ShowPlace& place : content.places) {
     if (!camera_look_) {
       place.stage.camera.reset();
@@ -71,6 +73,9 @@ Result<std::unique_ptr<show::Show>> ShowMaker::Make(show::ShowContent content) c
   if (visitor_) {
     show.drama().SetVisitorLog(*visitor_);
   }
+  if (group_ != nullptr) {
+    show.Join(*group_);
+  }
   return made;
 }
 
@@ -80,7 +85,9 @@ Result<std::unique_ptr<show::Show>> ShowMaker::MakeAt(double time,
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, Open());
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, Read(bundle, languages, finest));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
-  if (drama_.past == drama::Past::kForgotten) {  // A recording needs the earlier actions.
+  if (group_ != nullptr) {
+    LARARIUM_RETURN_IF_ERROR(show->CatchUpWithGroup());
+  } else if (drama_.past == drama::Past::kForgotten) {  // A recording needs the earlier actions.
     LARARIUM_RETURN_IF_ERROR(show->PrepareAt(time));
   }
   return show;

@@ -37,6 +37,9 @@ class ShowMaker {
   // Replays a recorded visitor instead of observing the real one.
   void SetVisitor(drama::VisitorLog visitor) { visitor_ = std::move(visitor); }
 
+  // Shows play their dramas together with others. Borrows the group.
+  void SetGroup(show::DramaGroup& group) { group_ = &group; }
+
   // Reads and checks the bundle. finest: see show::LoadShowContent.
   Result<show::ShowContent> Load(const show::LanguageChoice& languages, float finest);
   // Identity of the bundle that was loaded: the first twelve digits of the SHA-256 of its manifest,
@@ -74,6 +77,7 @@ class ShowMaker {
   show::ViewPart part_;
   bool around_ = false;
   std::optional<drama::VisitorLog> visitor_;
+  show::DramaGroup* group_ = nullptr;  // nullptr: shows play alone.
   show::LanguageChoice languages_;
   std::string version_;
   // The show in other languages, and these. Declared last, because its thread uses the other

@@ -49,11 +49,17 @@ double Milliseconds(SteadyClock::duration duration) {
 }
 
 // A player only ever goes back to the beginning, and plays for days: it needs no past.
-drama::DramaOptions DramaOptionsOf(const PlayOptions& options) {
+// In a group, late news change the past.
+drama::DramaOptions DramaOptionsOf(const PlayOptions& options, bool in_group) {
   drama::DramaOptions drama;
   drama.seed = options.seed;
-  drama.past = options.output.visitor_log.empty() ? drama::Past::kForgotten : drama::Past::kKept;
+  drama.past = options.output.visitor_log.empty() && !in_group ? drama::Past::kForgotten
+                                                               : drama::Past::kKept;
   return drama;
+}
+
+double SteadySeconds() {
+  return std::chrono::duration<double>(SteadyClock::now().time_since_epoch()).count();
 }
 
 Result<std::unique_ptr<capture::FrameSource>> OpenSource(const CameraOptions& options,
@@ -95,10 +101,16 @@ ShowSession::ShowSession(const PlayOptions& options,
       restarts_(links.start.number),
       quality_(static_cast<size_t>(options.quality.value_or(0))),
       updates_(links.updates),
-      maker_(options.bundle, DramaOptionsOf(options), log) {
+      maker_(options.bundle, DramaOptionsOf(options, links.in_group), log) {
+  GroupPort port;
+  if (links.in_group && !lock_step()) {
+    feed_.emplace(SteadySeconds);
+    port = {[this] { return feed_->TakeOwn(); },
+            [this](std::string_view news) { feed_->Take(news); }};
+  }
   // Created first, because it collects all warnings of the log.
   if (links.staff.any()) {
-    staff_.emplace(links.staff, log);
+    staff_.emplace(links.staff, log, std::move(port));
   }
   controls_.emplace(options.choices, options.kiosk, links.start, log);
 }
@@ -115,7 +127,11 @@ Status ShowSession::Prepare() {
   if (!options_.quality && !lock_step()) {
     quality_.Adapt(source_->frames_per_second());
   }
+  if (feed_) {
+    maker_.SetGroup(feed_->group());
+  }
   LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content, LoadInChosenLanguages());
+  LARARIUM_RETURN_IF_ERROR(JoinGroup(content));
   LARARIUM_ASSIGN_OR_RETURN(const CameraChoice camera, ChooseCamera(content));
   LARARIUM_ASSIGN_OR_RETURN(const PictureLayout layout,
                             ChooseLayout(options_.display, device_.headset, camera.camera));
@@ -137,7 +153,7 @@ Status ShowSession::Prepare() {
   controls_->Attach(device_.buttons, *poses_, *output_);
   controls_->SetShow(*show_);
   if (const Kiosk* kiosk = controls_->kiosk()) {
-    if (const double time = kiosk->ResumeAt(content.title); time > 0.0) {
+    if (const double time = kiosk->ResumeAt(content.title); time > 0.0 && !feed_) {
       show_->input().RestartAt(time);
     }
   }
@@ -151,6 +167,20 @@ Status ShowSession::Prepare() {
                               ParseListenAddress("--osc", options_.osc));
     LARARIUM_ASSIGN_OR_RETURN(osc_, OscListener::Open(address, log_));
   }
+  return Status();
+}
+
+// Dramas are the same where the show, the program and the seed are.
+Status ShowSession::JoinGroup(const show::ShowContent& content) {
+  if (!feed_) {
+    return Status();
+  }
+  if (!options_.visitor.empty() || !options_.output.visitor_log.empty()) {
+    return Status::Error("--visitor, --visitor-log", "cannot go with a group",
+                         "play alone with --fleet and without --group");
+  }
+  feed_->SetShow(maker_.version() + " " + LARARIUM_VERSION + " " + std::to_string(options_.seed),
+                 MarkersOf(content.drama));
   return Status();
 }
 
@@ -354,6 +384,11 @@ Status ShowSession::DrawFrame(show::StagedFrame& staged) {
   }
   heartbeat_.Beat();
   controls_->AfterFrame(staged, Seconds(last_shown_));
+  if (feed_) {
+    const Kiosk* kiosk = controls_->kiosk();
+    feed_->SetVisited(kiosk != nullptr ? kiosk->visited()
+                                       : staged.tracked.camera_from_map.has_value());
+  }
   SetVolume();
   TellStaff(staged);
   if (drawn_frames_ == kFirstFrames) {

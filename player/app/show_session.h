@@ -18,6 +18,7 @@
 #include "player/app/recorder.h"
 #include "player/app/show_maker.h"
 #include "player/app/visitor_controls.h"
+#include "player/fleet/group_feed.h"
 #include "player/kiosk/fault_log.h"
 #include "player/kiosk/watchdog.h"
 #include "player/staff/staff_reporter.h"
@@ -74,6 +75,7 @@ class ShowSession {
   Status ServeOpenXr();
   void AddTimes(const show::StagedFrame& staged, SteadyClock::time_point drawn);
   void TellStaff(const show::StagedFrame& staged);
+  Status JoinGroup(const show::ShowContent& content);
   void ShowTracking();
   void SetVolume();
   void ApplyQuality();
@@ -99,6 +101,7 @@ class ShowSession {
   Device device_;
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
+  std::optional<GroupFeed> feed_;  // nullopt: the show plays alone.
   std::unique_ptr<show::Show> show_;
   std::unique_ptr<PictureOutput> output_;
   std::optional<VisitorControls> controls_;  // The constructor always sets it.

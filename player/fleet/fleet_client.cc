@@ -2,6 +2,7 @@
 
 #include <mosquitto.h>
 #include <poll.h>
+#include <sys/random.h>
 #include <sys/time.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "player/kiosk/secret_file.h"
 #include "player/staff/staff_messages.h"
+#include "shared/core/check.h"
 
 namespace lararium::player {
 namespace {
@@ -21,16 +23,19 @@ namespace {
 // The broker notices within one and a half times this that a device is gone.
 constexpr int kKeepAliveSeconds = 5;  // The shortest that libmosquitto accepts.
 constexpr int kPollMs = 100;
+constexpr int kPollInGroupMs = 20;
+constexpr int kUnanswered = 100;  // Messages on their way to the broker.
 constexpr long kConnectSeconds = 10;
 constexpr int kTryMs = 10'000;  // time that a broker has to answer the doctor
 constexpr char kTrustedBySystem[] = "/etc/ssl/certs";
 constexpr std::chrono::seconds kLongestPause(30);
+constexpr std::chrono::seconds kLongestPauseInGroup(1);  // The group waits for the device.
 // Between two states at least the first time passes, and at most the second.
 constexpr std::chrono::milliseconds kLeastBetween(500);
 constexpr std::chrono::milliseconds kMostBetween(2000);
 constexpr int kOnce = 2;         // Quality of service: a command arrives exactly once.
-constexpr int kAtLeastOnce = 1;  // Quality of service of presence.
-constexpr int kNewestWins = 0;   // Quality of service of states.
+constexpr int kAtLeastOnce = 1;  // Quality of service of presence and of a group's events.
+constexpr int kNewestWins = 0;   // Quality of service of states and of a group's beats.
 
 constexpr char kOnline[] = R"({"online": true})";
 constexpr char kOffline[] = R"({"online": false})";
@@ -84,6 +89,18 @@ Result<MosquittoClient> MakeClient(const FleetOptions& options,
   interrupt.sa_handler = [](int) {};
   ::sigaction(SIGALRM, &interrupt, nullptr);
   return client;
+}
+
+int64_t Microseconds(clockid_t clock) {
+  timespec now = {};
+  ::clock_gettime(clock, &now);
+  return int64_t{1'000'000} * now.tv_sec + now.tv_nsec / 1000;
+}
+
+uint64_t RandomNumber() {
+  uint64_t number = 0;
+  CHECK(::getrandom(&number, sizeof(number), 0) == sizeof(number));
+  return number;
 }
 
 // A host may have several addresses; each is given up after a while by a signal.
@@ -151,7 +168,14 @@ FleetClient::FleetClient(const FleetOptions& options, int link)
       topics_(TopicsOf(broker_.site, options.name, options.group)),
       name_(options.name),
       group_(options.group),
-      link_(link) {}
+      link_(link) {
+  if (!group_.empty()) {
+    relay_.emplace(GroupMemberOptions{
+        .name = name_, .guide = options.guide, .boot = RandomNumber(), .wall = [] {
+          return Microseconds(CLOCK_REALTIME);
+        }});
+  }
+}
 
 Result<std::unique_ptr<FleetClient>> FleetClient::Create(const FleetOptions& options, int link) {
   std::unique_ptr<FleetClient> client(new FleetClient(options, link));
@@ -166,6 +190,7 @@ Status FleetClient::Prepare(const FleetOptions& options) {
   mosquitto_connect_callback_set(client_.get(), &Calls::Connected);
   mosquitto_message_callback_set(client_.get(), &Calls::Received);
   mosquitto_log_callback_set(client_.get(), &Calls::Logged);
+  mosquitto_max_inflight_messages_set(client_.get(), kUnanswered);
   return Status();
 }
 
@@ -175,15 +200,19 @@ void FleetClient::Run() {
     const auto wanted = static_cast<short>(
         POLLIN | (has_socket_ && mosquitto_want_write(client_.get()) ? POLLOUT : 0));
     pollfd waiting[] = {{link_, POLLIN, 0}, {socket, wanted, 0}};
-    ::poll(waiting, std::size(waiting), kPollMs);
+    ::poll(waiting, std::size(waiting), relay_ ? kPollInGroupMs : kPollMs);
     if (!TakeMessages()) {
       break;
     }
     if (has_socket_) {
       Serve();
+      if (!connected_ && Clock::now() - connecting_since_ > std::chrono::seconds(kConnectSeconds)) {
+        Lost("it does not answer");
+      }
     } else if (Clock::now() >= next_try_) {
       Connect();
     }
+    StepGroup();
     PublishState();
   }
   if (connected_) {
@@ -200,15 +229,20 @@ bool FleetClient::TakeMessages() {
     if (message->kind == StaffMessage::kState) {
       state_.Set(message->content);
       has_news_ = true;
+    } else if (message->kind == StaffMessage::kGroup && relay_) {
+      relay_->TakeOwn(message->content, Microseconds(CLOCK_MONOTONIC));
     }
   }
   return open;
 }
 
-// The player's messages wait meanwhile; those that do not fit are dropped.
+// Only the name of the broker's host is waited for; meanwhile the player's messages wait, and those
+// that do not fit are dropped.
 void FleetClient::Connect() {
-  const int code = ConnectInTime(client_.get(), broker_);
+  const int code =
+      mosquitto_connect_async(client_.get(), broker_.host.c_str(), broker_.port, kKeepAliveSeconds);
   has_socket_ = code == MOSQ_ERR_SUCCESS;
+  connecting_since_ = Clock::now();
   if (!has_socket_) {
     Lost(TextOf(code));
   }
@@ -235,6 +269,11 @@ void FleetClient::Connected(int code) {
   for (const std::string& topic : topics_.commands) {
     mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kOnce);
   }
+  for (const std::string& topic : {topics_.from_all, topics_.from_one, topics_.presences}) {
+    if (relay_) {
+      mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kAtLeastOnce);
+    }
+  }
   PublishPresence(true);
   published_ = {};
 }
@@ -243,7 +282,7 @@ void FleetClient::Lost(std::string_view why) {
   has_socket_ = false;
   connected_ = false;
   next_try_ = Clock::now() + pause_;
-  pause_ = std::min(2 * pause_, kLongestPause);
+  pause_ = std::min(2 * pause_, relay_ ? kLongestPauseInGroup : kLongestPause);
   if (!lost_told_) {
     lost_told_ = true;
     const std::string reason = library_says_.empty() ? std::string(why) : library_says_;
@@ -255,10 +294,65 @@ void FleetClient::Lost(std::string_view why) {
 void FleetClient::Take(const mosquitto_message& message) {
   const std::string_view payload(static_cast<const char*>(message.payload),
                                  static_cast<size_t>(message.payloadlen));
+  const std::string_view topic = message.topic;
+  if (std::find(topics_.commands.begin(), topics_.commands.end(), topic) ==
+      topics_.commands.end()) {
+    if (relay_) {
+      TakeOfGroup(topic, payload);
+    }
+    return;
+  }
   if (const Status status = gate_.Check(payload, message.retain, Clock::now()); status.ok()) {
-    SendStaffMessage(link_, StaffMessage::kCommand, payload);
+    const bool to_all = topic != topics_.commands.front();
+    if (!relay_ || !relay_->TakeCommand(payload, to_all, Microseconds(CLOCK_MONOTONIC))) {
+      SendStaffMessage(link_, StaffMessage::kCommand, payload);
+    }
   } else if (gate_.tells()) {
     Note(status.message() + "; refused so far: " + std::to_string(gate_.refused()));
+  }
+}
+
+// The last part of a topic is the name of the member that wrote it, for which the broker vouches.
+void FleetClient::TakeOfGroup(std::string_view topic, std::string_view payload) {
+  constexpr std::string_view kPresence = "/presence";
+  if (topic.ends_with(kPresence)) {
+    topic.remove_suffix(kPresence.size());
+    if (payload == kOffline) {
+      relay_->member().SetGone(std::string(topic.substr(topic.rfind('/') + 1)));
+    }
+    return;
+  }
+  const std::string from(topic.substr(topic.rfind('/') + 1));
+  const Status status = IsFleetName(from)
+                            ? relay_->TakeMessage(from, payload, Microseconds(CLOCK_MONOTONIC))
+                            : Status();
+  if (!status.ok() && !std::exchange(group_refused_told_, true)) {
+    Note(status.message() + " (of \"" + from + "\")");
+  }
+}
+
+void FleetClient::StepGroup() {
+  if (!relay_) {
+    return;
+  }
+  const int64_t now = Microseconds(CLOCK_MONOTONIC);
+  relay_->Step(now);
+  for (const GroupMember::Outgoing& message : relay_->member().TakeOutgoing()) {
+    std::string topic = message.to.empty() ? topics_.to_all : topics_.to_one;
+    if (!message.to.empty()) {
+      topic.replace(topic.find('+'), 1, message.to);
+    }
+    if (connected_) {  // Members repeat what is lost.
+      mosquitto_publish(client_.get(), nullptr, topic.c_str(),
+                        static_cast<int>(message.bytes.size()), message.bytes.data(),
+                        message.reliable ? kAtLeastOnce : kNewestWins, false);
+    }
+  }
+  for (const std::string& message : relay_->TakeForPlayer(now)) {
+    SendStaffMessage(link_, StaffMessage::kGroup, message);
+  }
+  for (const std::string& note : relay_->member().TakeNotes()) {
+    Note(note);
   }
 }
 
@@ -269,8 +363,11 @@ void FleetClient::PublishState() {
   if (!connected_ || !due || mosquitto_want_write(client_.get())) {
     return;
   }
-  const std::string json =
-      state_.ToJson({{"name", name_}, {"group", group_}, {"time", std::time(nullptr)}});
+  Json more = {{"name", name_}, {"group", group_}, {"time", std::time(nullptr)}};
+  if (relay_) {
+    more["drama"] = relay_->State();
+  }
+  const std::string json = state_.ToJson(std::move(more));
   mosquitto_publish(client_.get(), nullptr, topics_.state.c_str(), static_cast<int>(json.size()),
                     json.data(), kNewestWins, true);
   published_ = Clock::now();

@@ -5,11 +5,13 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "player/fleet/command_gate.h"
 #include "player/fleet/fleet_options.h"
+#include "player/fleet/group_relay.h"
 #include "player/staff/staff_state.h"
 #include "shared/core/status.h"
 
@@ -49,6 +51,8 @@ class FleetClient {
   void Connected(int code);
   void Lost(std::string_view why);
   void Take(const mosquitto_message& message);
+  void TakeOfGroup(std::string_view topic, std::string_view payload);
+  void StepGroup();
   void PublishState();
   void PublishPresence(bool online);
   void Note(const std::string& text);
@@ -57,6 +61,8 @@ class FleetClient {
   FleetTopics topics_;
   std::string name_;
   std::string group_;
+  std::optional<GroupRelay> relay_;  // nullopt: the device is in no group.
+  bool group_refused_told_ = false;
   int link_;
   MosquittoClient client_;
   bool has_socket_ = false;  // The broker is connected, or has not answered yet.
@@ -64,6 +70,7 @@ class FleetClient {
   bool lost_told_ = false;
   std::string
       library_says_;  // Last error that libmosquitto has logged since a connection was lost.
+  Clock::time_point connecting_since_;
   Clock::time_point next_try_;
   std::chrono::seconds pause_{1};
   Clock::time_point published_;

@@ -51,7 +51,7 @@ Result<std::unique_ptr<FleetLink>> FleetLink::Start(FleetOptions options, bool s
                             }));
   log.Info("fleet: {} as \"{}\"{}", options.address, options.name,
            options.group.empty() ? "" : " in the group \"" + options.group + "\"");
-  return std::unique_ptr<FleetLink>(new FleetLink(std::move(process)));
+  return std::unique_ptr<FleetLink>(new FleetLink(std::move(process), !options.group.empty()));
 }
 
 }  // namespace lararium::player

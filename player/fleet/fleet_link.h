@@ -25,11 +25,15 @@ class FleetLink {
   // For StaffLinks::fleet.
   int link() const { return process_.link(); }
   pid_t process() const { return process_.process(); }
+  // The device is in a group that plays one drama.
+  bool in_group() const { return in_group_; }
 
  private:
-  explicit FleetLink(CompanionProcess process) : process_(std::move(process)) {}
+  FleetLink(CompanionProcess process, bool in_group)
+      : process_(std::move(process)), in_group_(in_group) {}
 
   CompanionProcess process_;
+  bool in_group_;
 };
 
 }  // namespace lararium::player

@@ -127,6 +127,7 @@ void DescribeFields(Fields& fields, FleetOptions& options) {
                    : Status());
   fields.Text(Optional("name", !options.name.empty()), options.name, kMostName);
   fields.Text(Optional("group", !options.group.empty()), options.group, kMostName);
+  fields.Flag(Optional("guide", options.guide), options.guide);
   DescribePath(fields, "authority", options.authority);
   DescribePath(fields, "password", options.password);
   DescribePath(fields, "certificate", options.certificate);
@@ -159,9 +160,19 @@ std::string GroupCommands(std::string_view site, std::string_view group) {
 
 FleetTopics TopicsOf(std::string_view site, std::string_view name, std::string_view group) {
   const std::string base = Base(site, "device", name);
-  FleetTopics topics = {base + "/state", base + "/presence", {DeviceCommands(site, name)}};
+  FleetTopics topics;
+  topics.state = base + "/state";
+  topics.presence = base + "/presence";
+  topics.commands = {DeviceCommands(site, name)};
   if (!group.empty()) {
     topics.commands.push_back(GroupCommands(site, group));
+    const std::string together = Base(site, "group", group);
+    const std::string own(name);
+    topics.to_all = together + "/all/" + own;
+    topics.from_all = together + "/all/+";
+    topics.to_one = together + "/to/+/" + own;
+    topics.from_one = together + "/to/" + own + "/+";
+    topics.presences = Base(site, "device", "+") + "/presence";
   }
   return topics;
 }

@@ -25,7 +25,8 @@ struct FleetAddress {
 struct FleetOptions {
   std::string address;  // "mqtts://HOST[:PORT]/SITE"; empty: the device belongs to no fleet.
   std::string name;     // Name of the device; empty: that of the machine.
-  std::string group;    // Group of the device; empty: none.
+  std::string group;    // Group that plays one drama; empty: none.
+  bool guide = false;   // The device of the group's guide.
   // Certificate of the authority that signed the broker's; empty: those that the system trusts.
   std::filesystem::path authority;
   // How the device proves its name, either by a password (first line of a file) or by a
@@ -61,6 +62,13 @@ struct FleetTopics {
   std::string state;                  // Retained. Written by the device.
   std::string presence;               // Retained. Written by the device, or as its last will.
   std::vector<std::string> commands;  // Topics of the device and of its group.
+  // Topics within a group are empty without one. Members write "to" topics under their own names
+  // and read "from" topics, which have "+" where the name of another member stands.
+  std::string to_all;
+  std::string from_all;
+  std::string to_one;
+  std::string from_one;
+  std::string presences;
 };
 FleetTopics TopicsOf(std::string_view site, std::string_view name, std::string_view group);
 // Topic of the commands to one device, or to a group.

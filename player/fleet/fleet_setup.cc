@@ -9,6 +9,7 @@
 #include "player/fleet/fleet_certificates.h"
 #include "player/fleet/fleet_options.h"
 #include "player/fleet/floor_plan.h"
+#include "player/fleet/group_message.h"
 #include "player/kiosk/secret_file.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
@@ -41,6 +42,7 @@ void DescribeDevice(Fields& fields, FleetDevice& device) {
   fields.Check(fields.reading() && !device.group.empty()
                    ? CheckFleetName(fields.where("group"), device.group)
                    : Status());
+  fields.Flag(Optional("guide", device.guide), device.guide);
 }
 
 void DescribePlan(Fields& fields, FleetPlan& plan) {
@@ -76,6 +78,13 @@ Status Validate(const FleetPlan& plan, const std::string& where) {
                            "give each device a name of its own, other than \"staff\"");
     }
     names.push_back(device.name);
+    const auto members = std::count_if(
+        plan.devices.begin(), plan.devices.end(),
+        [&](const FleetDevice& d) { return !d.group.empty() && d.group == device.group; });
+    if (members > static_cast<std::ptrdiff_t>(kMostGroupMembers)) {
+      return Status::Error(where, "the group \"" + device.group + "\" has more than 32 devices",
+                           "make it two groups");
+    }
   }
   return Status();
 }
@@ -111,6 +120,17 @@ Result<FleetPlan> ChangedPlan(const FleetSetupOptions& options) {
     }
     std::erase_if(plan.devices, [&](const FleetDevice& d) { return d.name == device.name; });
     plan.devices.push_back(std::move(device));
+  }
+  for (const std::string& name : options.guides) {
+    const auto found = std::find_if(plan.devices.begin(), plan.devices.end(),
+                                    [&](const FleetDevice& d) { return d.name == name; });
+    if (found == plan.devices.end() || found->group.empty()) {
+      return Status::Error("--guide", "the fleet has no device \"" + name + "\" in a group",
+                           "add it with --add " + name + ":GROUP");
+    }
+    for (FleetDevice& device : plan.devices) {
+      device.guide = device.group == found->group ? device.name == name : device.guide;
+    }
   }
   for (const std::string& name : options.removed) {
     if (std::erase_if(plan.devices, [&](const FleetDevice& d) { return d.name == name; }) == 0) {
@@ -179,7 +199,8 @@ std::string Configuration(const FleetPlan& plan) {
 }
 
 // A device may write its own state and presence, and read its own commands and those of its group.
-// The staff may write states to delete those of devices that are no more.
+// Members of a group write to each other under their own names, and hear who of them is gone. The
+// staff may write states to delete those of devices that are no more.
 std::string Rights(const FleetPlan& plan) {
   const std::string all = "topic readwrite lararium/" + plan.site + "/device/+/";
   std::string text = std::string("user ") + FleetPlan::kStaff + "\n" + all + "state\n" + all +
@@ -191,6 +212,16 @@ std::string Rights(const FleetPlan& plan) {
             topics.presence + "\n";
     for (const std::string& commands : topics.commands) {
       text += "topic read " + commands + "\n";
+    }
+    if (device.group.empty()) {
+      continue;
+    }
+    text += "topic write " + topics.to_all + "\ntopic read " + topics.from_all + "\ntopic write " +
+            topics.to_one + "\ntopic read " + topics.from_one + "\n";
+    for (const FleetDevice& other : plan.devices) {
+      if (other.group == device.group && other.name != device.name) {
+        text += "topic read " + TopicsOf(plan.site, other.name, "").presence + "\n";
+      }
     }
   }
   return text;
@@ -207,6 +238,7 @@ Status WriteDevice(const fs::path& folder,
                     std::to_string(plan.port) + "/" + plan.site;
   options.name = device.name;
   options.group = device.group;
+  options.guide = device.guide;
   options.authority = "authority.crt";
   if (plan.certificates) {
     options.certificate = "device.crt";

@@ -18,7 +18,8 @@ namespace lararium::player {
 
 struct FleetDevice {
   std::string name;
-  std::string group;  // Empty: none.
+  std::string group;   // Empty: none.
+  bool guide = false;  // Leads its group.
 };
 
 // The fleet as fleet.json of its folder has it (docs/file-formats.md).
@@ -47,6 +48,7 @@ struct FleetSetupOptions {
   std::string broker_folder;
   std::optional<bool> certificates;
   std::vector<std::string> devices;  // Added, or given another group: "NAME" or "NAME:GROUP".
+  std::vector<std::string> guides;   // Names of devices that lead their groups from now on.
   std::vector<std::string> removed;  // Names.
   std::filesystem::path show;        // The bundle whose places are shown as plans; empty: none.
   // Static files of the fleet's page, which are copied; a missing folder is left out.

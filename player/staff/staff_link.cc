@@ -16,6 +16,7 @@ namespace lararium::player {
 namespace {
 
 constexpr int kLookUpMs = 100;
+constexpr int kLookUpInGroupMs = 20;
 constexpr double kMachineSeconds = 5.0;
 constexpr double kWantedSeconds = 5.0;  // pictures are sent for this time after a request
 constexpr size_t kMostCommands = 16;    // limit of waiting commands
@@ -33,10 +34,11 @@ std::string OneLine(std::string_view text) {
 
 }  // namespace
 
-StaffLink::StaffLink(const StaffLinks& links, Log& log)
+StaffLink::StaffLink(const StaffLinks& links, Log& log, GroupPort group)
     : page_{"staff page", links.page},
       fleet_{"fleet", links.fleet},
       log_(log),
+      group_(std::move(group)),
       warnings_(RecentWarnings::Of(log)),
       thread_([this](const std::stop_token& stop) { Run(stop); }) {}
 
@@ -48,9 +50,12 @@ void StaffLink::Run(const std::stop_token& stop) {
   while (!stop.stop_requested() && (page_.socket >= 0 || fleet_.socket >= 0)) {
     // Negative sockets are ignored.
     pollfd waiting[] = {{page_.socket, POLLIN, 0}, {fleet_.socket, POLLIN, 0}};
-    if (::poll(waiting, std::size(waiting), kLookUpMs) > 0) {
+    if (::poll(waiting, std::size(waiting), group_.take_own ? kLookUpInGroupMs : kLookUpMs) > 0) {
       Receive(page_);
       Receive(fleet_);
+    }
+    if (const std::string own = group_.take_own ? group_.take_own() : ""; !own.empty()) {
+      SendStaffMessage(fleet_.socket, StaffMessage::kGroup, own);
     }
     if (const std::optional<StaffState> state = state_.TryTake()) {
       SendState(*state);
@@ -80,6 +85,8 @@ void StaffLink::Receive(End& end) {
       wanted_until_.store(Now() + kWantedSeconds, std::memory_order_relaxed);
     } else if (message->kind == StaffMessage::kNote) {
       log_.Warn("{}: {}", end.name, OneLine(message->content));
+    } else if (message->kind == StaffMessage::kGroup && group_.take_news) {
+      group_.take_news(message->content);
     } else if (message->kind == StaffMessage::kCommand) {
       if (Result<StaffCommand> command = ParseStaffCommand(message->content); command.ok()) {
         log_.Info("{}: {}", end.name, OneLine(message->content));

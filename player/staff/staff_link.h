@@ -3,6 +3,7 @@
 // The player's ends of the links to the processes that show its state and pass commands on.
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <stop_token>
@@ -28,6 +29,13 @@ struct StaffLinks {
   bool any() const { return page >= 0 || fleet >= 0; }
 };
 
+// What passes between the show and the process of a fleet whose device is in a group. The link's
+// thread calls both.
+struct GroupPort {
+  std::function<std::string()> take_own;            // A message to the process; empty: none.
+  std::function<void(std::string_view)> take_news;  // A message of the process.
+};
+
 // Sends state and pictures and receives commands without delaying frames: slow work (JSON, JPEG,
 // sensors, the socket) is done on its own thread.
 class StaffLink {
@@ -36,7 +44,7 @@ class StaffLink {
 
   // The processes of the links must outlive this object. The constructor starts to collect the
   // log's warnings, so no other thread may write to the log meanwhile. Borrows log.
-  StaffLink(const StaffLinks& links, Log& log);
+  StaffLink(const StaffLinks& links, Log& log, GroupPort group = {});
 
   // Send a state, statistics or a picture. If several wait, only the newest is sent. The fleet gets
   // only states.
@@ -74,6 +82,7 @@ class StaffLink {
   End page_;
   End fleet_;
   Log& log_;
+  GroupPort group_;
   std::shared_ptr<RecentWarnings> warnings_;
   Mailbox<StaffState> state_;
   Mailbox<VisitStatistics> statistics_;

@@ -4,6 +4,7 @@
 // frame is small; the state is sent twice a second, and pictures only while a browser shows them.
 
 #include <functional>
+#include <utility>
 
 #include "player/staff/staff_link.h"
 #include "player/staff/staff_state.h"
@@ -18,8 +19,8 @@ namespace lararium::player {
 class StaffReporter {
  public:
   // links and log: see StaffLink.
-  StaffReporter(const StaffLinks& links, Log& log)
-      : link_(links, log), mirror_(StaffLink::kPictureWidth) {}
+  StaffReporter(const StaffLinks& links, Log& log, GroupPort group = {})
+      : link_(links, log, std::move(group)), mirror_(StaffLink::kPictureWidth) {}
 
   // Call this before the first frame, when the context exists. picture: has the size of the
   // pictures that will be mirrored.

@@ -1,4 +1,5 @@
-// What telling a staff page or a fleet costs the thread that draws.
+// What telling a staff page or a fleet costs the thread that draws, and what playing with a group
+// costs the thread that stages.
 
 #include <benchmark/benchmark.h>
 #include <sys/socket.h>
@@ -7,12 +8,17 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <memory>
+#include <optional>
 #include <thread>
+#include <vector>
 
 #include "player/staff/staff_reporter.h"
 #include "shared/core/log.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/render_target.h"
+#include "shared/show/drama_group.h"
+#include "shared/stage/stage.h"
 
 namespace lararium::player {
 namespace {
@@ -65,6 +71,43 @@ void BM_StaffReporterAfterFrame(benchmark::State& state) {
   state.counters["telling_us"] = telling / std::max(told_states, 1);
 }
 BENCHMARK(BM_StaffReporterAfterFrame)->MinTime(5.0);
+
+// What one frame of a show in a group of eight takes more than one of a show alone. News of two
+// visitors come each eighth of a second.
+void BM_GroupSeatNext(benchmark::State& state) {
+  stage::Stage stage;
+  const auto log = MakeSilentLog();
+  const auto drama = drama::Drama::Create("", "drama.lua", stage, {}, *log);
+  double now = 100.0;
+  show::DramaGroup group([&now] { return now; });
+  show::GroupSeat seat(group, **drama);
+  const show::DramaGroup::Clock clock = {1, {now, 0.0, 1.0}, std::nullopt};
+  group.Update(clock, std::nullopt);
+  int64_t frame = 0;
+  double longest = 0.0;
+  for (auto _ : state) {
+    now += 1.0 / 60.0;
+    if (++frame % 8 == 0) {
+      const auto tick = static_cast<int64_t>(120.0 * (now - 100.0)) + 30;
+      std::vector<drama::GroupVisitor> visitors(8);
+      visitors[0].position.x = static_cast<float>(now);
+      drama::Visitor visitor;
+      visitor.group = std::make_shared<const std::vector<drama::GroupVisitor>>(visitors);
+      group.Update(clock, show::DramaGroup::Revision{tick, {{tick, visitor}}});
+    }
+    const double begin = ProcessorTime();
+    const double wanted = seat.Next({.tracked = true, .keys = "a"}, false, now);
+    const double taken = 1e-6 * (ProcessorTime() - begin);
+    state.SetIterationTime(taken);
+    longest = std::max(longest, taken);
+    (void)group.TakeOwn();
+    while ((*drama)->time() < wanted) {
+      (*drama)->Tick();
+    }
+  }
+  state.counters["longest_us"] = 1e6 * longest;
+}
+BENCHMARK(BM_GroupSeatNext)->UseManualTime()->Iterations(20'000);
 
 }  // namespace
 }  // namespace lararium::player

@@ -2,14 +2,8 @@
 
 #include "player/fleet/fleet_link.h"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <mosquitto.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -27,58 +21,22 @@
 #include "player/staff/staff_link.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "tests/player/test_broker.h"
 #include "tests/support/test_files.h"
 
 namespace lararium::player {
 namespace {
 
+using test::FreePort;
+using test::Soon;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr char kProgram[] = "/usr/sbin/mosquitto";
 constexpr char kState[] = "lararium/pompeii/device/tablet-01/state";
 constexpr char kPresence[] = "lararium/pompeii/device/tablet-01/presence";
 constexpr char kCommands[] = "lararium/pompeii/device/tablet-01/do";
 constexpr char kRestart[] = R"({"do": "restart"})";
-
-// Waits until a condition holds, at most twenty seconds. Returns whether it holds.
-bool Soon(const std::function<bool()>& holds) {
-  for (int i = 0; i < 2000; ++i) {
-    if (holds()) {
-      return true;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
-
-sockaddr_in LocalAddress(uint16_t port) {
-  sockaddr_in address = {};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(port);
-  return address;
-}
-
-uint16_t FreePort() {
-  const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address = LocalAddress(0);
-  socklen_t size = sizeof(address);
-  ::bind(file, reinterpret_cast<const sockaddr*>(&address), size);
-  ::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size);
-  ::close(file);
-  return ntohs(address.sin_port);
-}
-
-bool Listens(uint16_t port) {
-  const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const sockaddr_in address = LocalAddress(port);
-  const bool connected =
-      ::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  ::close(file);
-  return connected;
-}
 
 // A client of the broker with any account. It keeps the last message of each topic.
 class Client {
@@ -148,8 +106,8 @@ class Client {
 class FleetLinkTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!FileExists(kProgram)) {
-      GTEST_SKIP() << "needs " << kProgram << " (Debian's package mosquitto)";
+    if (!test::TestBroker::installed()) {
+      GTEST_SKIP() << "needs Debian's package mosquitto";
     }
     mosquitto_lib_init();
     port_ = FreePort();
@@ -174,33 +132,9 @@ class FleetLinkTest : public ::testing::Test {
     ASSERT_TRUE(done.ok()) << done.message();
     StartBroker();
   }
-  // Debian's own configuration includes files of a folder in the same way.
-  void StartBroker() {
-    const std::filesystem::path main = folder_ / "mosquitto.conf";
-    std::ofstream(main) << (::geteuid() == 0 ? "user root\n" : "") << "persistence false\n"
-                        << "log_dest file " << (folder_ / "broker.log").string() << "\n"
-                        << "include_dir " << setup_.broker_folder << "\n";
-    broker_ = ::fork();
-    if (broker_ == 0) {
-      const int nowhere = ::open("/dev/null", O_WRONLY);
-      ::dup2(nowhere, STDERR_FILENO);
-      ::execl(kProgram, kProgram, "-c", main.c_str(), nullptr);
-      std::_Exit(127);
-    }
-    ASSERT_TRUE(Soon([this] { return Listens(port_); })) << BrokerLog();
-  }
-  void KillBroker() {
-    if (broker_ > 0) {
-      ::kill(broker_, SIGKILL);
-      ::waitpid(broker_, nullptr, 0);
-      broker_ = -1;
-    }
-  }
-
-  std::string BrokerLog() {
-    const auto text = ReadText(folder_ / "broker.log");
-    return text.ok() ? *text : "";
-  }
+  void StartBroker() { broker_.Start(setup_.broker_folder, port_); }
+  void KillBroker() { broker_.Kill(); }
+  std::string BrokerLog() { return broker_.log(); }
 
   FleetOptions StaffAccount() {
     FleetOptions staff = Device("tablet-01");
@@ -262,7 +196,7 @@ class FleetLinkTest : public ::testing::Test {
   test::TemporaryFolder folder_;
   FleetSetupOptions setup_;
   uint16_t port_ = 0;
-  pid_t broker_ = -1;
+  test::TestBroker broker_{folder_.path()};
   std::shared_ptr<Log> log_ = MakeSilentLog();
   std::unique_ptr<FleetLink> link_;
   std::optional<StaffLink> player_;

@@ -48,6 +48,32 @@ TEST_F(FleetSetupTest, EachDeviceMayWriteItsStateAndReadItsCommandsAndThoseOfIts
                         "topic read lararium/pompeii/group/red/do\n"));
 }
 
+TEST_F(FleetSetupTest, MembersOfAGroupWriteUnderTheirOwnNamesAndHearOnlyTheirGroup) {
+  FleetSetupOptions options = New();
+  options.devices = {"tablet-01:red", "tablet-02:blue", "tablet-03:red"};
+  options.guides = {"tablet-03"};
+  ASSERT_TRUE(SetUpFleet(options).ok());
+  EXPECT_THAT(Read("broker/rights"),
+              HasSubstr("topic write lararium/pompeii/group/red/all/tablet-01\n"
+                        "topic read lararium/pompeii/group/red/all/+\n"
+                        "topic write lararium/pompeii/group/red/to/+/tablet-01\n"
+                        "topic read lararium/pompeii/group/red/to/tablet-01/+\n"
+                        "topic read lararium/pompeii/device/tablet-03/presence\n\n"));
+  EXPECT_TRUE(LoadDevice(folder_ / "devices/tablet-03/device.json")->fleet->guide);
+  FleetSetupOptions change = Change();
+  change.guides = {"tablet-01"};
+  ASSERT_TRUE(SetUpFleet(change).ok());
+  EXPECT_TRUE(LoadDevice(folder_ / "devices/tablet-01/device.json")->fleet->guide);
+  EXPECT_FALSE(LoadDevice(folder_ / "devices/tablet-03/device.json")->fleet->guide);
+  FleetSetupOptions many = Change();
+  for (int i = 0; i < 40; ++i) {
+    many.devices.push_back("headset-" + std::to_string(i) + ":green");
+  }
+  EXPECT_THAT(SetUpFleet(many).status().message(), HasSubstr("more than 32 devices"));
+  change.guides = {"tablet-09"};
+  EXPECT_THAT(SetUpFleet(change).status().message(), HasSubstr("no device \"tablet-09\""));
+}
+
 TEST_F(FleetSetupTest, TheFolderOfADeviceIsAllThatItsPlayerNeeds) {
   ASSERT_TRUE(SetUpFleet(New()).ok());
   const auto device = LoadDevice(folder_ / "devices/tablet-01/device.json");

@@ -93,12 +93,13 @@ TEST_F(OptionsTest, ADeviceJoinsAFleetWithItsPassword) {
   std::filesystem::permissions(password, std::filesystem::perms::owner_read);
   const std::string address = "mqtts://192.168.1.5/pompeii";
   const Command command = Parse({show_, "--fleet", address, "--fleet-name", "tablet-01", "--group",
-                                 "red", "--fleet-password-file", password});
+                                 "red", "--guide", "--fleet-password-file", password});
   const auto* play = std::get_if<PlayOptions>(&command);
   ASSERT_NE(play, nullptr);
   EXPECT_EQ(play->fleet.address, address);
   EXPECT_EQ(play->fleet.name, "tablet-01");
   EXPECT_EQ(play->fleet.group, "red");
+  EXPECT_TRUE(play->fleet.guide);
   EXPECT_EQ(ExitCode({show_, "--fleet", address}), 2) << "without a password or certificate";
   EXPECT_EQ(ExitCode({show_, "--fleet", "mqtt://h/s", "--fleet-password-file", password}), 2);
   EXPECT_EQ(ExitCode({show_, "--group", "red"}), 2) << "without a fleet";

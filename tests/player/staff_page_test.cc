@@ -233,6 +233,14 @@ TEST(StaffCommand, TakesWhatMakesAShowEasierToFollow) {
   }
 }
 
+TEST(StaffCommand, HoldsADramaLetsItGoOnAndGoesToAMarker) {
+  EXPECT_EQ(ParseStaffCommand(R"({"do":"hold"})")->hold, true);
+  EXPECT_EQ(ParseStaffCommand(R"({"do":"resume"})")->hold, false);
+  EXPECT_EQ(ParseStaffCommand(R"({"do":"go_to","value":"noon"})")->go_to, "noon");
+  EXPECT_FALSE(ParseStaffCommand(R"({"do":"go_to"})").ok());
+  EXPECT_FALSE(ParseStaffCommand(R"({"do":"go_to","value":""})").ok());
+}
+
 TEST(StaffCommand, ChangesWhatItIsAboutAndNothingThatAVisitorChose) {
   const std::vector<std::string> spoken = {"la"};
   const std::vector<std::string> captions = {"en", "it"};
