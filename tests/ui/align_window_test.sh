@@ -46,7 +46,7 @@ off() {
 off 5 && fail "the model lies well before it is aligned"
 
 open_window 700 780 "$project"
-settle 6
+settle
 press F8
 click 60 365   # the occluder
 click 673 44   # Around the place

@@ -36,7 +36,7 @@ JSON
 scene=$project/places/site/scene.larscene
 before=$(stat -c %s "$scene")
 open_window 700 780 "$project"
-settle 5
+settle
 press F8  # the messages leave the most room above
 press 2
 sleep 2

@@ -35,13 +35,17 @@ picture=200x200+560+300  # with a person in its middle
 blank=$(part $picture)
 wait_for 60 is_other $picture "$blank" || fail "no picture"
 press F8  # the messages leave the most room above
-settle 3
-# The person's dress is bright, and the counter behind it is red.
+settle
+# The person's dress is bright; the counter behind it is red, and a dark note lies there until the
+# recording is open.
 person_is_there() {
-  [ "$(import -window root -crop 1x1+640+480 rgb:- | od -An -tu1 | awk '{ print ($2 > 150) }')" = 1 ]
+  for y in 370 480 530; do
+    [ "$(import -window root -crop "1x1+640+$y" rgb:- | od -An -tu1 | awk '{ print ($2 > 150) }')" = 1 ] ||
+      return 1
+  done
 }
 wait_for 60 person_is_there || fail "no person"
-settle 4
+settle
 
 # Before and after: the line stands in the middle; the person's left half is gone.
 left=14x200+636+320
@@ -68,7 +72,7 @@ wait_for 10 is_part $left "$left_after" || fail "the button does not end it"
 # Onion skin: somebody walks behind the counter; while the drama plays there is none.
 click 435 690  # a frame
 xdotool mousemove 700 780
-settle 3
+settle
 walker=40x40+725+270
 without=$(part $walker)
 press k
@@ -104,7 +108,7 @@ shown=$(part $picture)
 click 460 593  # The training's recording
 xdotool mousemove 700 780
 wait_for 60 is_other $picture "$shown" || fail "the training's recording is not shown"
-settle 10
+settle
 # The corners of the yellow wall's picture, in two frames.
 click 507 690
 sleep 2
@@ -153,7 +157,7 @@ wait_for 10 is_other $picture "$shown" || fail "the live picture stands"
 import -window root "$out/live.png"
 click 746 690  # End
 xdotool mousemove 700 780
-settle 12
+settle
 shown=$(part $picture)
 sleep 1
 is_part $picture "$shown" || fail "the recording is not back"

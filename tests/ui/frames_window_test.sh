@@ -23,7 +23,7 @@ sed -i "s|\"name\": \"site\",|\"name\": \"site\", \"training\": {\"video\": \"$o
 open_window 700 780 "$project"
 blank=$(picture)
 wait_for 60 is_other "$blank" || fail "no picture"
-settle 8
+settle
 first=$(picture)
 press period
 wait_for 10 is_other "$first" || fail "no frame after the first"

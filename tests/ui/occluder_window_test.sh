@@ -17,7 +17,7 @@ picked() { [ "$(picks_in "$1")" -eq "$2" ]; }
 new_project_with_place
 "$make_room_map" "$project/places/site/scene.larscene" || fail "cannot make a map"
 open_window 700 780 "$project"
-settle 5
+settle
 press F8  # the messages leave the most room above
 click 107 14   # Place
 click 150 205  # Draw an occluder

@@ -32,7 +32,7 @@ new_project_with_place
 has_picks_in "$all" || fail "picked in $(images)"
 
 open_window 700 780 "$project"
-settle 5
+settle
 press F8  # the messages leave the most room above
 click 42 234  # Picks
 press 3

@@ -52,7 +52,7 @@ same() {
 mkdir -p "$project/places/front"
 echo "by the door" > "$project/places/front/notes.txt"
 open_window 700 780 "$project"
-settle 5
+settle
 press F8       # the messages leave the most room above
 click 90 147   # the first place
 wait_for 60 test -e "$project/speech/la/hail.flac" || fail "nothing was baked"

@@ -50,7 +50,7 @@ verdict maquette good || fail "the stage does not lie at the maquette as it does
 verdict site poor || fail "a stage pushed aside is good"
 
 open_window 700 780 "$project"
-settle 5
+settle
 press F8       # the messages leave the most room above
 click 90 169   # the second place
 sleep 3

@@ -21,7 +21,7 @@ add_occluder() {
 new_project_with_place
 "$make_room_map" "$project/places/site/scene.larscene" || fail "cannot make a map"
 open_window 700 780 "$project"
-settle 5
+settle
 press F8  # the messages leave the most room above
 press 2   # around the place
 

@@ -49,7 +49,7 @@ fill 740 497 "$video"
 click 933 594
 wait_for 20 titled "tavern" || fail "no project was made"
 wait_for 500 test -s "$project/places/tavern/scene.larscene" || fail "the place was not trained"
-settle 8
+settle
 shot report
 press Escape  # the training's report
 press F8  # the messages leave the most room above
@@ -134,7 +134,7 @@ xdotool type --delay 60 "Salvete, hospites! Quid bibitis?"
 wait_for 20 grep -q '^keeper1,keeper,,"Salvete, hospites! Quid bibitis?"' "$project/lines.csv" ||
   fail "the line was not written"
 wait_for 240 test -s "$project/speech/la/keeper1.flac" || fail "no voice was made"
-settle 8
+settle
 shot staged
 
 # The export, signed with keys made for it; what is not saved yet goes in too.
@@ -144,7 +144,7 @@ shot export
 click 928 377
 click 912 651
 wait_for 300 test -s "$out/tavern.larshow" || fail "nothing was exported"
-settle 5
+settle
 shot exported
 player=${editor%editor}player
 "$player" info "$out/tavern.larshow" > "$out/info.txt" || fail "the player cannot read it"

@@ -34,7 +34,7 @@ track{actor = "keeper",
 }
 LUA
 open_window 1300 880 "$project"
-settle 5
+settle
 press 2
 sleep 3
 shot before

@@ -38,6 +38,8 @@ start_clean() {
   # Files are asked for in the window: the developer's desktop has no part in a test.
   export DBUS_SESSION_BUS_ADDRESS=disabled:
   export XDG_STATE_HOME=$out/state XDG_CONFIG_HOME=$out/config XDG_CACHE_HOME=$out/cache
+  # Compiling the shaders takes ten seconds of processor time, so all tests share the result.
+  export MESA_SHADER_CACHE_DIR=$(dirname "$out")/shader_cache
   rm -rf "$out"
   mkdir -p "$out"
   pid=0
@@ -130,16 +132,24 @@ drag() {
   xdotool mousemove "$3" "$4" sleep 0.4 mouseup 1 sleep 0.5
 }
 
-# settle SECONDS: waits that long, and then until the screen stands still for two seconds; in all at
-# most three times as long.
+# The processor time of the program so far, in hundredths of a second.
+work_done() { awk '{ print $14 + $15 }' "/proc/$pid/stat"; }
+
+# settle: waits until the program has rested and the screen has stood still for two seconds; at most
+# two minutes. A still screen alone says nothing where a frame takes a second.
 settle() {
-  local last='' now same=0
-  sleep "$1"
-  for ((i = 0; i < 2 * $1 && same < 2; ++i)); do
-    now=$(import -window root rgb:- | sha256sum)
-    if [ "$now" = "$last" ]; then same=$((same + 1)); else same=0; fi
-    last=$now
+  local last='' now same=0 before
+  sleep 2
+  for ((i = 0; i < 120 && same < 2; ++i)); do
+    before=$(work_done)
     sleep 1
+    now=$(import -window root rgb:- | sha256sum)
+    if [ "$now" = "$last" ] && [ $(($(work_done) - before)) -lt 10 ]; then
+      same=$((same + 1))
+    else
+      same=0
+    fi
+    last=$now
   done
 }
 
