@@ -44,27 +44,23 @@ import -window root "$out/picture.png"
 
 # By keys round the place, past it and nearer; Home and a button lead back to the stage.
 same() { [ "$(difference "$1" "$2")" -lt 100 ]; }
-shot first
+still first
 for key in Left Up shift+Right Prior; do
   press $key
-  sleep 1
-  shot "$key"
+  still "$key"
 done
 for pair in "first Left" "Left Up" "Up shift+Right" "shift+Right Prior"; do
   same $pair && fail "a key does not change the view: $pair"
 done
 press Home
-sleep 1
-shot home
+still home
 same first home || fail "Home does not look at the stage as at first"
 press shift+Home
-sleep 1
-shot map
+still map
 same home map && fail "Shift+Home does not look at all of the map"
 click 349 170  # Look at: Stage
 xdotool mousemove 700 780
-sleep 1
-shot button
+still button
 same first button || fail "the button does not look at the stage as at first"
 
 for colours in error views sessions; do
@@ -86,8 +82,7 @@ press 2
 click 601 343
 import -window root "$out/point.png"
 press v
-sleep 1
-shot looked_at
+still looked_at
 same point looked_at && fail "V does not look at the chosen point"
 press Home
 sleep 1

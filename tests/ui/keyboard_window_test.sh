@@ -27,13 +27,11 @@ echo 'track{markers = {{at = 6, name = "noon"}}}' > "$project/drama.lua"
 "$editor" "$project" >> "$out/editor.log" 2>&1 &
 pid=$!
 wait_for 40 titled Test || fail "no window"
-sleep 3
 shot begin
 
 # The list at the left lies before the view. Its last rows are a person and two buttons.
 press ctrl+shift+Tab
-shot list
-[ "$(difference begin list)" -gt 200 ] || fail "no ring is seen"
+wait_for 10 differs begin list 200 || fail "no ring is seen"
 press End
 times 2 Up
 press Return
@@ -68,23 +66,18 @@ press Escape
 press ctrl+Tab
 shot narrow
 times 4 F4
-shot wide
-[ "$(difference narrow wide)" -gt 200 ] || fail "F4 does not make the inspector wider"
+wait_for 10 differs narrow wide 200 || fail "F4 does not make the inspector wider"
 press Escape
 press shift+k
-shot onion
-[ "$(difference wide onion)" -gt 200 ] || fail "Shift+K does not ask for the onion skin"
+wait_for 10 differs wide onion 200 || fail "Shift+K does not ask for the onion skin"
 press Escape
 
 # Back to the views, where Space plays.
 press Escape
 press F5
-sleep 2
 shot still
 press space
-sleep 2
-shot playing
-[ "$(difference still playing)" -gt 50 ] || fail "Space does not play"
+wait_for 10 differs still playing 50 || fail "Space does not play"
 press space
 
 # All of it is undone.

@@ -36,36 +36,33 @@ settle
 press F8  # the messages leave the most room above
 click 42 234  # Picks
 press 3
-sleep 1
-shot first
+still first
 
 # To the next image that has a pick and back, as if each were sought; the ends hold.
 press Next
-shot next
+still next
 same first next && fail "Page Down does not go to the next picked image"
 press Left
 press Next
-sleep 0.5
-shot sought
+still sought
 same next sought || fail "Page Down does not go to the nearest one after"
 press Prior
 press Prior
-shot back
+still back
 same first back || fail "Page Up does not go back"
 
 # Delete removes the pick in the image that is shown, and that one alone.
 press Next
 press Delete
 picked "0.png 8.png" "Delete"
-shot deleted
+still deleted
 press ctrl+z
 picked "$all" "undo of Delete"
 
 # In the list: a click shows the image, the button removes the pick.
 click 1200 456
 xdotool mousemove 700 780
-sleep 0.5
-shot listed
+still listed
 same listed back && fail "a click in the list does not show its image"
 click 1404 456
 picked "0.png 4.png" "the button of the last pick"

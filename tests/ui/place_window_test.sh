@@ -39,8 +39,8 @@ view() {
   shot "$1"
   convert "$out/$1.png" -crop 400x300+460+200 +repage "$out/$1.png"
 }
-# differs A B: the view of A is another than that of B now.
-differs() {
+# another_view A B: the view of A is another than that of B now.
+another_view() {
   view "$2"
   [ "$(difference "$1" "$2")" -gt 60000 ]
 }
@@ -56,7 +56,7 @@ settle
 press F8       # the messages leave the most room above
 click 90 147   # the first place
 wait_for 60 test -e "$project/speech/la/hail.flac" || fail "nothing was baked"
-sleep 4
+settle
 view training
 
 # Another recording, and back.
@@ -64,7 +64,7 @@ click 1263 395
 click 600 451  # Video
 fill 700 487 "$out/evening.mp4"
 press Return
-wait_for 20 differs training evening || fail "the camera view does not follow"
+wait_for 20 another_view training evening || fail "the camera view does not follow"
 saved '"preview":\{"video":' "$json" "the place names no other recording"
 press ctrl+z
 wait_for 20 same training undone || fail "undo does not bring the training's recording back"

@@ -116,16 +116,16 @@ press ctrl+z
 script_has 'id = "hail"' "undo of deleting two"
 click "$(x_of 4.5)" $speech
 xdotool mousemove 700 300 sleep 0.5
-shot unfolded
+still unfolded
 press f
-shot folded
+still folded
 same unfolded folded && fail "F does not fold the lanes"
 press f
-shot again
+still again
 same unfolded again || fail "F does not unfold the lanes"
 press shift+f
 press shift+f
-shot all
+still all
 same unfolded all || fail "Shift+F does not fold and unfold all lanes"
 
 # A hand edits the file: the timeline shows it, and undo takes it back.

@@ -36,13 +36,10 @@ LUA
 open_window 1300 880 "$project"
 settle
 press 2
-sleep 3
-shot before
+still before
 click 90 416  # the keeper, in the list at the left
 xdotool mousemove 1300 880
-sleep 2
-shot person
-[ "$(difference before person)" -gt 100 ] || fail "nothing is shown of who is selected"
+wait_for 10 differs before person 100 || fail "nothing is shown of who is selected"
 click 633 626  # the walk, in the timeline
 xdotool mousemove 1300 880
 # Its way is drawn where the stage was empty, once the drama was played through.

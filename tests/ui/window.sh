@@ -123,6 +123,12 @@ difference() {
   compare -metric AE -fuzz 2% "$out/$1.png" "$out/$2.png" null: 2>&1 | awk '{printf "%d", $1}'
 }
 
+# differs A B PIXELS: takes screenshot B and says whether it differs from A by more than that.
+differs() {
+  shot "$2"
+  [ "$(difference "$1" "$2")" -gt "$3" ]
+}
+
 press() { xdotool key --delay 60 "$1" && sleep 0.5; }
 click() { xdotool mousemove "$1" "$2" sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.6; }
 # drag X Y TO_X TO_Y
@@ -139,7 +145,6 @@ work_done() { awk '{ print $14 + $15 }' "/proc/$pid/stat"; }
 # two minutes. A still screen alone says nothing where a frame takes a second.
 settle() {
   local last='' now same=0 before
-  sleep 2
   for ((i = 0; i < 120 && same < 2; ++i)); do
     before=$(work_done)
     sleep 1
@@ -151,6 +156,12 @@ settle() {
     fi
     last=$now
   done
+}
+
+# still NAME: a screenshot of what the window shows in the end, to be compared with others.
+still() {
+  settle
+  shot "$1"
 }
 
 # titled REGEX: there is a window whose title begins so.
