@@ -22,17 +22,22 @@ const MEGA = 1e6;
 mkdirSync(work, {recursive: true});
 const folder = `${work}/folder`;
 const report = exportFolder(editor, project, page, folder);
-const {members, page: files, spoken, captions} = JSON.parse(readFileSync(`${folder}/show/manifest.json`, 'utf8'));
+const {members, page: files, cast, spoken, captions} = JSON.parse(readFileSync(`${folder}/show/manifest.json`, 'utf8'));
 const bytesOf = (list) => list.reduce((sum, {packed, size}) => sum + (packed ?? size), 0) / MEGA;
 // The files that the page asks for; pieces that are equal are one file.
 const known = new Set();
 const named = (pattern) => members.filter(({name, sha256}) => pattern.test(name) && !known.has(sha256) && known.add(sha256));
 const program_bytes = bytesOf(files.filter(({name}) => !/NOTICES|LICENSE|README|package|example|\.d\.ts|selftest|service_worker/.test(name)));
-const tracking = program_bytes + bytesOf(named(/^places.*(larscene|larmesh)$|captions\.json$/));
-const languages = new RegExp(`^(?!speech/)|^speech/(${spoken[0]?.name}|${captions[0]})/`);
+const languages = `(${spoken[0]?.name}|${captions[0]})`;
+const bodies = cast.map(({human}) => bytesOf(members.filter(({name}) => name === human)));
+const tracking = program_bytes + bytesOf(named(/^places.*(larscene|larmesh)$|captions\.json$|^captions/));
+const drama = tracking + bytesOf(named(new RegExp(`^(places|sounds|drama|paradata)|motion|extent|^speech/${languages}/.*json$`)));
+const voices = bytesOf(named(new RegExp(`^speech/${languages}/`)));
 console.log(`     page ${program_bytes.toFixed(2)} MB, ${Object.entries(report.members).map(
   ([kind, bytes]) => `${kind} ${(bytes / MEGA).toFixed(2)}`).join(', ')}`);
-console.log(`     until tracking starts ${tracking.toFixed(2)} MB, in one language ${(tracking + bytesOf(named(languages))).toFixed(2)} MB`);
+console.log(`     until tracking starts ${tracking.toFixed(2)} MB, until the drama begins ${drama.toFixed(2)}, until the first person stands ` +
+  `there at most ${(drama + Math.max(...bodies)).toFixed(2)} (bodies: ${bodies.map((bytes) => bytes.toFixed(2)).join(', ')}), all in one ` +
+  `language ${(drama + voices + bytesOf(named(/^(cast|props)/))).toFixed(2)}`);
 
 const lean = `${work}/folder.larshow`;
 writeLarshow(folder, lean);

@@ -33,10 +33,10 @@ export function updateFolder(editor, project, page, folder, key = `${folder}-mus
 // The file of a folder that a path names.
 export const fileIn = (folder, path) => path.includes('..') ? undefined : `${folder}${path === '/' ? '/index.html' : path}`;
 
-// Serves files without special headers until close(). fileOf(path): the file or its bytes, or undefined.
+// Serves files without special headers until close(). fileOf(path): the file or its bytes, or undefined, or a promise.
 export async function serve(fileOf, port = 0) {
-  const server = createServer((request, response) => {
-    const file = fileOf(new URL(request.url, 'http://localhost').pathname);
+  const server = createServer(async (request, response) => {
+    const file = await fileOf(new URL(request.url, 'http://localhost').pathname);
     if (file === undefined || (typeof file === 'string' && !existsSync(file))) {
       response.writeHead(404).end();
       return;

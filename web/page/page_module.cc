@@ -93,6 +93,14 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_load(const char* spoken, const char* c
   return ErrorText(show->Load({spoken, captions}));
 }
 
+EMSCRIPTEN_KEEPALIVE const char* lararium_load_people() { return ErrorText(show->LoadPeople()); }
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_load_things() { return ErrorText(show->LoadThings()); }
+
+EMSCRIPTEN_KEEPALIVE const char* lararium_load_voices(const char* spoken, const char* captions) {
+  return ErrorText(show->LoadVoices({spoken, captions}));
+}
+
 EMSCRIPTEN_KEEPALIVE const char* lararium_set_languages(const char* spoken, const char* captions) {
   return ErrorText(show->SetLanguages({spoken, captions}));
 }

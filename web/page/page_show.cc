@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <glm/geometric.hpp>
 #include <iterator>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <set>
 #include <tuple>
@@ -10,6 +12,7 @@
 
 #include "shared/core/check.h"
 #include "shared/core/json.h"
+#include "shared/geometry/glm_convert.h"
 #include "shared/render/quality.h"
 #include "shared/vision/pose_smoother.h"
 
@@ -86,19 +89,58 @@ Result<std::vector<std::string>> PageShow::FindMissing(
     std::copy_if(members.begin(), members.end(), std::back_inserter(missing),
                  [this](const std::string& member) { return !bundle_.Has(member); });
   };
-  if (stage != Stage::kLanguages) {
-    add(needed.guide);
-  }
-  if (stage == Stage::kShow) {
-    add(needed.rest);
-    add(needed.people);
-    add(needed.things);
-  }
-  if (stage != Stage::kGuide) {
-    add(needed.language);
-    add(needed.voices);
+  switch (stage) {
+    case Stage::kGuide:
+      add(needed.guide);
+      break;
+    case Stage::kDrama:
+      add(needed.guide);
+      add(needed.rest);
+      add(needed.language);
+      break;
+    case Stage::kPerson:
+      if (const std::optional<size_t> next = NextPerson()) {
+        add({bundle_.manifest().cast[*next].human});
+      }
+      break;
+    case Stage::kThings:
+      if (things_missing_) {
+        add(needed.things);
+      }
+      break;
+    case Stage::kVoices:
+      add(needed.voices);
+      break;
+    case Stage::kShow:
+      for (const std::vector<std::string>* members :
+           {&needed.guide, &needed.rest, &needed.language, &needed.voices, &needed.people,
+            &needed.things}) {
+        add(*members);
+      }
+      break;
+    case Stage::kLanguages:
+      add(needed.language);
+      add(needed.voices);
+      break;
   }
   return missing;
+}
+
+std::optional<size_t> PageShow::NextPerson() const {
+  const std::optional<geometry::Rigid3>& camera_from_stage = staged_.camera.camera_from_stage;
+  const glm::vec3 camera =
+      camera_from_stage ? geometry::ToGlm(camera_from_stage->Center()) : glm::vec3(0.0f);
+  std::vector<float> distances(person_missing_.size(), std::numeric_limits<float>::max());
+  for (const show::StagedActor& actor : staged_.people.actors) {
+    distances[actor.cast] = glm::distance(glm::vec3(actor.stage_from_actor[3]), camera);
+  }
+  std::optional<size_t> next;
+  for (size_t i = 0; i < person_missing_.size(); ++i) {
+    if (person_missing_[i] && (!next || distances[i] < distances[*next])) {
+      next = i;
+    }
+  }
+  return next;
 }
 
 std::byte* PageShow::NewPiece(size_t size) { return piece_.emplace(size).bytes().data(); }
@@ -144,12 +186,59 @@ Status PageShow::Load(const show::LanguageChoice& languages) {
                             show::FindNeededMembers(bundle_.manifest(), languages, kWhere));
   std::set<std::string_view> kept(needed.language.begin(), needed.language.end());
   kept.insert(needed.voices.begin(), needed.voices.end());
+  person_missing_.clear();
+  for (const bundle::CastEntry& entry : bundle_.manifest().cast) {
+    person_missing_.push_back(!bundle_.Has(entry.human));
+    if (person_missing_.back()) {
+      kept.insert(entry.motion);
+    }
+  }
+  things_missing_ = std::any_of(needed.things.begin(), needed.things.end(),
+                                [this](const auto& thing) { return !bundle_.Has(thing); });
+  if (things_missing_) {
+    for (const bundle::ObjectEntry& entry : bundle_.manifest().objects) {
+      kept.insert(entry.prop);
+    }
+  }
   for (const bundle::Member& member : bundle_.manifest().members) {
     if (!kept.contains(member.name)) {
       bundle_.Remove(member.name);
     }
   }
   return Start(std::move(content));
+}
+
+Status PageShow::LoadPeople() {
+  const std::vector<bundle::CastEntry>& cast = bundle_.manifest().cast;
+  for (size_t i = 0; i < person_missing_.size(); ++i) {
+    if (person_missing_[i] && bundle_.Has(cast[i].human)) {
+      LARARIUM_ASSIGN_OR_RETURN(show::CastMember member,
+                                show::LoadCastMember(bundle_, cast[i], 0.0f, textures_));
+      show_->SetPerson(i, std::move(member));
+      person_missing_[i] = false;
+      bundle_.Remove(cast[i].human);
+      bundle_.Remove(cast[i].motion);
+    }
+  }
+  return Status();
+}
+
+Status PageShow::LoadThings() {
+  LARARIUM_ASSIGN_OR_RETURN(const std::vector<show::StageObject> objects,
+                            show::LoadObjects(bundle_, textures_));
+  for (const bundle::ObjectEntry& entry : bundle_.manifest().objects) {
+    bundle_.Remove(entry.prop);
+  }
+  things_missing_ = false;
+  show_->SetObjects(objects);
+  return renderer_->SetObjects(show_->content());
+}
+
+Status PageShow::LoadVoices(const show::LanguageChoice& languages) {
+  LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content,
+                            show::LoadInLanguages(bundle_, languages, show_->content()));
+  sound_.reset();
+  return show_->SetSounds(content, *log_);
 }
 
 Status PageShow::Start(show::ShowContent content) {

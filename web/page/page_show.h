@@ -18,6 +18,7 @@
 #include "shared/core/json_fwd.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
+#include "shared/human/texture_pool.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/render_target.h"
 #include "shared/render/text/captions.h"
@@ -45,10 +46,13 @@ class PageShow {
                                                 std::string_view key);
   ~PageShow();
 
-  // What begins with members that have arrived: the guide to the places, the whole show, or a show
-  // that plays already in other languages.
-  enum class Stage { kGuide, kShow, kLanguages };
-  // The members that a stage needs and that have not arrived, the most important first.
+  // A show arrives in stages: the guide to the places; the drama, in which people and things are
+  // invisible and lines are silent; then one person at a time, all things, and all voices. kShow is
+  // all of them at once, and kLanguages what a playing show needs for other languages.
+  enum class Stage { kGuide, kDrama, kPerson, kThings, kVoices, kShow, kLanguages };
+  // The members that a stage needs and that have not arrived, the most important first. The person
+  // of kPerson is, of those who are missing, the one nearest to the camera in the last picture, or
+  // to the stage's origin if that picture has no pose; people who are not on stage come last.
   Result<std::vector<std::string>> FindMissing(Stage stage,
                                                const show::LanguageChoice& languages) const;
   // Memory to be filled in for the next AddPiece(), which verifies the member and keeps it.
@@ -61,9 +65,13 @@ class PageShow {
 
   // Prepares drawing of the guide to the places. Call the functions below only after it.
   Status LoadGuide(const show::LanguageChoice& languages);
-  // Reads people and things, with which the show begins, and releases all members but those of
-  // languages.
+  // Begins the show with what has arrived, and releases members that are no longer needed.
   Status Load(const show::LanguageChoice& languages);
+  // These add the people, the things and the voices that have arrived since Load(). Sound must be
+  // opened again after LoadVoices().
+  Status LoadPeople();
+  Status LoadThings();
+  Status LoadVoices(const show::LanguageChoice& languages);
   // Continues the show at the same moment in other languages. Sound must be opened again.
   Status SetLanguages(const show::LanguageChoice& languages);
   // Plays the show's sound from now on, in the page's output for sound (SoundGraph). Without such
@@ -121,6 +129,8 @@ class PageShow {
 
   explicit PageShow(bundle::Bundle bundle);
   Status Start(show::ShowContent content);
+  // Index of the person of Stage::kPerson; nullopt: all have arrived.
+  std::optional<size_t> NextPerson() const;
   double SinceBegun(double seconds);
   void FindViews();
   const vision::Keyframe& KeyframeOf(const View& view) const {
@@ -141,6 +151,9 @@ class PageShow {
 
   bundle::Bundle bundle_;
   std::optional<bundle::Piece> piece_;
+  std::vector<bool> person_missing_;  // Parallel to the cast; empty before Load().
+  bool things_missing_ = false;
+  human::TexturePool textures_;
   std::shared_ptr<Log> log_;
   std::optional<render::OffscreenContext> context_;
   std::optional<render::RenderTarget> target_;

@@ -57,13 +57,22 @@ export class Folder {
     return folder;
   }
 
-  // Gives the show what a stage needs in these languages and lacks. onprogress(share).
-  async supply(show, stage, languages, onprogress = () => {}) {
-    const members = show.findMissing(stage, languages).map((name) => this.members.get(name));
-    const total = members.reduce((sum, {packed, size}) => sum + (packed ?? size), 0);
-    let received = 0;
-    const add = async ({name, sha256, packed}, onbytes, cache) => {
-      const blob = await fetchBytes(`show/${sha256}`, onbytes, cache);
+  missing(show, stage, languages) {
+    return show.findMissing(stage, languages).map((name) => this.members.get(name));
+  }
+
+  // The bytes that supply() would fetch.
+  bytesOf(show, stage, languages) {
+    return this.missing(show, stage, languages).reduce((sum, {packed, size}) => sum + (packed ?? size), 0);
+  }
+
+  // Gives the show what a stage needs in these languages and lacks. onbytes(count) is called as bytes arrive. Returns whether
+  // the show lacked anything.
+  async supply(show, stage, languages, onbytes = () => {}) {
+    const members = this.missing(show, stage, languages);
+    const lacking = members.length > 0;
+    const add = async ({name, sha256, packed}, ...options) => {
+      const blob = await fetchBytes(`show/${sha256}`, ...options);
       try {
         show.addPiece(name, packed === undefined ? new Uint8Array(await blob.arrayBuffer()) : await unpack(blob));
       } catch (error) {
@@ -72,8 +81,8 @@ export class Folder {
     };
     const work = async () => {
       for (let member; (member = members.shift()) !== undefined;) {
-        await add(member, (count) => onprogress(Math.min((received += count) / total, 1))).catch(
-          () => add(member, () => {}, 'reload'));  // The browser's cache may hold what was not copied whole.
+        // The browser's cache may hold what was not copied whole.
+        await add(member, onbytes).catch(() => add(member, undefined, 'reload'));
       }
     };
     try {
@@ -82,6 +91,7 @@ export class Folder {
       members.length = 0;  // The others stop.
       throw error;
     }
+    return lacking;
   }
 
   // Verifies the manifest.

@@ -6,7 +6,7 @@ import {compileProgram, Folder} from './folder.js';
 import {keep} from './keep.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
 import {Place} from './place.js';
-import {GUIDE, LANGUAGES, Show, SHOW} from './show.js';
+import {DRAMA, GUIDE, LANGUAGES, PERSON, Show, SHOW, THINGS, VOICES} from './show.js';
 import {Sound} from './sound.js';
 import {firstKnown, KNOWN, menuText, sentence, setLanguage} from './texts.js';
 
@@ -127,7 +127,7 @@ async function changeLanguages() {
   element('hint').textContent = sentence('changing');
   try {
     const {show, folder} = visitable;
-    await loadRest();
+    await loadFirst();
     const languages = choices.languagesFor(about);
     await folder.supply(show, LANGUAGES, languages);
     await new Promise((resolve) => setTimeout(resolve, 50));  // The page is drawn before it is busy.
@@ -164,6 +164,12 @@ function openSound(show) {
 
 const nextTask = () => new Promise((resolve) => setTimeout(resolve));  // The page is drawn before it is busy.
 
+// Counts bytes for a progress bar. onshare: takes the share of all bytes that has arrived.
+function counting(all, onshare) {
+  let received = 0;
+  return (count) => onshare(Math.min((received += count) / all, 1));
+}
+
 // A function that loads once; after a failure, its next call tries again.
 function once(load) {
   let loading;
@@ -189,7 +195,7 @@ const load = once(async () => {
     [openFolder(), compileProgram('module.wasm'), compileProgram('lararium-tracker/module.wasm')]);
   const show = await folder.openShow(Show, program);
   const languages = choices.languagesFor(about);
-  await folder.supply(show, GUIDE, languages, showProgress);
+  await folder.supply(show, GUIDE, languages, counting(folder.bytesOf(show, GUIDE, languages), showProgress));
   const place = new Place(show.maps(), trackerProgram);
   showProgress(1);
   await nextTask();
@@ -205,25 +211,67 @@ const load = once(async () => {
 
 function showRest(share) {
   if (card.hidden) {
-    rest.hidden = false;
+    rest.hidden = share >= 1;
     rest.value = share;
   } else {
     showProgress(share);
   }
 }
 
-// Loads people and things, while the camera already looks for the place.
-const loadRest = once(async () => {
+// Begins the drama, while the camera already looks for the place. People follow.
+const loadDrama = once(async () => {
   const {show, folder} = await load();
   const languages = choices.languagesFor(about);
-  await folder.supply(show, SHOW, languages, showRest);
-  rest.hidden = true;
+  const onbytes = counting(folder.bytesOf(show, SHOW, languages), showRest);
+  await folder.supply(show, DRAMA, languages, onbytes);
   await nextTask();
-  show.load(SHOW, languages);
+  show.load(DRAMA, languages);
   applyChoices();
   openSound(show);
+  canvas.dataset.people = 0;
+  return {show, folder, languages, onbytes};
+});
+
+// Lets the next person appear. Returns false if all are there.
+async function bringPerson({show, folder, languages, onbytes}) {
+  if (!await folder.supply(show, PERSON, languages, onbytes)) {
+    return false;
+  }
+  await nextTask();
+  show.loadPeople();
+  ++canvas.dataset.people;
+  return true;
+}
+
+let onPicture = () => {};  // Called after each picture.
+
+// Brings the first person, whom the first picture of the drama chooses, then things and voices.
+const loadFirst = once(async () => {
+  const drama = await loadDrama();
+  const {show, folder, languages, onbytes} = drama;
+  await new Promise((resolve) => {
+    onPicture = resolve;
+  });
+  await bringPerson(drama);
+  if (await folder.supply(show, THINGS, languages, onbytes)) {
+    await nextTask();
+    show.loadThings();
+  }
+  if (await folder.supply(show, VOICES, languages, onbytes)) {
+    await nextTask();
+    show.loadVoices(languages);
+    openSound(show);
+  }
+});
+
+// Loads all that is missing, then keeps the folder on the device.
+const loadRest = once(async () => {
+  await loadFirst();
+  const drama = await loadDrama();
+  while (await bringPerson(drama)) {}
+  rest.hidden = true;
   canvas.dataset.shows = 'show';
-  keep(folder, show, languages);
+  keep(drama.folder, drama.show, choices.languagesFor(about));
 });
 
 // The show and its place, as soon as they are loaded.
@@ -300,7 +348,7 @@ async function startWalk() {
   let mine;
   try {
     const loaded = await load();
-    await loadRest();
+    await loadDrama();
     const {viewCount} = loaded.show;
     if (viewCount === 0) {
       throw new Problem('no_camera');
@@ -308,6 +356,7 @@ async function startWalk() {
     element('view').max = viewCount - 1;
     visit = mine = {...loaded, stream: undefined, begun: undefined};
     play(mine, () => requestAnimationFrame((now) => drawWalk(mine, now)));
+    loadRest().catch((error) => stop(() => showProblem(error)));
   } catch (error) {
     if (mine === visit) {
       stop(() => showProblem(error));
@@ -398,6 +447,7 @@ function drawPicture({width, height}, draw, next) {
     const {show} = visit;
     const left = shareLeft(show);
     draw(left);
+    onPicture();
     sound.setVolume(choices.values.volume * left);
     const texts = show.takeTexts();
     if (texts !== undefined) {

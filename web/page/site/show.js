@@ -5,9 +5,7 @@ import createModule from './module.mjs';
 const FORMATS = ['I420', 'NV12', 'RGBA'];
 
 // What begins with members that have arrived (PageShow::Stage).
-export const GUIDE = 0;
-export const SHOW = 1;
-export const LANGUAGES = 2;
+export const [GUIDE, DRAMA, PERSON, THINGS, VOICES, SHOW, LANGUAGES] = [0, 1, 2, 3, 4, 5, 6];
 
 function hourNow() {
   const now = new Date();
@@ -76,10 +74,25 @@ export class Show {
     });
   }
 
-  // Begins the guide or the show, whose members have arrived. languages: {spoken, captions}; '' is the author's choice.
+  // Begins the guide or the show with what has arrived. languages: {spoken, captions}; '' is the author's choice.
   load(stage, languages) {
     this.callWithLanguages(stage === GUIDE ? 'lararium_load_guide' : 'lararium_load', languages);
     this.length = this.module._lararium_length();  // Seconds; 0: not known.
+  }
+
+  // Lets people appear who have arrived since load().
+  loadPeople() {
+    this.check(this.module._lararium_load_people());
+  }
+
+  // Lets all things appear, which have arrived since load().
+  loadThings() {
+    this.check(this.module._lararium_load_things());
+  }
+
+  // Takes the voices that have arrived since load(). Sound must be opened again.
+  loadVoices(languages) {
+    this.callWithLanguages('lararium_load_voices', languages);
   }
 
   // Goes on in other languages. Sound must be opened again.
