@@ -66,6 +66,9 @@ configure() {
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR=lib "$@"
 }
 
+# Programs are downloaded: what is not called for each pixel or vertex is compiled to be small.
+small=-DCMAKE_BUILD_TYPE=MinSizeRel
+
 # Functions that compile run where the shell does not stop at an error by itself.
 build_zlib() {
   cd "$1" &&
@@ -105,7 +108,7 @@ archive() {
   shift
   for source in "$@"; do
     objects+=("$name.${#objects[@]}.o")
-    "${compile[@]}" -O3 -msimd128 -fwasm-exceptions -ffp-contract=off -sSUPPORT_LONGJMP=emscripten \
+    "${compile[@]}" -Os -msimd128 -fwasm-exceptions -ffp-contract=off -sSUPPORT_LONGJMP=emscripten \
       -c "$source" -o "${objects[-1]}" || return
   done
   rm -f "$folder/lib/lib$name.a"
@@ -113,7 +116,7 @@ archive() {
 }
 
 build_libpng1.6() {
-  configure "$1" -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DZLIB_LIBRARY="$folder/lib/libz.a" \
+  configure "$1" $small -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DZLIB_LIBRARY="$folder/lib/libz.a" \
     -DZLIB_INCLUDE_DIR="$folder/include" -DM_LIBRARY= &&
     cmake --build "$1/build" --target png_static &&
     install -D -m 644 "$1/build/libpng16.a" "$folder/lib/libpng.a" &&
@@ -149,20 +152,20 @@ build_recastnavigation() {
 }
 
 build_flac() {
-  configure "$1" -DBUILD_{CXXLIBS,PROGRAMS,EXAMPLES,TESTING,DOCS}=OFF \
+  configure "$1" $small -DBUILD_{CXXLIBS,PROGRAMS,EXAMPLES,TESTING,DOCS}=OFF \
     -D{WITH_OGG,WITH_STACK_PROTECTOR,WITH_FORTIFY_SOURCE,INSTALL_MANPAGES}=OFF &&
     cmake --build "$1/build" &&
     cmake --install "$1/build"
 }
 
 build_libogg() {
-  configure "$1" -DBUILD_TESTING=OFF -DINSTALL_DOCS=OFF &&
+  configure "$1" $small -DBUILD_TESTING=OFF -DINSTALL_DOCS=OFF &&
     cmake --build "$1/build" &&
     cmake --install "$1/build"
 }
 
 build_libvorbis() {
-  configure "$1" -DOGG_LIBRARY="$folder/lib/libogg.a" -DOGG_INCLUDE_DIR="$folder/include" &&
+  configure "$1" $small -DOGG_LIBRARY="$folder/lib/libogg.a" -DOGG_INCLUDE_DIR="$folder/include" &&
     cmake --build "$1/build" &&
     cmake --install "$1/build"
 }
@@ -182,7 +185,7 @@ build_opus() {
 }
 
 build_libsndfile() {
-  configure "$1" -DBUILD_{PROGRAMS,EXAMPLES,TESTING}=OFF -DENABLE_{MPEG,CPACK}=OFF \
+  configure "$1" $small -DBUILD_{PROGRAMS,EXAMPLES,TESTING}=OFF -DENABLE_{MPEG,CPACK}=OFF \
     -D{OGG,Vorbis_Vorbis,FLAC,OPUS}_INCLUDE_DIR="$folder/include" -DVorbis_Enc_INCLUDE_DIR="$folder/include" \
     -DOGG_LIBRARY="$folder/lib/libogg.a" -DFLAC_LIBRARY="$folder/lib/libFLAC.a" \
     -DVorbis_Vorbis_LIBRARY="$folder/lib/libvorbis.a" -DVorbis_Enc_LIBRARY="$folder/lib/libvorbisenc.a" \
@@ -199,8 +202,8 @@ command -v emcc > /dev/null || skip "it was made for emscripten 3.1.6, which Deb
 # state LIBRARY: what its compiled files depend on.
 state() {
   {
-    echo "${sha256[$1]}"
-    emcc --version | head -n 1
+    echo "${sha256[$1]} $small"
+    emcc -dumpversion
     cat "$root/cmake/web.cmake"
     declare -f configure "build_$1"
     if [[ $(declare -f "build_$1") == *archive* ]]; then
