@@ -94,11 +94,11 @@ export class Chromium {
 
   async close() {
     try {
-      process.kill(-this.process.pid);
+      process.kill(-this.process.pid, 'SIGKILL');
     } catch {
       // The browser has ended by itself.
     }
-    await new Promise((resolve) => setTimeout(resolve, 500));
-    rmSync(this.profile, {recursive: true, force: true, maxRetries: 5});
+    // Processes of the browser go on writing there for as long as they live.
+    rmSync(this.profile, {recursive: true, force: true, maxRetries: 20});
   }
 }
