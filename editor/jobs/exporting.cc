@@ -179,7 +179,7 @@ Result<bundle::Publication> PublishProject(const ProjectPaths& paths,
                             CollectContent(paths, document, request, progress));
   std::error_code error;
   std::filesystem::create_directories(request.out, error);
-  // On the same disk, so that it can be moved.
+  // The bundle is written to the same disk, so that it can be moved.
   const std::filesystem::path unpublished = request.out / ".unpublished.larshow";
   LARARIUM_RETURN_IF_ERROR(exporter::ExportBundle(content, unpublished, progress, &key));
   auto published = bundle::Publish(unpublished, request.out, key, std::time(nullptr));

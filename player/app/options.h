@@ -85,7 +85,7 @@ struct KioskOptions {
   double visit_minutes = 0.0;   // The longest visit; 0: no limit.
 };
 
-// Where a kiosk gets newer shows from (updater.h).
+// The server from which a kiosk gets newer shows (updater.h).
 struct UpdateOptions {
   std::string url;           // empty: from nowhere
   std::filesystem::path ca;  // Certificates that are trusted; empty: those of the system.

@@ -14,7 +14,7 @@ namespace lararium::player {
 // Why a show has ended: it is over, or the watchdog is to start the player again.
 enum class PlayEnd { kOver, kStartAgain };
 
-// What only some runs of a show have.
+// Parts that only some runs of a show have.
 struct PlayLinks {
   // A kiosk has these two (watchdog.h).
   ChildStart start = {};

@@ -30,7 +30,7 @@ constexpr int kTryMs = 10'000;  // time that a broker has to answer the doctor
 constexpr char kTrustedBySystem[] = "/etc/ssl/certs";
 constexpr std::chrono::seconds kLongestPause(30);
 constexpr std::chrono::seconds kLongestPauseInGroup(1);  // The group waits for the device.
-// Between two states at least the first time passes, and at most the second.
+// At least the first time passes between two states, and at most the second.
 constexpr std::chrono::milliseconds kLeastBetween(500);
 constexpr std::chrono::milliseconds kMostBetween(2000);
 constexpr int kOnce = 2;         // Quality of service: a command arrives exactly once.
@@ -359,7 +359,7 @@ void FleetClient::StepGroup() {
 void FleetClient::PublishState() {
   const auto passed = Clock::now() - published_;
   const bool due = has_news_ ? passed >= kLeastBetween : passed >= kMostBetween;
-  // What is not sent yet is not queued behind.
+  // No state waits in a queue while another one is not sent yet.
   if (!connected_ || !due || mosquitto_want_write(client_.get())) {
     return;
   }

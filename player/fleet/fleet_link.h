@@ -22,7 +22,7 @@ class FleetLink {
   // answer is no failure. Must be called while there is one thread. Borrows log.
   static Result<std::unique_ptr<FleetLink>> Start(FleetOptions options, bool sandbox, Log& log);
 
-  // For StaffLinks::fleet.
+  // The player's end of the link, for StaffLinks::fleet.
   int link() const { return process_.link(); }
   pid_t process() const { return process_.process(); }
   // The device is in a group that plays one drama.

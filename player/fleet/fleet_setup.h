@@ -31,14 +31,14 @@ struct FleetPlan {
   std::string site;
   uint16_t port = 8883;       // The port of devices.
   uint16_t page_port = 8884;  // The port of fleet pages, by WebSocket.
-  // Where the broker's files will lie on its machine.
+  // The folder in which the broker's files will lie on its machine.
   std::string broker_folder = "/etc/mosquitto/lararium";
   bool certificates = false;  // Devices prove their names by certificates, else by passwords.
   std::vector<FleetDevice> devices;
 };
 Result<FleetPlan> ParseFleetPlan(std::string_view text, const std::string& where);
 
-// What is to be changed of a folder's fleet. Empty values stay as they are.
+// The changes to be made to a folder's fleet. Empty values stay as they are.
 struct FleetSetupOptions {
   std::filesystem::path folder;
   std::string host;

@@ -14,7 +14,7 @@ constexpr int64_t kDriftSpan = 40'000'000;   // Drift is estimated from at least
 constexpr double kMostDrift = 300e-6;        // Quartzes are better than this.
 constexpr int64_t kMostDelay = 5'000'000;    // Later answers say nothing.
 constexpr int64_t kOtherTime = 2'000'000;    // No delay explains a larger difference.
-constexpr int64_t kLongestEcho = 5'000'000;  // Between a message and its answer, at the leader.
+constexpr int64_t kLongestEcho = 5'000'000;  // A leader answers within this time.
 constexpr int64_t kWorstDelay = 20'000;      // Longer than the shortest: hardly counts.
 
 double Median(std::vector<double>& values) {

@@ -28,7 +28,8 @@ class GroupClock {
   void Lead(int64_t own);
 
   bool known() const { return known_; }
-  int exchanges() const { return exchanges_; }  // Since the group's time became another one.
+  // Number of exchanges since the group's time became another one.
+  int exchanges() const { return exchanges_; }
   int64_t GroupTime(int64_t own) const;
   int64_t OwnTime(int64_t group) const;
   // How much faster the group's clock runs than the own one.
@@ -38,7 +39,7 @@ class GroupClock {
 
  private:
   struct Sample {
-    int64_t own = 0;     // When it was taken.
+    int64_t own = 0;     // The own clock when the sample was taken.
     int64_t offset = 0;  // The group's time minus the own clock.
     int64_t delay = 0;
   };

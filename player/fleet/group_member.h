@@ -39,7 +39,7 @@ class GroupMember {
   static constexpr int64_t kListen = 1'500'000;
 
   struct Outgoing {
-    std::string to;  // Empty: everybody.
+    std::string to;  // Empty: all members.
     std::string bytes;
     bool reliable = false;
   };
@@ -83,7 +83,7 @@ class GroupMember {
     int64_t heard = 0;
     int64_t came = 0;  // The group's time at which the last beat came; 0: none for an echo.
     bool gone = false;
-    int64_t answered = 0;        // When it last got a part of the log.
+    int64_t answered = 0;        // Time at which it last got a part of the log.
     uint64_t answered_from = 0;  // Index of the first entry of that part.
     int64_t wished = 0;          // GroupWish::sent of its last wish.
     int differs = 0;             // Marks that differed from the own ones.
@@ -116,7 +116,7 @@ class GroupMember {
   void TakeWish(const std::string& from, const GroupWish& wish, int64_t now);
   void CompareMarks(const std::string& name, Peer& peer);
 
-  // Of the leader.
+  // The leader calls these.
   void Order(const std::string& name, const GroupEvents& events, int64_t now);
   void Fulfil(const std::string& from, const GroupWish& wish, int64_t now);
   void GoTo(int64_t tick, int64_t now);
@@ -153,7 +153,7 @@ class GroupMember {
 
   // The drama.
   GroupSchedule schedule_;
-  int64_t moved_ = 0;  // When the leader last went to another moment.
+  int64_t moved_ = 0;  // Time at which the leader last went to another moment.
   uint64_t runs_ = 0;
   size_t told_ = 0;  // Entries of the log that the leader has sent to all.
   int32_t minute_ = -1;

@@ -88,7 +88,7 @@ struct GroupBeat {
   uint64_t run = 0;      // Another run: the drama went to another moment.
   GroupPlace log;
   GroupMark mark;  // State of the drama at a tick of the run.
-  // Only the leader's beat has these.
+  // The fields from here on are those of a leader's beat.
   uint16_t followers = 0;
   int64_t time = 0;  // The group's time at `sent`.
   std::vector<GroupPiece> pieces;

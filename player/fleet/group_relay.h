@@ -38,7 +38,7 @@ class GroupRelay {
   GroupMember member_;
   GroupPlace player_has_;
   std::vector<GroupPlace> player_said_;
-  int64_t told_ = 0;  // When the player was last told.
+  int64_t told_ = 0;  // Time at which the player was last told.
   std::string told_clock_;
 };
 

@@ -66,7 +66,7 @@ class StaffLink {
  private:
   using Commands = std::vector<StaffCommand>;
 
-  // One process that the player tells.
+  // A process that the player tells of its state.
   struct End {
     std::string_view name;  // Name in the log.
     int socket = -1;        // -1: there is no process, or it has ended.

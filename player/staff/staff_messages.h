@@ -23,7 +23,7 @@ enum class StaffMessage : char {
   kCommand = 'A',        // JSON, ParseStaffCommand
   kPictureWanted = 'W',  // empty; only the page sends it
   kNote = 'N',           // a text for the log
-  // To and from the process of a fleet whose device is in a group (player/fleet/group_message.h).
+  // A message between the player and its link to a group (player/fleet/group_message.h).
   kGroup = 'G',
 };
 
@@ -54,9 +54,9 @@ struct StaffCommand {
   std::optional<bool> reduced_motion;
   bool end = false;          // ends the player, also a kiosk
   bool begin_again = false;  // ends the player; a kiosk's watchdog starts it again
-  // Of a group's drama. A player alone ignores them.
-  std::optional<bool> hold;  // holds it, or lets it go on
-  std::string go_to;         // a marker; empty: none
+  // Commands for the drama of a group. A player alone ignores them.
+  std::optional<bool> hold;  // true holds the drama, false lets it go on
+  std::string go_to;         // name of a marker; empty: stay
 
   friend bool operator==(const StaffCommand&, const StaffCommand&) = default;
 };

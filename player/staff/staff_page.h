@@ -32,7 +32,7 @@ class StaffPage {
   // Must be called while there is one thread. Borrows log.
   static Result<std::unique_ptr<StaffPage>> Start(const StaffPageOptions& options, Log& log);
 
-  // For StaffLinks::page.
+  // The player's end of the link, for StaffLinks::page.
   int link() const { return process_.link(); }
   uint16_t port() const { return port_; }
   pid_t process() const { return process_.process(); }

@@ -45,7 +45,7 @@ std::string FormatPublicKey(const PublicKey& key);
 Status SavePublicKey(const std::filesystem::path& path, const PublicKey& key);
 Status SaveSecretKey(const std::filesystem::path& path, const SecretKey& key);
 
-// What is signed. A signature of one is never valid for the other.
+// The kinds of content that are signed. A signature of one is never valid for the other.
 enum class Signed : uint8_t { kManifest, kPublication };
 
 Signature Sign(std::span<const std::byte> bytes,

@@ -136,8 +136,8 @@ void ScriptRuntime::SetVisitor(const Visitor& visitor) {
   stage_.SetVisitors(seen_, static_cast<size_t>(turn));
 }
 
-// Those who are tracked when a turn begins, or when no one was, are looked at until it ends, also
-// if they are lost meanwhile.
+// Visitors who are tracked when a turn begins, or as the first ones after all were lost, are looked
+// at until it ends, also if they are lost meanwhile.
 void ScriptRuntime::TakeTurns(int64_t turn) {
   Visitor& visitor = state_.visitor;
   std::vector<int>& looked_at = state_.turn;

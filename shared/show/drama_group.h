@@ -87,7 +87,7 @@ class DramaGroup {
 // drama.
 class GroupSeat {
  public:
-  // Between states of which a hash is told.
+  // Ticks between two states of which a hash is told.
   static constexpr int64_t kMarkTicks = drama::Drama::kTicksPerSecond;
 
   GroupSeat(DramaGroup& group, drama::Drama& drama);

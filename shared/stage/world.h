@@ -19,7 +19,7 @@ struct World {
   struct Speech {
     std::string name;
     human::VisemeTrack track;
-    std::optional<human::VisemeTrack> timing;  // None: that of `track`.
+    std::optional<human::VisemeTrack> timing;  // The line takes the time of `track` without it.
   };
 
   SlotMap<Actor> actors;

@@ -533,7 +533,8 @@ TEST_F(VisitorTest, AnyVisitorOfAGroupFiresATrigger) {
 
 TEST_F(VisitorTest, EachVisitorOfAGroupStaysForThemselves) {
   const auto drama = Counting("visitor:stays(2)");
-  for (int i = 0; i < 10; ++i) {  // One moves all the time, the other comes after a second.
+  // The first visitor moves all the time, the second comes after a second.
+  for (int i = 0; i < 10; ++i) {
     const float step = static_cast<float>(i);
     drama->SetVisitor(
         Group({One(0, {5.0f + step, 1.6f, 0.0f}, kKeeper), One(4, i < 5 ? kFar : kNear, kKeeper)}));

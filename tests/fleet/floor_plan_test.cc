@@ -10,7 +10,7 @@ using Cell = std::array<double, 2>;
 
 TEST(FloorPlan, HasTheSquaresAboveWhichTheMapHasPointsThatStandOnTheFloor) {
   const std::vector<Eigen::Vector3f> points = {
-      {0.52f, 1.0f, -0.21f}, {0.58f, 1.2f, -0.29f},  // One square.
+      {0.52f, 1.0f, -0.21f}, {0.58f, 1.2f, -0.29f},  // Both lie in the same square.
       {2.0f, 1.0f, 2.0f},                            // A point alone.
       {3.0f, 0.01f, 3.0f},   {3.0f, 0.02f, 3.0f},    // The floor.
       {4.0f, 3.0f, 4.0f},    {4.0f, 3.1f, 4.0f},     // The ceiling.

@@ -20,8 +20,8 @@ namespace lararium::test {
 class SimulatedGroup {
  public:
   struct Network {
-    // Of a message from a device to the broker or back, microseconds: the shortest, and the mean of
-    // what is added.
+    // The delay of a message from a device to the broker or back, microseconds: the shortest, and
+    // the mean of what is added.
     std::vector<int64_t> delays;  // Device i has delays[i % size].
     int64_t jitter = 0;
     double loss = 0.0;  // A lost message is sent again; the following ones wait for it.
@@ -33,7 +33,7 @@ class SimulatedGroup {
     bool connected = true;
     double clock_drift = 0.0;  // The device's clock is faster by this share.
     int64_t clock_offset = 0;  // Microseconds.
-    uint64_t visitor = 0;      // Seed of WanderingVisitor(); 0: no one is there.
+    uint64_t visitor = 0;      // Seed of WanderingVisitor(); 0: the device has no visitor.
     std::string keys;          // Are pressed at the next frame.
     std::unique_ptr<GroupPlayer> player;
     std::unique_ptr<player::GroupRelay> relay;

@@ -67,7 +67,7 @@ class PageShow {
   Status LoadGuide(const show::LanguageChoice& languages);
   // Begins the show with what has arrived, and releases members that are no longer needed.
   Status Load(const show::LanguageChoice& languages);
-  // These add the people, the things and the voices that have arrived since Load(). Sound must be
+  // LoadPeople(), LoadThings() and LoadVoices() add what has arrived since Load(). Sound must be
   // opened again after LoadVoices().
   Status LoadPeople();
   Status LoadThings();
