@@ -40,6 +40,9 @@ glm::vec3 DirectionOf(const GroupEntry& entry) {
           -std::cos(heading) * std::cos(pitch)};
 }
 
+// The part of a device's boot that the log keeps.
+uint64_t ShortBoot(uint64_t boot) { return boot & 0xffffffffffffu; }
+
 // The numbers of a boot as a join entry has them.
 void SetBoot(uint64_t boot, GroupEntry& entry) {
   entry.x = static_cast<int16_t>(boot & 0xffff);
@@ -58,6 +61,12 @@ const GroupLog::Device* GroupLog::Find(const std::string& name) const {
   const auto found = std::find_if(devices_.begin(), devices_.end(),
                                   [&](const Device& device) { return device.name == name; });
   return found == devices_.end() ? nullptr : &*found;
+}
+
+const GroupLog::Device* GroupLog::FindPresent(const std::string& name, uint64_t boot) const {
+  const Device* device = Find(name);
+  const bool found = device != nullptr && device->present && device->boot == ShortBoot(boot);
+  return found ? device : nullptr;
 }
 
 bool GroupLog::Append(const GroupEntry& entry, const std::string& text) {

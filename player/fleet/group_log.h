@@ -27,7 +27,7 @@ class GroupLog {
   // A device that is or was in the log; its index is GroupEntry::who.
   struct Device {
     std::string name;
-    uint64_t boot = 0;  // ShortBoot() of its link.
+    uint64_t boot = 0;  // The lowest 48 bits of GroupBeat::boot.
     bool present = false;
     std::optional<uint16_t> serial;  // Serial of its last entry.
   };
@@ -36,6 +36,9 @@ class GroupLog {
   const Item& item(size_t index) const { return items_[index]; }
   const std::vector<Device>& devices() const { return devices_; }
   const Device* Find(const std::string& name) const;
+  // Finds a device that is present and has not started again since it joined; nullptr: there is
+  // none.
+  const Device* FindPresent(const std::string& name, uint64_t boot) const;
   int32_t last_tick() const { return items_.empty() ? 0 : items_.back().entry.tick; }
 
   // False: an entry cannot follow, because its tick is earlier or its device is not known, or the
@@ -58,7 +61,7 @@ class GroupLog {
   // The last of the places that this log has; 0: none.
   size_t CommonWith(std::span<const GroupPlace> places) const;
 
-  // At most `most` items from an index on, which fit into a message.
+  // Returns at most `most` items from an index on, which fit into a message.
   GroupEntries Part(size_t from, size_t most = kMostGroupEntries) const;
   // The first item that has changed, and the first tick of which the log says something else now:
   // that of the new item, or of the one that was there, which may be earlier.
@@ -79,8 +82,10 @@ class GroupLog {
   std::vector<Device> devices_;
 };
 
-// The part of a device's boot that the log keeps.
-inline uint64_t ShortBoot(uint64_t boot) { return boot & 0xffffffffffffu; }
+// Whether a device gave this serial to a later event. Serials begin again after 65,535.
+inline bool IsLaterSerial(uint16_t serial, uint16_t other) {
+  return static_cast<int16_t>(serial - other) > 0;
+}
 
 // What a visitor does, as an entry of kind kPose or kLost. Poses far outside of any stage, and
 // values that are no numbers, are as if the camera were not tracked.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int64_t kSecond = 1'000'000;
 constexpr int64_t kBeat = 200'000;
-constexpr int64_t kQuickBeat = 100'000;  // While a member is not ready.
+constexpr int64_t kQuickBeat = 100'000;  // A member that is not ready needs the time soon.
 constexpr size_t kBeatMembers = 8;       // Larger groups beat less often.
 constexpr int64_t kSilentPlayer = 5 * kSecond;
 constexpr int64_t kLeaveAfter = 5 * kSecond;
@@ -19,10 +19,11 @@ constexpr int64_t kForgetAfter = 60 * kSecond;
 constexpr int64_t kLate = 250'000;  // A part of the log is late, and is asked for.
 constexpr int64_t kAskAgain = 800'000;
 constexpr int64_t kAnswerAgain = 400'000;
-constexpr int64_t kHoldMargin = 500'000;  // All are to hear of it before, for none goes back.
-constexpr int64_t kSurplus = kSecond;     // Entries that the leader still has not are dropped.
+// Every member is to hear of a hold before it begins, because dramas do not go back.
+constexpr int64_t kHoldMargin = 500'000;
+constexpr int64_t kSurplus = kSecond;  // Entries that the leader still has not are dropped.
 constexpr int64_t kOthersClaim = kSecond;
-constexpr int kExchanges = 2;  // After which the group's time is known well enough to begin.
+constexpr int kExchanges = 2;  // The group's time is known well enough after these.
 constexpr size_t kMostMarks = 16;
 constexpr int kTellDiffering = 10;  // After a split, some states differ until all have one log.
 constexpr size_t kMostPoses = GroupLog::kMostEntries - 4096;  // Keys have room behind them.
@@ -391,14 +392,10 @@ void GroupMember::Order(const std::string& name, const GroupEvents& events, int6
     return;
   }
   const int32_t tick = NextTick(now);
-  const GroupLog::Device* device = log_.Find(name);
-  if (device == nullptr || !device->present || device->boot != ShortBoot(events.boot)) {
-    if (!log_.Join(tick, name, events.boot)) {
-      return;
-    }
+  if (log_.FindPresent(name, events.boot) == nullptr && !log_.Join(tick, name, events.boot)) {
+    return;
   }
-  device = log_.Find(name);
-  const auto who = static_cast<uint8_t>(device - log_.devices().data());
+  const auto who = static_cast<uint8_t>(log_.Find(name) - log_.devices().data());
   size_t text = 0;
   for (GroupEntry entry : events.events.entries) {
     const std::string words = entry.has_text() ? events.events.texts[text++] : "";
@@ -411,8 +408,7 @@ void GroupMember::Order(const std::string& name, const GroupEvents& events, int6
           "begin it again");
     }
     // While the drama is held, poses wait: their senders repeat the last one.
-    if ((last && static_cast<int16_t>(entry.serial - *last) <= 0) || !fits ||
-        (!is_key && schedule_.held())) {
+    if ((last && !IsLaterSerial(entry.serial, *last)) || !fits || (!is_key && schedule_.held())) {
       continue;
     }
     entry.tick = tick;

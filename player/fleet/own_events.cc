@@ -21,9 +21,6 @@ bool Differs(const GroupEntry& a, const GroupEntry& b) {
          std::abs(static_cast<int8_t>(a.heading - b.heading)) >= kTurned;
 }
 
-// Serials go round.
-bool IsAfter(uint16_t serial, uint16_t other) { return static_cast<int16_t>(serial - other) > 0; }
-
 }  // namespace
 
 void OwnEvents::SetPose(const GroupEntry& pose, size_t members, int64_t now) {
@@ -49,11 +46,9 @@ void OwnEvents::AddKey(const std::string& text, int64_t now) {
 }
 
 GroupEvents OwnEvents::Take(const GroupLog& log, const std::string& name, int64_t now) {
-  const GroupLog::Device* device = log.Find(name);
-  const bool known =
-      device != nullptr && device->present && device->boot == ShortBoot(boot_) && device->serial;
+  const GroupLog::Device* device = log.FindPresent(name, boot_);
   const auto is_in_log = [&](uint16_t serial) {
-    return known && !IsAfter(serial, *device->serial);
+    return device != nullptr && device->serial && !IsLaterSerial(serial, *device->serial);
   };
   std::erase_if(
       keys_, [&](const Key& key) { return is_in_log(key.serial) || now - key.born > kKeyLives; });
@@ -64,7 +59,7 @@ GroupEvents OwnEvents::Take(const GroupLog& log, const std::string& name, int64_
   }
   bool posed = !poses;
   for (const Key& key : keys_) {
-    if (!posed && IsAfter(key.serial, pose_.serial)) {
+    if (!posed && IsLaterSerial(key.serial, pose_.serial)) {
       events.events.entries.push_back(pose_);
       posed = true;
     }
