@@ -1,6 +1,5 @@
 #include "shared/vision/confidence.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -75,31 +74,23 @@ MeanSquares<N> ComputeMeanSquares(const CameraModel& model, const PoseEvidence& 
   return {sum.by_parameters / count, sum.by_turning_change / count};
 }
 
-// The squared error is d' M d, where d has the covariance C. In axes in which the covariance
-// becomes the identity and M is diagonal, it is a sum of squares with these variances: the
-// eigenvalues of R' M R, where R R' = C.
+// Adds what the quadratic form d' M d contributes, where d has the covariance C: its mean is the
+// trace of CM, and half its variance that of CMCM.
 template <int N>
-auto VariancesOf(const JointMatrix<N>& covariance, const JointMatrix<N>& mean_squares) {
-  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> axes{BoundedMatrix(covariance)};
-  const JointMatrix<N> root =
-      axes.eigenvectors() *
-      axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
-  const JointMatrix<N> turned = root.transpose() * mean_squares * root;
-  const Eigen::SelfAdjointEigenSolver<BoundedMatrix> parts(BoundedMatrix(turned),
-                                                           Eigen::EigenvaluesOnly);
-  return JointVector<N>(parts.eigenvalues().cwiseMax(0.0));
+void AddQuadraticForm(const JointMatrix<N>& covariance,
+                      const JointMatrix<N>& mean_squares,
+                      RegistrationVariance& variance) {
+  const JointMatrix<N> product = covariance.lazyProduct(mean_squares);
+  variance.sum += product.trace();
+  variance.sum_of_squares += product.cwiseProduct(product.transpose()).sum();
 }
 
 template <int N>
 RegistrationVariance VarianceOf(const CameraModel& camera, const PoseEvidence& evidence) {
   const MeanSquares<N> squares = ComputeMeanSquares<N>(camera, evidence);
-  const JointVector<N> of_parameters =
-      VariancesOf<N>(evidence.covariance.topLeftCorner<N, N>(), squares.by_parameters);
-  const Eigen::Vector3d of_change =
-      VariancesOf<3>(evidence.turning_change, squares.by_turning_change);
   RegistrationVariance variance;
-  std::copy_n(of_parameters.data(), N, variance.parts.begin());
-  std::copy_n(of_change.data(), 3, variance.parts.end() - 3);
+  AddQuadraticForm<N>(evidence.covariance.topLeftCorner<N, N>(), squares.by_parameters, variance);
+  AddQuadraticForm<3>(evidence.turning_change, squares.by_turning_change, variance);
   return variance;
 }
 
@@ -116,14 +107,6 @@ double RegularisedBeta(double a, double b, double x) {
                                 a * std::log(x) + b * std::log1p(-x));
   return x < (a + 1.0) / (a + b + 2.0) ? front * BetaFraction(a, b, x) / a
                                        : 1.0 - front * BetaFraction(b, a, 1.0 - x) / b;
-}
-
-double RegistrationVariance::Sum() const {
-  double sum = 0.0;
-  for (const double part : parts) {
-    sum += part;
-  }
-  return sum;
 }
 
 RegistrationVariance ComputeRegistrationVariance(const CameraModel& camera,
@@ -145,15 +128,11 @@ double PoseConfidence(const CameraModel& camera, const PoseEvidence& evidence, d
     return 0.0;
   }
   const RegistrationVariance variance = ComputeRegistrationVariance(camera, evidence);
-  const double sum = variance.Sum();
+  const double sum = variance.sum;
   if (!(sum > 0.0)) {
     return 1.0;
   }
-  double squares = 0.0;
-  for (const double part : variance.parts) {
-    squares += part * part;
-  }
-  const double h = sum * sum / squares;
+  const double h = sum * sum / variance.sum_of_squares;
   const double freedom = 2.0 * evidence.inliers - 6.0;
   const double f = limit_px * limit_px / sum;
   return RegularisedBeta(0.5 * h, 0.5 * freedom, h * f / (h * f + freedom));

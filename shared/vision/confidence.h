@@ -26,10 +26,10 @@ struct PoseEvidence {
 
 // The registration error that the covariance predicts, as a mean square over the image and the
 // depths. The squared error is distributed as the sum of the squares of independent normal
-// variables with the variances `parts`, of which the last three are those of turning_change.
+// variables.
 struct RegistrationVariance {
-  std::array<double, kMostJoint + 3> parts = {};  // Square pixels.
-  double Sum() const;
+  double sum = 0.0;             // The sum of their variances, square pixels: the mean square.
+  double sum_of_squares = 0.0;  // The sum of their squared variances.
 };
 RegistrationVariance ComputeRegistrationVariance(const geometry::CameraModel& camera,
                                                  const PoseEvidence& evidence);

@@ -303,7 +303,7 @@ bool Localizer::Judge(const CameraGuess& guess, Location& location) {
   const CameraModel& camera = posed_.camera.model;
   const PoseEvidence evidence{
       .covariance = Covariance(guess), .depths = Depths(), .inliers = location.inliers};
-  const double error = std::sqrt(ComputeRegistrationVariance(camera, evidence).Sum());
+  const double error = std::sqrt(ComputeRegistrationVariance(camera, evidence).sum);
   if (!(error < kLargestErrorPx)) {
     return false;
   }

@@ -179,7 +179,7 @@ void PatchTracker::Judge(const CameraEstimate& prior, FollowedPose& pose) {
     pose.evidence.depths[i] = depths_[(2 * i + 1) * depths_.size() / 6];
   }
   pose.evidence.inliers = pose.agreeing;
-  const double variance = ComputeRegistrationVariance(camera, pose.evidence).Sum();
+  const double variance = ComputeRegistrationVariance(camera, pose.evidence).sum;
   pose.expected_error_px = std::sqrt(variance);
   pose.reliable = pose.agreeing >= kLeastAgreeing && pose.share() >= kLeastShare &&
                   cells >= kLeastCells && pose.expected_error_px < kLargestTrackedErrorPx &&

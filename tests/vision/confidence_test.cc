@@ -59,7 +59,7 @@ TEST(RegistrationVariance, IsWhatProjectionsOfDrawnPosesShow) {
   const double expected =
       ComputeRegistrationVariance(kCamera,
                                   {.covariance = WithKnownCamera(covariance), .depths = kDepths})
-          .Sum();
+          .sum;
   double sum = 0.0;
   constexpr int kDraws = 4000;
   for (int i = 0; i < kDraws; ++i) {
@@ -94,14 +94,14 @@ TEST(RegistrationVariance, CountsWhatIsNotKnownOfTheMotionWhileTheImageIsRead) {
       ++count;
     }
   }
-  EXPECT_NEAR(ComputeRegistrationVariance(kCamera, evidence).Sum() / (sum / count), 1.0, 0.1);
+  EXPECT_NEAR(ComputeRegistrationVariance(kCamera, evidence).sum / (sum / count), 1.0, 0.1);
   // How the turning changes counts where the motion does not show it.
   evidence.covariance.setZero();
   evidence.turning_change(0, 0) = kTurning * kTurning;
-  EXPECT_NEAR(ComputeRegistrationVariance(kCamera, evidence).Sum() / (change_sum / count), 1.0,
+  EXPECT_NEAR(ComputeRegistrationVariance(kCamera, evidence).sum / (change_sum / count), 1.0,
               0.4);  // The rows at which it is computed are few.
   evidence.shutter.readout.setZero();
-  EXPECT_EQ(ComputeRegistrationVariance(kCamera, evidence).Sum(), 0.0);
+  EXPECT_EQ(ComputeRegistrationVariance(kCamera, evidence).sum, 0.0);
 }
 
 TEST(PoseConfidence, IsTheShareOfDrawnPosesWithinTheLimit) {
