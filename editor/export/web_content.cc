@@ -28,6 +28,8 @@ constexpr size_t kCoefficients = 9;  // Up to degree 2.
 // Where a texel of a texture is finer than half of this on the surface, the texture is halved. A
 // pixel of a page's picture shows as much from the distance of a metre.
 constexpr double kTexelMetres = 0.001;
+// Things are drawn at this detail or coarser, metres: viewers look less closely at them.
+constexpr float kDetailOfThings = 0.003f;
 // Side of textures with transparency, such as hair.
 constexpr int kMostTransparentTexels = 256;
 constexpr int kFewestTexels = 32;   // Side of a texture that is not halved any more.
@@ -365,7 +367,7 @@ void CutDetail(size_t light_count,
                stage::PropMesh& mesh,
                human::LightTransfer::Mesh* light) {
   const float share = human::ErrorShare(human::Surface::kPlain);
-  while (!mesh.coarser.empty() && share * mesh.coarser.front().error <= kWebDetail) {
+  while (!mesh.coarser.empty() && share * mesh.coarser.front().error <= kDetailOfThings) {
     mesh.indices = std::move(mesh.coarser.front().indices);
     mesh.coarser.erase(mesh.coarser.begin());
   }

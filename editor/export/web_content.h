@@ -9,7 +9,7 @@
 namespace lararium::exporter {
 
 // The page draws people at this detail or coarser; metres, as in human::ParseHuman.
-inline constexpr float kWebDetail = 0.003f;
+inline constexpr float kWebDetail = 0.0015f;
 
 Status ReduceForWeb(ExportContent& content, Progress& progress);
 

@@ -2,10 +2,13 @@
 """Measures the light on people against path-traced references made with other people's code.
 
     lighting.py --bin build/release/bin --data FOLDER/lighting --work FOLDER [--methods path,prt,sh,phong]
-                [--samples 256] [--document docs/illumination.md]
+                [--samples 256] [--document docs/illumination.md] [--reduce PROGRAM]
 
 The figure is imported and baked, each reference is drawn by every method from the same camera, and the
-references' own evaluate_lighting.py compares.  Fails where the player's light (prt) misses a bar.  Skips (status 77) where the references are absent.
+references' own evaluate_lighting.py compares.  With --reduce, that program (reduce_person) first lights
+the figure without reflections and reduces it as for browsers; only references without reflections are
+compared then, with a bar of their own.  Fails where the player's light (prt) misses a bar.  Skips
+(status 77) where the references are absent.
 """
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ import argparse
 import json
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -48,6 +51,7 @@ CASES = [
     Case("t2_courtyard_front_global", "courtyard", 2, 4, 0.13, 0.09),
     Case("t2_sunset_front_global", "sunset", 2, 4, 0.13, 0.09),
 ]
+REDUCED_BAR = 0.13  # Applies to light without reflections between surfaces.
 GROUND_ALBEDO = 0.5
 GROUND_BAR, GROUND_AIM = 0.08, 0.04
 
@@ -87,7 +91,7 @@ class Bench:
 
     def __init__(self, args: argparse.Namespace) -> None:
         self.editor = args.bin / "lararium-editor"
-        self.data, self.work, self.samples = args.data, args.work, args.samples
+        self.data, self.work, self.samples, self.reduce = args.data, args.work, args.samples, args.reduce
         self.human = self.work / "light.lararium" / "cast" / "figure.larhuman"
         self.camera = self.work / "front.json"
 
@@ -103,6 +107,9 @@ class Bench:
         if not found:
             raise SystemExit("the figure was not baked")
         self.human = found[0]
+        if self.reduce:
+            self.human = self.work / "reduced.larhuman"
+            run(self.reduce, found[0], self.human)
         write_camera(self.data, "front", self.camera)
 
     def draw(self, name: str, method: str, probe: str, time: int, *more: object) -> Path:
@@ -144,6 +151,7 @@ def main() -> int:
     parser.add_argument("--methods", default="prt,sh,phong,path")
     parser.add_argument("--samples", type=int, default=256)
     parser.add_argument("--document", type=Path)
+    parser.add_argument("--reduce", type=Path)
     args = parser.parse_args()
     if not (args.data / "cameras.json").exists():
         print("skipped: the references are not here")
@@ -154,13 +162,14 @@ def main() -> int:
     lines = [f"| relative RMSE | bar | aim | {' | '.join(methods)} |", "|---|---|---|" + "---|" * len(methods)]
     print("\n".join(lines), flush=True)
     missed = 0
-    for case in CASES:
+    cases = [replace(case, bar=REDUCED_BAR) for case in CASES if case.bounces == 0] if args.reduce else CASES
+    for case in cases:
         errors = {method: bench.compare(case, method)["relative_rmse"] for method in methods}
         missed += errors.get("prt", 0.0) > case.bar
         figures = " | ".join(f"{errors[method]:.3f}" for method in methods)
         lines.append(f"| {case.reference} | {case.bar} | {case.aim} | {figures} |")
         print(lines[-1], flush=True)
-    for variant in ("direct", "global"):
+    for variant in () if args.reduce else ("direct", "global"):
         errors = {method: bench.ground(variant, method) for method in methods}
         missed += errors.get("prt", 0.0) > GROUND_BAR
         figures = " | ".join(f"{errors[method]:.3f}" for method in methods)

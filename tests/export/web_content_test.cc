@@ -120,7 +120,8 @@ TEST(WebContent, LeavesOutWhatAPageDoesNotNeed) {
   const auto person = human::ParseHuman(content.cast[0].human, "keeper");
   ASSERT_TRUE(person.ok()) << person.message();
   EXPECT_EQ(person->meshes[0].positions.size(), 3u);
-  EXPECT_EQ(person->meshes[0].error, 0.001f) << "as if a player had read the whole file at 3 mm";
+  EXPECT_EQ(person->meshes[0].error, 0.001f)
+      << "as if a player had read the whole file at this detail";
   ASSERT_FALSE(person->textures.empty());
   const auto smaller =
       image::DecodeImage(person->textures[0]->encoded, image::Channels::kBgra, "hair");
