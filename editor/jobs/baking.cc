@@ -643,6 +643,16 @@ std::vector<std::string> ProductWarnings(const std::filesystem::path& product) {
   return lines;
 }
 
+void CopyProduct(const std::filesystem::path& from, const std::filesystem::path& to) {
+  // The hash is read first, as it is written last: a product that is replaced meanwhile does not
+  // get the hash of a newer one.
+  const std::vector<std::string> lines = LinesBeside(from);
+  const Result<std::vector<std::byte>> bytes = ReadBytes(from);
+  if (!lines.empty() && bytes.ok()) {
+    (void)WriteProduct(to, *bytes, lines.front(), std::span(lines).subspan(1)).ok();
+  }
+}
+
 std::vector<std::string> WarningsOfProducts(const ProjectPaths& paths,
                                             const ProjectDocument& document,
                                             std::span<const SpokenLine> spoken) {

@@ -53,6 +53,10 @@ std::vector<std::string> WarningsOfProducts(const ProjectPaths& paths,
                                             const ProjectDocument& document,
                                             std::span<const SpokenLine> spoken);
 
+// Copies a product with the hash of its inputs, where both are there, so that baking the same
+// inputs at the other place has nothing to do. A copy that fails is a product that has to be baked.
+void CopyProduct(const std::filesystem::path& from, const std::filesystem::path& to);
+
 // The names of the cast members whose product is missing or stale.
 std::vector<std::string> PeopleToBake(const ProjectPaths& paths, const ProjectDocument& document);
 

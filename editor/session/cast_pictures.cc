@@ -47,10 +47,12 @@ class CastPictures::Painter {
     std::shared_ptr<const CastPortrait> portrait;
   };
 
-  Painter(std::shared_ptr<std::mutex> baking,
+  Painter(ProjectPaths presets,
+          std::shared_ptr<std::mutex> baking,
           const std::stop_token& stop,
           std::function<bool()> picture_waits)
-      : baking_(std::move(baking)),
+      : presets_(std::move(presets)),
+        baking_(std::move(baking)),
         until_stopped_(stop, [] { return false; }),
         until_picture_waits_(stop, std::move(picture_waits)) {}
 
@@ -69,6 +71,7 @@ class CastPictures::Painter {
     }
     const std::filesystem::path file = paths.Human(order.member.name);
     if (seated_ != order.key) {
+      TakeFromPreset(order.member, file);
       LARARIUM_RETURN_IF_ERROR(
           BakeAlone(paths, order.member, BakeWhat::kUnlitPeople, until_stopped_, warnings));
     }
@@ -97,6 +100,16 @@ class CastPictures::Painter {
   }
 
  private:
+  // Copies what was baked for the picture of the member's preset to `file`, unless there is a file
+  // already. Baking finds it up to date if the member has not been changed.
+  void TakeFromPreset(const CastDocument& member, const std::filesystem::path& file) {
+    if (member.preset.empty() || FileExists(file)) {
+      return;
+    }
+    const std::lock_guard turn(*baking_);
+    CopyProduct(presets_.Human(member.preset), file);
+  }
+
   Status BakeAlone(const ProjectPaths& paths,
                    const CastDocument& member,
                    BakeWhat what,
@@ -150,6 +163,7 @@ class CastPictures::Painter {
         gaze.name, gaze.view, std::move(shot.picture), joints_, parents_, std::move(shot.joints)});
   }
 
+  ProjectPaths presets_;
   std::shared_ptr<std::mutex> baking_;
   UntilUrged until_stopped_;
   UntilUrged until_picture_waits_;
@@ -391,7 +405,7 @@ bool CastPictures::AwaitOrder(std::unique_lock<std::mutex>& lock,
 }
 
 void CastPictures::Run(std::stop_token stop) {
-  Painter painter(baking_, stop, [this] {
+  Painter painter(presets_folder_, baking_, stop, [this] {
     const std::lock_guard lock(mutex_);
     return PictureWaits();
   });

@@ -59,6 +59,24 @@ TEST_F(StandInTest, WhoWasBakedBeforeStaysAsTheyWere) {
   EXPECT_NEAR(HeightOf(*ada->human), 1.5f, 0.05f);
 }
 
+TEST_F(StandInTest, WhoWasCopiedWithTheHashIsNotBakedAgainUntilChanged) {
+  const ProjectPaths other{folder_ / "other.lararium"};
+  ASSERT_TRUE(CreateProject(other, "other").ok());
+  CopyProduct(other.Human("ada"), paths_.Human("ada"));
+  EXPECT_FALSE(FileExists(paths_.Human("ada"))) << "a product that is not there";
+  ASSERT_TRUE(BakeHuman(other, document_.cast[0]).ok());
+  CopyProduct(other.Human("ada"), paths_.Human("ada"));
+  EXPECT_EQ(ReadBytes(paths_.Human("ada")).value(), ReadBytes(other.Human("ada")).value());
+  document_.cast.resize(1);
+  auto report = Bake(paths_, document_, progress_, BakeWhat::kUnlitPeople);
+  ASSERT_TRUE(report.ok()) << report.message();
+  EXPECT_THAT(report->baked, IsEmpty());
+  document_.cast[0].height = 1.9;
+  report = Bake(paths_, document_, progress_, BakeWhat::kUnlitPeople);
+  ASSERT_TRUE(report.ok()) << report.message();
+  EXPECT_THAT(report->baked, ElementsAre("human ada"));
+}
+
 TEST_F(StandInTest, BakingAllButPeopleLeavesThemToBeBaked) {
   const auto report = Bake(paths_, document_, progress_, BakeWhat::kAllButPeople);
   ASSERT_TRUE(report.ok()) << report.message();
