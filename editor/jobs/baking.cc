@@ -20,6 +20,7 @@
 #include "editor/import/motion/clip_import.h"
 #include "editor/import/objects/object_import.h"
 #include "editor/import/objects/object_library.h"
+#include "editor/import/wardrobe/garment_design.h"
 #include "editor/jobs/cast_library_fetch.h"
 #include "editor/jobs/sounds.h"
 #include "shared/bundle/sha256.h"
@@ -257,10 +258,16 @@ FigureSource PlainFigure(const CastDocument& member) {
 FigureSource FigureOfRecipe(const import::CastRecipe& recipe,
                             const std::filesystem::path& library,
                             const Progress& progress) {
+  std::vector<std::filesystem::path> designs;
+  for (const Json& garment : recipe.garments) {
+    if (std::filesystem::path file = import::GarmentFile(garment.value("name", ""));
+        FileExists(file)) {
+      designs.push_back(std::move(file));
+    }
+  }
   return {"recipe " + FormatFields(recipe).dump() + " " + std::to_string(import::kLevelsOfDetail) +
               ", bare of covered skin",
-          {},
-          [=, &progress](std::vector<std::string>&) -> Result<human::Human> {
+          std::move(designs), [=, &progress](std::vector<std::string>&) -> Result<human::Human> {
             LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary opened,
                                       import::CastLibrary::Open(library));
             return import::BuildCast(opened, recipe, progress);

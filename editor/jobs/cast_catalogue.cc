@@ -244,6 +244,11 @@ Result<CastCatalogue> ListCast(const CastLibrary& library) {
   for (const import::CastMaterial& material : eyes.mesh.materials) {
     catalogue.eyes.push_back(material.name);
   }
+  for (const std::string& name : import::GarmentNames()) {
+    LARARIUM_ASSIGN_OR_RETURN(import::GarmentDesign design, import::LoadGarment(name));
+    catalogue.garments.emplace(name,
+                               std::make_shared<const import::GarmentDesign>(std::move(design)));
+  }
   return catalogue;
 }
 

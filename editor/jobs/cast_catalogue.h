@@ -2,12 +2,15 @@
 
 // The options of a recipe, in the order and the words of the interface.
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "editor/import/cast/cast_library.h"
+#include "editor/import/wardrobe/garment_design.h"
 #include "shared/core/status.h"
 
 namespace lararium::editor {
@@ -37,6 +40,7 @@ struct CastCatalogue {
   std::vector<std::string> eyebrows;
   std::vector<std::string> eyelashes;
   std::vector<std::string> eyes;  // Colours.
+  std::map<std::string, std::shared_ptr<const import::GarmentDesign>, std::less<>> garments;
 };
 
 // Describes one modifier of the library. Returns nullopt for those that clothes always hide. group:

@@ -1,11 +1,14 @@
-// libFuzzer harness: reading any bytes as a garment of a recipe terminates, and an accepted garment
-// can be cut: its numbers are finite and in range.
+// libFuzzer harness: reading any bytes as a garment's file, or as a garment of a recipe,
+// terminates. The formulas of an accepted file can be computed, and an accepted recipe sets every
+// parameter to a finite number.
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
+#include "editor/import/wardrobe/garment_design.h"
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "shared/core/check.h"
 #include "shared/core/json.h"
@@ -13,16 +16,36 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace lararium;
-  const auto json = ParseJson(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz");
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto json = ParseJson(text, "fuzz");
   if (!json.ok()) {
     return 0;
   }
-  const auto pattern = ParseFields<import::GarmentPattern>(JsonView(*json, "fuzz"));
-  if (pattern.ok()) {
-    CHECK(pattern->hem > 0.0f && pattern->hem <= 2.0f);
-    CHECK(pattern->ease >= 1.0f && pattern->ease <= 3.0f);
-    CHECK(pattern->blouse >= 0.0f && pattern->blouse < 0.2f);
-    CHECK(std::isfinite(pattern->colour.x + pattern->colour.y + pattern->colour.z));
+  import::GarmentPattern pattern;
+  auto design = import::ParseGarment(text, "fuzz/garment.json");
+  if (design.ok()) {
+    CHECK(!design->pieces.empty());
+    for (const auto& [name, formula] : design->sizes) {
+      formula.Value([](std::string_view) { return 1.0f; });
+    }
+    const Json plain = Json::object();
+    const Status read = ReadFields(JsonView(plain, "fuzz"), [&](Fields& fields) {
+      DescribeFields(fields, std::make_shared<const import::GarmentDesign>(*design), pattern);
+    });
+    CHECK(read.ok());
+  } else if (const auto parsed = ParseFields<import::GarmentPattern>(JsonView(*json, "fuzz"));
+             parsed.ok()) {
+    pattern = *parsed;
+  } else {
+    return 0;
+  }
+  for (const import::GarmentParameter& parameter : pattern.design->parameters) {
+    if (parameter.type == import::GarmentParameter::Type::kColour) {
+      const glm::vec3& colour = pattern.Colour(parameter.name);
+      CHECK(std::isfinite(colour.x + colour.y + colour.z));
+    } else {
+      CHECK(std::isfinite(pattern.numbers.at(parameter.name)));
+    }
   }
   return 0;
 }

@@ -1,5 +1,5 @@
-// Tools for cutting garments: sheets, distance fields, draping, weaves, and the parsing of
-// patterns.
+// Tools for cutting garments: sheets, distance fields, draping, weaves, formulas, and the parsing
+// of designs and patterns.
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,16 @@
 
 #include "editor/import/wardrobe/body_field.h"
 #include "editor/import/wardrobe/drape.h"
+#include "editor/import/wardrobe/formula.h"
+#include "editor/import/wardrobe/garment_design.h"
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "editor/import/wardrobe/posed_body.h"
 #include "editor/import/wardrobe/sheet.h"
 #include "editor/import/wardrobe/weave.h"
+#include "shared/core/file.h"
 #include "shared/core/json.h"
 #include "shared/core/json_fields.h"
+#include "tests/support/test_files.h"
 
 namespace lararium::import {
 namespace {
@@ -209,6 +213,106 @@ TEST(HullRadius, OfASquareReachesItsSidesAndCorners) {
   EXPECT_NEAR(radius[9], std::sqrt(2.0f), 0.01f);
 }
 
+float Computed(std::string_view text) {
+  const auto formula = Formula::Parse(text, "test");
+  EXPECT_TRUE(formula.ok()) << formula.message();
+  return formula->Value([](std::string_view name) { return name == "hip" ? 0.9f : 0.5f; });
+}
+
+TEST(Formula, ComputesAsMathematicsDoes) {
+  EXPECT_FLOAT_EQ(Computed("1 + 2 * 3 - 4 / 2"), 5.0f);
+  EXPECT_FLOAT_EQ(Computed("8 - 4 - 2"), 2.0f);
+  EXPECT_FLOAT_EQ(Computed("-(hip - knee) * 2"), -0.8f);
+  EXPECT_FLOAT_EQ(Computed("mix(hip, knee, 0.25)"), 0.8f);
+  EXPECT_FLOAT_EQ(Computed("if(hip > knee and not (knee >= hip), max(1, 2), 3)"), 2.0f);
+  EXPECT_FLOAT_EQ(Computed("1 < 2 or 1 / 0 < 2"), 1.0f);
+  EXPECT_FLOAT_EQ(Computed("smooth(0, 1, 0.25) + clamp(7, 0, 1)"), 1.15625f);
+}
+
+TEST(Formula, SaysWhatIsWrongAndAtWhichCharacter) {
+  const std::pair<std::string, const char*> cases[] = {
+      {"", "a number or a name is expected at character 1"},
+      {"1 +", "expected at character 4"},
+      {"2 hip", "nothing more is expected at character 3"},
+      {"max(1)", "\",\" is expected at character 6"},
+      {"max(1, 2", "\")\" is expected at character 9"},
+      {"tan(1)", "no function of this name at character 1"},
+      {"1e999", "nothing more is expected"},
+      {std::string(100, '9'), "out of range"},
+      {std::string(100, '('), "too many parentheses"},
+      {std::string(100, '-') + "1", "too many parentheses"},
+      {std::string(401, ' '), "longer than 400"},
+      {"hip; knee", "nothing more is expected at character 4"},
+  };
+  for (const auto& [text, expected] : cases) {
+    const auto formula = Formula::Parse(text, "here");
+    ASSERT_FALSE(formula.ok()) << text;
+    EXPECT_TRUE(formula.message().starts_with("here")) << formula.message();
+    EXPECT_NE(formula.message().find(expected), std::string::npos) << formula.message();
+  }
+}
+
+Json TunicFile() { return *LoadJson(GarmentFile("tunic")); }
+
+TEST(GarmentDesign, EveryGarmentOfTheLibraryIsRead) {
+  EXPECT_GE(GarmentNames().size(), 6u);
+  for (const std::string& name : GarmentNames()) {
+    const auto design = LoadGarment(name);
+    ASSERT_TRUE(design.ok()) << design.message();
+    EXPECT_EQ(design->name, name);
+    EXPECT_NE(design->certainty, stage::Certainty::kUnsaid);
+  }
+}
+
+TEST(GarmentDesign, TheShirtOfTheHowToIsRead) {
+  const auto page = ReadText(test::SourceDir() / "docs/how-to-make-a-garment.md");
+  ASSERT_TRUE(page.ok()) << page.message();
+  const size_t begin = page->find("```json") + 7;
+  const std::string text = page->substr(begin, page->find("```", begin) - begin);
+  const auto design = ParseGarment(text, "shirt/garment.json");
+  ASSERT_TRUE(design.ok()) << design.message();
+  EXPECT_EQ(design->name, "shirt");
+  EXPECT_EQ(design->seams.size(), 4u);
+}
+
+TEST(GarmentDesign, ErrorsNameThePieceOrTheSeam) {
+  const std::pair<Json, const char*> cases[] = {
+      {{{"op", "replace"}, {"path", "/pieces/0/neck"}, {"value", "0.7 * sholder"}},
+       "pieces[0].neck (piece \"front\"): \"sholder\" is no measure"},
+      {{{"op", "replace"}, {"path", "/pieces/1/hem"}, {"value", "1 +"}}, "(piece \"back\")"},
+      {{{"op", "remove"}, {"path", "/pieces/1/neck"}}, "pieces[1]"},
+      {{{"op", "remove"}, {"path", "/pieces/1"}}, "one piece in front and one behind"},
+      {{{"op", "replace"}, {"path", "/pieces/1/placed"}, {"value", "above"}},
+       "piece \"back\" cannot be placed 'above'"},
+      {{{"op", "replace"}, {"path", "/seams/0/from"}, {"value", "colour"}},
+       "(seam \"left shoulder\"): \"colour\" is no measure"},
+      {{{"op", "replace"}, {"path", "/seams/1/pieces/0"}, {"value", "sleeve"}},
+       "seam \"right shoulder\" joins \"sleeve\", which is no piece"},
+      {{{"op", "replace"}, {"path", "/seams/1/pieces/0"}, {"value", "back"}},
+       "seam \"right shoulder\" joins a piece with itself"},
+      {{{"op", "replace"}, {"path", "/seams/2/edge"}, {"value", "bottom"}},
+       "seam \"left side\" cannot be along 'bottom'"},
+      {{{"op", "add"}, {"path", "/sizes/neck"}, {"value", "arm + half_top"}}, ""},
+      {{{"op", "add"}, {"path", "/sizes/half_top"}, {"value", "arm"}}, "depends on itself"},
+      {{{"op", "add"}, {"path", "/sizes/girth"}, {"value", 1}}, "\"girth\" has two meanings"},
+      {{{"op", "replace"}, {"path", "/fabric/colour"}, {"value", "ease"}},
+       "no parameter with a colour"},
+      {{{"op", "replace"}, {"path", "/certainty"}, {"value", "sure"}}, "write attested"},
+      {{{"op", "add"}, {"path", "/pockets"}, {"value", 2}}, "pockets"},
+  };
+  for (const auto& [change, expected] : cases) {
+    const std::string text = TunicFile().patch(Json::array({change})).dump();
+    const auto design = ParseGarment(text, "garments/tunic/garment.json");
+    if (*expected == '\0') {
+      EXPECT_TRUE(design.ok()) << design.message();
+      continue;
+    }
+    ASSERT_FALSE(design.ok()) << change;
+    EXPECT_TRUE(design.message().starts_with("garments/tunic/garment.json")) << design.message();
+    EXPECT_NE(design.message().find(expected), std::string::npos) << design.message();
+  }
+}
+
 Result<GarmentPattern> Parse(const std::string& text) {
   const Json json = *ParseJson(text, "test");
   return ParseFields<GarmentPattern>(JsonView(json, "garments[0]"));
@@ -220,13 +324,12 @@ TEST(GarmentPattern, ReadsWhatARecipeSays) {
           "colour": "#ff0000", "stripes": "broad", "stripe_colour": "purple", "blouse": 0.1,
           "border": true, "wear": 0.7, "one_shoulder": true, "seed": 5})");
   ASSERT_TRUE(pattern.ok()) << pattern.message();
-  EXPECT_EQ(pattern->kind, GarmentKind::kTunic);
-  EXPECT_FLOAT_EQ(pattern->hem, 1.45f);
-  EXPECT_EQ(pattern->sleeve, Sleeve::kElbow);
-  EXPECT_EQ(pattern->belt, Belt::kCord);
-  EXPECT_EQ(pattern->stripes, Stripes::kBroad);
-  EXPECT_EQ(pattern->colour, glm::vec3(1, 0, 0));
-  EXPECT_TRUE(pattern->border && pattern->one_shoulder);
+  EXPECT_EQ(pattern->design->name, "tunic");
+  const std::map<std::string, float, std::less<>> numbers = {
+      {"length", 1.45f},  {"sleeve", 1.0f}, {"belt", 0.014f}, {"ease", 1.8f},        {"wear", 0.7f},
+      {"stripes", 0.07f}, {"blouse", 0.1f}, {"border", 1.0f}, {"one_shoulder", 1.0f}};
+  EXPECT_EQ(pattern->numbers, numbers);
+  EXPECT_EQ(pattern->Colour("colour"), glm::vec3(1, 0, 0));
   EXPECT_EQ(pattern->seed, 5u);
 }
 
@@ -234,7 +337,7 @@ TEST(GarmentPattern, EveryNameHasAPlainPattern) {
   for (const std::string& name : GarmentNames()) {
     const auto pattern = Parse("{\"name\": \"" + name + "\"}");
     ASSERT_TRUE(pattern.ok()) << pattern.message();
-    EXPECT_EQ(NameOf(pattern->kind), name);
+    EXPECT_EQ(pattern->design->name, name);
   }
 }
 
@@ -242,7 +345,7 @@ TEST(GarmentPattern, SaysWhatIsWrongWhereAndWhatIsRight) {
   const std::pair<const char*, const char*> cases[] = {
       {"[]", "must be an object"},
       {"{}", "name"},
-      {R"({"name": "trousers"})", "choose one of: tunic"},
+      {R"({"name": "trousers"})", "choose one of: apron"},
       {R"({"name": "tunic", "colour": "mauve"})", "write #rrggbb or one of"},
       {R"({"name": "tunic", "colour": "#12345g"})", "no dye"},
       {R"({"name": "tunic", "length": "mini"})", "choose one of: thigh"},

@@ -37,4 +37,12 @@ void Divide(int times, Sheet& sheet, DrapedGarment& garment) {
   }
 }
 
+std::vector<const Sheet*> SheetsOf(std::span<const DrapedGarment> worn) {
+  std::vector<const Sheet*> sheets;
+  for (const DrapedGarment& garment : worn) {
+    sheets.push_back(&garment.sheet);
+  }
+  return sheets;
+}
+
 }  // namespace lararium::import

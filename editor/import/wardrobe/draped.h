@@ -6,10 +6,10 @@
 #include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "editor/import/cast/cast_body.h"
-#include "editor/import/wardrobe/garment_pattern.h"
 #include "editor/import/wardrobe/posed_body.h"
 #include "editor/import/wardrobe/sheet.h"
 
@@ -51,5 +51,8 @@ struct DrapedGarment {
 
 // Stores the sheet as the simulated cloth and subdivides it `times` times for drawing.
 void Divide(int times, Sheet& sheet, DrapedGarment& garment);
+
+// The sheets of garments, which must outlive the result.
+std::vector<const Sheet*> SheetsOf(std::span<const DrapedGarment> worn);
 
 }  // namespace lararium::import

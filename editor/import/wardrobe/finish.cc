@@ -365,7 +365,7 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
                               const GarmentPattern& pattern,
                               const FittedBody& body) {
   Garment garment;
-  const std::string name = NameOf(pattern.kind);
+  const std::string& name = pattern.design->name;
   garment.mesh.name = name;
   const std::vector<float> shade = FoldShades(draped.sheet);
   AddSheet(
@@ -383,7 +383,7 @@ Result<Garment> FinishGarment(const DrapedGarment& draped,
   garment.material.surface = human::Surface::kCloth;
   garment.material.roughness = 0.9f;
   garment.material.two_sided = true;
-  const Weave weave = WeaveOf(pattern);
+  const Weave weave = pattern.design->fabric.weave;
   LARARIUM_ASSIGN_OR_RETURN(garment.colour, WeaveColour(weave, pattern.seed));
   LARARIUM_ASSIGN_OR_RETURN(garment.normal, WeaveNormals(weave, pattern.seed));
   if (!draped.reach.empty()) {

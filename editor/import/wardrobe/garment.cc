@@ -2,11 +2,12 @@
 
 #include <utility>
 
+#include "editor/import/wardrobe/around.h"
 #include "editor/import/wardrobe/draped.h"
 #include "editor/import/wardrobe/finish.h"
+#include "editor/import/wardrobe/hung.h"
+#include "editor/import/wardrobe/mantle.h"
 #include "editor/import/wardrobe/sandals.h"
-#include "editor/import/wardrobe/tunic.h"
-#include "editor/import/wardrobe/wrap.h"
 
 namespace lararium::import {
 namespace {
@@ -15,19 +16,18 @@ Result<DrapedGarment> Drape(const GarmentPattern& pattern,
                             const FittedBody& body,
                             std::span<const DrapedGarment> worn,
                             const Progress& progress) {
-  switch (pattern.kind) {
-    case GarmentKind::kTunic:
-    case GarmentKind::kStola:
-      return DrapeTunic(pattern, body, worn, progress);
-    case GarmentKind::kApron:
-      return DrapeApron(pattern, body, worn, progress);
-    case GarmentKind::kToga:
-    case GarmentKind::kPalla:
+  switch (pattern.design->pieces[0].placed) {
+    case Placement::kFront:
+    case Placement::kBack:
+      return DrapeHung(pattern, body, worn, progress);
+    case Placement::kAround:
+      return DrapeAround(pattern, body, worn, progress);
+    case Placement::kMantle:
       return DrapeMantle(pattern, body, worn, progress);
-    case GarmentKind::kSandals:
+    case Placement::kFoot:
       return CutSandals(pattern, body);
   }
-  return Status::Error("garment", "is of an unknown kind");
+  return Status::Error(pattern.design->file.string(), "has a piece of an unknown placement");
 }
 
 Status Continue(const Progress& progress) {

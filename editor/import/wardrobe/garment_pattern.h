@@ -1,55 +1,47 @@
 #pragma once
 
-// The description of a garment: an object in the recipe of a person, written by people.
+// A garment of a person: an object in the recipe, written by people.
 //
 //   { "name": "tunic", "length": "knee", "sleeve": "short", "ease": 1.3, "belt": "leather",
 //     "colour": "ochre", "stripes": "narrow", "stripe_colour": "purple", "seed": 3 }
 //
-// docs/how-to-dress-the-cast.md describes each field.
+// The garment's file (garment_design.h) says which fields there are.
+// docs/how-to-dress-the-cast.md describes those of the garments that come with the editor.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
+#include <memory>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "shared/core/json_fwd.h"
+#include "editor/import/wardrobe/garment_design.h"
+#include "shared/core/json_fields.h"
 
 namespace lararium::import {
 
-enum class GarmentKind : uint8_t { kTunic, kStola, kApron, kToga, kPalla, kSandals };
-
-enum class Sleeve : uint8_t { kNone, kShort, kElbow };
-enum class Stripes : uint8_t { kNone, kNarrow, kBroad };
-enum class Belt : uint8_t { kNone, kCord, kLeather };
-
 struct GarmentPattern {
-  GarmentKind kind = GarmentKind::kTunic;
-  // Height of the hem as a share of the leg: 0 at the hip joint, 1 at the knee, 2 at the sole.
-  float hem = 1.05f;
-  Sleeve sleeve = Sleeve::kShort;
-  bool one_shoulder = false;  // An exomis: the right shoulder is bare.
-  float ease = 1.55f;         // Width of the cloth relative to the largest girth of the body.
-  Belt belt = Belt::kLeather;
-  float blouse = 0.06f;                       // Metres of cloth pulled up over the belt.
-  glm::vec3 colour = glm::vec3(0.6f);         // linear RGB
-  glm::vec3 belt_colour = glm::vec3(0.1f);    // Linear RGB.
-  glm::vec3 stripe_colour = glm::vec3(0.1f);  // Colour of stripes and borders.
-  Stripes stripes = Stripes::kNone;
-  bool border = false;  // A woven band along the hem.
-  float wear = 0.3f;    // 0: new; 1: faded, and dirty at the hem.
+  std::shared_ptr<const GarmentDesign> design;
+  // The values of all parameters of the design, by name.
+  std::map<std::string, float, std::less<>> numbers;      // A flag is 0 or 1.
+  std::map<std::string, glm::vec3, std::less<>> colours;  // Linear RGB.
   uint64_t seed = 1;
+
+  const glm::vec3& Colour(const std::string& parameter) const {
+    return colours.find(parameter)->second;
+  }
 };
-
-// The garment names that a recipe may use: "tunic", ...
-std::vector<std::string> GarmentNames();
-std::string NameOf(GarmentKind kind);
-
-// The words that a field accepts: length, sleeve, belt or stripes; dye names for any other
-// field.
-std::vector<std::string> GarmentWords(std::string_view field);
 
 // Describes a garment, for reading. Errors name the field and the accepted values.
 void DescribeFields(Fields& fields, GarmentPattern& pattern);
+// The same for a design that has been read.
+void DescribeFields(Fields& fields,
+                    std::shared_ptr<const GarmentDesign> design,
+                    GarmentPattern& pattern);
+
+// Describes one of the words of a parameter or a number in its range, for reading.
+void DescribeWordOrNumber(Fields& fields,
+                          const FieldKey& key,
+                          const GarmentParameter& parameter,
+                          float& value);
 
 }  // namespace lararium::import

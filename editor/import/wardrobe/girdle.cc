@@ -41,27 +41,32 @@ std::vector<float> OuterRadius(const Girth& girth, const Sheet& worn, float heig
 
 }  // namespace
 
-float BeltHeight(const GarmentPattern& pattern, const FittedBody& body) {
-  const PosedBody bound = PoseBody(body, {});
-  const auto y = [&](const char* joint) { return JointPlace(body, bound, joint).y; };
-  if (pattern.kind == GarmentKind::kStola) {
-    return y("vt4") + 0.02f * body.height;  // Below the bust.
+Girdle MeasureGirdle(const GarmentPattern& pattern, const Measures& measures) {
+  Girdle girdle;
+  girdle.height = measures.Of("waist");
+  if (const auto& design = pattern.design->girdle) {
+    girdle.tied = measures.IsTrue(design->when, true);
+    girdle.height = measures.Value(design->height, "girdle: height", 0.2f, 2.0f);
+    girdle.lift = measures.Value(design->lift, "girdle: lift", 0.0f, 0.3f);
+    girdle.half = 0.5f * measures.Value(design->width, "girdle: width", 0.0f, 0.3f);
+    girdle.round = measures.IsTrue(design->round, false);
+    girdle.colour = design->shade * pattern.Colour(design->colour);
   }
-  return 0.45f * y("vl5") + 0.55f * y("vt10") - 0.01f * body.height;
+  return girdle;
 }
 
-Trim TieGirdle(const GarmentPattern& pattern,
+Trim TieGirdle(const Girdle& girdle,
                const FittedBody& body,
                const PosedBody& standing,
-               const Sheet& worn,
-               float height) {
-  const bool cord = pattern.belt == Belt::kCord;
-  const float half = cord ? 0.007f : 0.017f;
+               const Sheet& worn) {
+  const float height = girdle.height;
+  const float half = girdle.half;
+  const bool cord = girdle.round;
   const float thick = cord ? 0.009f : 0.004f;
   const Girth girth(body, standing, height, 0.025f);
   const std::vector<float> radius = OuterRadius(girth, worn, height, half + 0.012f);
   Trim trim;
-  trim.colour = pattern.belt_colour;
+  trim.colour = girdle.colour;
   // Around the waist: a section of five points from the lower edge over the outside to the
   // upper edge.
   GridPanel ring;

@@ -218,8 +218,9 @@ Result<DrapedGarment> CutSandals(const GarmentPattern& pattern, const FittedBody
   }
   result.skin = bound.skin;
   TakeWeights(body, bound, WeightSource::kBody, result.sheet);
-  result.dye = [pattern](uint8_t panel, const glm::vec2&) {
-    return panel == kSole ? 0.8f * pattern.colour : pattern.colour;
+  result.dye = [colour = pattern.Colour(pattern.design->fabric.colour)](uint8_t panel,
+                                                                        const glm::vec2&) {
+    return panel == kSole ? 0.8f * colour : colour;
   };
   result.covers = false;
   return result;

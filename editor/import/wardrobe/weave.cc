@@ -87,17 +87,6 @@ Result<human::Texture> Encoded(const char* name, const cv::Mat& image) {
 
 }  // namespace
 
-Weave WeaveOf(const GarmentPattern& pattern) {
-  switch (pattern.kind) {
-    case GarmentKind::kSandals:
-      return Weave::kLeather;
-    case GarmentKind::kApron:
-      return Weave::kLinen;
-    default:
-      return Weave::kWool;
-  }
-}
-
 Result<human::Texture> WeaveColour(Weave weave, uint64_t seed) {
   const WeaveLook look = LookOf(weave);
   Random random(seed, 1);

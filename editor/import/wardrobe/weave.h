@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "editor/import/wardrobe/garment_pattern.h"
 #include "shared/core/status.h"
 #include "shared/human/material.h"
 
@@ -13,8 +12,6 @@ namespace lararium::import {
 inline constexpr float kWeaveTile = 0.24f;  // Metres that an image spans.
 
 enum class Weave : uint8_t { kWool, kLinen, kLeather };
-
-Weave WeaveOf(const GarmentPattern& pattern);
 
 // Nearly white, because the albedo of the vertices holds the dye.
 Result<human::Texture> WeaveColour(Weave weave, uint64_t seed);

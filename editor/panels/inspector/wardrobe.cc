@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "editor/import/wardrobe/dye.h"
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "editor/panels/inspector/recipe_panel.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/widgets.h"
+#include "shared/core/check.h"
 #include "shared/core/lower_case.h"
 #include "shared/core/srgb.h"
 
@@ -21,21 +24,13 @@ namespace {
 
 constexpr size_t kMostGarments = 16;  // Limit of a recipe.
 
-// Fields with a fixed set of values, and the garments that have them (how-to-dress-the-cast.md).
-struct WordField {
-  const char* field;
-  const char* label;
-  std::initializer_list<std::string_view> garments;
-};
-const WordField kWordFields[] = {
-    {"length", TrLater("Length"), {"tunic", "stola", "apron", "toga", "palla"}},
-    {"sleeve", TrLater("Sleeves"), {"tunic", "stola"}},
-    {"belt", TrLater("Belt"), {"tunic", "stola"}},
-    {"stripes", TrLater("Stripes"), {"tunic"}}};
+using import::GarmentParameter;
+using Garments = decltype(editor::CastCatalogue::garments);
 
-bool Has(const WordField& field, const std::string& garment) {
-  return std::find(field.garments.begin(), field.garments.end(), garment) != field.garments.end();
-}
+// The labels that the files of the library give to parameters, for translation.
+[[maybe_unused]] constexpr const char* kParameterLabels[] = {
+    TrLater("Length"), TrLater("Sleeves"), TrLater("Belt"),  TrLater("Stripes"),
+    TrLater("Wear"),   TrLater("Border"),  TrLater("Colour")};
 
 std::string GarmentText(const Json& garment, const char* field) {
   const auto found = garment.find(field);
@@ -47,12 +42,21 @@ std::string GarmentText(const Json& garment, const char* field) {
 
 std::string NameOf(const Json& garment) { return GarmentText(garment, "name"); }
 
-// The present colour of a garment, sRGB; the default of its kind where none is set.
-glm::vec3 ColourOf(const Json& garment) {
-  const auto pattern = ParseFields<import::GarmentPattern>(JsonView(garment, "garment"));
-  const glm::vec3 linear = pattern.ok() ? pattern->colour : glm::vec3(0.5f);
-  return {SrgbFromLinear(linear.x), SrgbFromLinear(linear.y), SrgbFromLinear(linear.z)};
+// The present values of a garment; the usual ones where the recipe has an error.
+import::GarmentPattern PatternOf(const Json& garment,
+                                 const std::shared_ptr<const import::GarmentDesign>& design){
+    import::GarmentPattern pattern;
+const auto read = [&](const Json& json) {
+  return ReadFields(JsonView(json, "garment"),
+                    [&](Fields& fields) { DescribeFields(fields, design, pattern); });
+};
+if (!read(garment).ok()) {
+  pattern = {};
+  const Status plain = read(Json::object());
+  DCHECK(plain.ok());
 }
+return pattern;
+}  // namespace
 
 std::string HexOf(const glm::vec3& srgb) {
   char text[8];
@@ -71,65 +75,102 @@ void Set(Json& garment, const char* field, const std::string& value) {
   }
 }
 
-void ColourRow(editor::Workspace& workspace, Json& garment, RecipeChange& change) {
-  const std::string what = Text(Tr("colour of the %s"), NameOf(garment).c_str());
-  PropertyLabel(Tr("Colour"));
-  std::string dye = GarmentText(garment, "colour");
-  const std::vector<std::string> dyes = import::GarmentWords("colour");
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() -
-                          ImGui::GetStyle().ItemInnerSpacing.x);
-  if (NameCombo("##dye", dye, dyes, Tr("as usual"))) {
-    Set(garment, "colour", dye);
-    change.Choose(what);
-  }
-  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-  glm::vec3 colour = ColourOf(garment);
-  if (Swatch(workspace, "##colour", colour)) {
-    garment["colour"] = HexOf(colour);
-    change.Drag(what);
-  }
-}
+// A row of the window for one parameter of a garment.
+class ParameterRow {
+ public:
+  ParameterRow(editor::Workspace& workspace,
+               const GarmentParameter& parameter,
+               const import::GarmentPattern& pattern,
+               Json& garment,
+               RecipeChange& change)
+      : workspace_(workspace),
+        parameter_(parameter),
+        pattern_(pattern),
+        garment_(garment),
+        change_(change) {}
 
-void WordRows(Json& garment, RecipeChange& change) {
-  for (const WordField& field : kWordFields) {
-    if (!Has(field, NameOf(garment))) {
-      continue;
-    }
-    PropertyLabel(Tr(field.label));
-    ImGui::PushID(field.field);
-    std::string word = GarmentText(garment, field.field);
-    const std::vector<std::string> words = import::GarmentWords(field.field);
-    if (NameCombo("##word", word, words, Tr("as usual"))) {
-      Set(garment, field.field, word);
-      change.Choose(Sentence("%s of the %s", {LowerCase(Tr(field.label)), NameOf(garment)}));
+  void Draw() {
+    ImGui::PushID(parameter_.name.c_str());
+    if (parameter_.type == GarmentParameter::Type::kColour) {
+      DrawColour();
+    } else if (parameter_.type == GarmentParameter::Type::kFlag) {
+      DrawFlag();
+    } else if (!parameter_.words.empty()) {
+      DrawWords();
+    } else {
+      DrawNumber();
     }
     ImGui::PopID();
   }
-}
 
-void WearRow(editor::Workspace& workspace, Json& garment, RecipeChange& change) {
-  if (NameOf(garment) == "sandals") {
-    return;
+ private:
+  const char* Label() const { return Tr(parameter_.label.c_str()); }
+  Sentence What() const { return Sentence("%s of the %s", {LowerCase(Label()), NameOf(garment_)}); }
+
+  void DrawColour() {
+    PropertyLabel(Label());
+    std::string dye = GarmentText(garment_, parameter_.name.c_str());
+    const std::vector<std::string> dyes = import::DyeNames();
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() -
+                            ImGui::GetStyle().ItemInnerSpacing.x);
+    if (NameCombo("##dye", dye, dyes, Tr("as usual"))) {
+      Set(garment_, parameter_.name.c_str(), dye);
+      change_.Choose(What());
+    }
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    const glm::vec3& linear = pattern_.Colour(parameter_.name);
+    glm::vec3 colour(SrgbFromLinear(linear.x), SrgbFromLinear(linear.y), SrgbFromLinear(linear.z));
+    if (Swatch(workspace_, "##colour", colour)) {
+      garment_[parameter_.name] = HexOf(colour);
+      change_.Drag(What());
+    }
   }
-  const auto pattern = ParseFields<import::GarmentPattern>(JsonView(garment, "garment"));
-  double wear = pattern.ok() ? pattern->wear : 0.3;
-  if (SliderProperty(workspace, Tr("Wear"), wear, 0.0, 1.0, "%.2f")) {
-    garment["wear"] = std::round(wear * 100.0) / 100.0;
-    change.Drag(Sentence("wear of the %s", {NameOf(garment)}));
+
+  void DrawFlag() {
+    bool flag = pattern_.numbers.find(parameter_.name)->second != 0.0f;
+    PropertyLabel(Label());
+    if (ImGui::Checkbox("##flag", &flag)) {
+      garment_[parameter_.name] = flag;
+      change_.Choose(What());
+    }
   }
-  bool border = pattern.ok() && pattern->border;
-  PropertyLabel(Tr("Border"));
-  if (ImGui::Checkbox("##border", &border)) {
-    garment["border"] = border;
-    change.Choose(Sentence("border of the %s", {NameOf(garment)}));
+
+  void DrawWords() {
+    PropertyLabel(Label());
+    std::string word = GarmentText(garment_, parameter_.name.c_str());
+    std::vector<std::string> words;
+    for (const GarmentParameter::Word& known : parameter_.words) {
+      words.push_back(known.word);
+    }
+    if (NameCombo("##word", word, words, Tr("as usual"))) {
+      Set(garment_, parameter_.name.c_str(), word);
+      change_.Choose(What());
+    }
   }
-}
+
+  void DrawNumber() {
+    double value = pattern_.numbers.find(parameter_.name)->second;
+    if (SliderProperty(workspace_, Label(), value, parameter_.from, parameter_.to, "%.2f")) {
+      garment_[parameter_.name] = std::round(value * 100.0) / 100.0;
+      change_.Drag(What());
+    }
+  }
+
+  editor::Workspace& workspace_;
+  const GarmentParameter& parameter_;
+  const import::GarmentPattern& pattern_;
+  Json& garment_;
+  RecipeChange& change_;
+};
 
 enum class Order { kStay, kUp, kTakeOff };
 
 // Another kind of garment keeps only the colour, because its fields differ.
-Order Header(Json& garment, bool first, RecipeChange& change) {
-  const std::vector<std::string> names = import::GarmentNames();
+Order Header(const Garments& garments, Json& garment, bool first, RecipeChange& change) {
+  std::vector<std::string> names;
+  for (const auto& [known, design] : garments) {
+    names.push_back(known);
+  }
   std::string name = NameOf(garment);
   const float button = ImGui::GetFrameHeight();
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -153,26 +194,35 @@ Order Header(Json& garment, bool first, RecipeChange& change) {
   return up ? Order::kUp : off ? Order::kTakeOff : Order::kStay;
 }
 
-Order DrawGarment(editor::Workspace& workspace, Json& garment, bool first, RecipeChange& change) {
-  const Order order = Header(garment, first, change);
+Order DrawGarment(editor::Workspace& workspace,
+                  const Garments& garments,
+                  Json& garment,
+                  bool first,
+                  RecipeChange& change) {
+  const Order order = Header(garments, garment, first, change);
   if (BeginProperties("garment")) {
-    ColourRow(workspace, garment, change);
-    WordRows(garment, change);
-    WearRow(workspace, garment, change);
+    if (const auto found = garments.find(NameOf(garment)); found != garments.end()) {
+      const import::GarmentPattern pattern = PatternOf(garment, found->second);
+      for (const GarmentParameter& parameter : found->second->parameters) {
+        if (!parameter.label.empty()) {
+          ParameterRow(workspace, parameter, pattern, garment, change).Draw();
+        }
+      }
+    }
     EndProperties();
   }
   ImGui::Separator();
   return order;
 }
 
-void AddGarment(import::CastRecipe& recipe, RecipeChange& change) {
+void AddGarment(const Garments& garments, import::CastRecipe& recipe, RecipeChange& change) {
   ImGui::BeginDisabled(recipe.garments.size() >= kMostGarments);
   if (ImGui::Button(Tr("Put something on\xe2\x80\xa6"), ImVec2(-FLT_MIN, 0))) {
     ImGui::OpenPopup("garments");
   }
   ImGui::EndDisabled();
   if (ImGui::BeginPopup("garments")) {
-    for (const std::string& name : import::GarmentNames()) {
+    for (const auto& [name, design] : garments) {
       if (ImGui::Selectable(name.c_str())) {
         recipe.garments.push_back({{"name", name}});
         change.Choose(name);
@@ -182,12 +232,17 @@ void AddGarment(import::CastRecipe& recipe, RecipeChange& change) {
   }
 }
 
-}  // namespace
+}  // namespace lararium::panels
 
 void DrawWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change) {
+  const editor::CastCatalogue* catalogue = workspace.cast().catalogue();
+  if (catalogue == nullptr) {
+    return;
+  }
   for (size_t i = 0; i < recipe.garments.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    const Order order = DrawGarment(workspace, recipe.garments[i], i == 0, change);
+    const Order order =
+        DrawGarment(workspace, catalogue->garments, recipe.garments[i], i == 0, change);
     ImGui::PopID();
     const auto at = recipe.garments.begin() + static_cast<std::ptrdiff_t>(i);
     if (order == Order::kUp) {
@@ -199,7 +254,7 @@ void DrawWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, Reci
       break;
     }
   }
-  AddGarment(recipe, change);
+  AddGarment(catalogue->garments, recipe, change);
 }
 
 }  // namespace lararium::panels

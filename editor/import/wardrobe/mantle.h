@@ -1,6 +1,6 @@
 #pragma once
 
-// Garments that are wrapped around the body over a tunic.
+// Mantles, which are wrapped around the body and over the left shoulder.
 //
 // Toga and palla begin at the left shoulder in front, cross the back, pass under the right arm
 // and return across the chest over the left shoulder, where the rest hangs down behind. The
@@ -22,10 +22,5 @@ Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
                                   const FittedBody& body,
                                   std::span<const DrapedGarment> worn,
                                   const Progress& progress);
-
-Result<DrapedGarment> DrapeApron(const GarmentPattern& pattern,
-                                 const FittedBody& body,
-                                 std::span<const DrapedGarment> worn,
-                                 const Progress& progress);
 
 }  // namespace lararium::import

@@ -1,4 +1,4 @@
-#include "editor/import/wardrobe/wrap.h"
+#include "editor/import/wardrobe/mantle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "editor/import/wardrobe/drape.h"
-#include "editor/import/wardrobe/folds.h"
-#include "editor/import/wardrobe/girdle.h"
+#include "editor/import/wardrobe/measures.h"
 #include "editor/import/wardrobe/outline.h"
 #include "editor/import/wardrobe/skin_weights.h"
 #include "shared/core/random.h"
@@ -17,16 +16,11 @@
 namespace lararium::import {
 namespace {
 
-std::vector<const Sheet*> SheetsOf(std::span<const DrapedGarment> worn) {
-  std::vector<const Sheet*> sheets;
-  for (const DrapedGarment& garment : worn) {
-    sheets.push_back(&garment.sheet);
-  }
-  return sheets;
-}
 // Angles about the axis of the body, as in Girth: 0 is the back, then right, front and left.
 constexpr float kRight = 0.5f * kPiF;
 constexpr float kLeft = 1.5f * kPiF;
+
+constexpr float kUnsoiled = 10.0f;  // Metres from the hem.
 
 // A knot of a curve through points at increasing angles, with smooth steps between them.
 struct Knot {
@@ -56,11 +50,17 @@ class MantleDraper {
         standing_(PoseBody(body, StandingTurns(body, 1.0f))),
         worn_(SheetsOf(worn)),
         outline_(body, standing_, worn_, true),
-        toga_(pattern.kind == GarmentKind::kToga),
+        measures_(pattern, body, standing_, 0.012f),
         scale_(body.height / 1.7f) {
     const auto y = [&](const char* joint) { return JointPlace(body_, standing_, joint).y; };
-    hem_ = pattern.hem < 1.0f ? glm::mix(y("r_hip"), y("r_knee"), pattern.hem)
-                              : glm::mix(y("r_knee"), 0.0f, pattern.hem - 1.0f);
+    const Piece& piece = pattern.design->pieces[0];
+    const std::string what = "piece \"" + piece.name + "\": ";
+    hem_ = measures_.Value(piece.hem, what + "hem", 0.0f, 2.0f);
+    sinus_ = measures_.IsTrue(piece.sinus, false);
+    if (pattern.design->bands) {
+      border_ = measures_.IsTrue(pattern.design->bands->border, false);
+    }
+    colour_ = pattern.Colour(pattern.design->fabric.colour);
     shoulder_ = ShoulderTop() + 0.012f;
     knee_ = y("r_knee");
     const float waist = y("vl1");
@@ -69,20 +69,18 @@ class MantleDraper {
               {-0.5f * kPiF, shoulder_ - 0.012f},
               {-0.2f * kPiF, glm::mix(chest, shoulder_, 0.75f)},
               {0.15f * kPiF, glm::mix(chest, waist, 0.0f)},
-              {kRight, glm::mix(chest, waist, toga_ ? 0.85f : 0.5f)},
-              {0.8f * kPiF, glm::mix(chest, waist, toga_ ? 0.55f : 0.2f)},
+              {kRight, glm::mix(chest, waist, sinus_ ? 0.85f : 0.5f)},
+              {0.8f * kPiF, glm::mix(chest, waist, sinus_ ? 0.55f : 0.2f)},
               {1.2f * kPiF, glm::mix(chest, shoulder_, 0.45f)},
               {kLeft, shoulder_ + 0.008f},
               {1.75f * kPiF, shoulder_ - 0.03f * scale_}};
   }
 
-  DrapedGarment Drape() {
+  Result<DrapedGarment> Drape() {
+    LARARIUM_RETURN_IF_ERROR(measures_.error());
     LayOut();
-    DrapeMaterial material;
-    material.gap = 0.012f;
+    DrapeMaterial material = pattern_.design->fabric.material;
     material.own_gap = 0.016f;
-    material.bend = 0.02f;
-    material.friction = 0.8f;
     DrapedGarment result;
     Settle(material, 40, 0.0125f);
     const std::vector<float> distances =
@@ -143,8 +141,8 @@ class MantleDraper {
     const float rise_back = glm::smoothstep(1.4f * kPiF, 1.78f * kPiF, angle);
     const float left_hand = std::exp(-std::pow((angle - kLeft) / 0.5f, 2.0f)) +
                             std::exp(-std::pow((angle + 0.5f * kPiF) / 0.5f, 2.0f));
-    return hem_ + scale_ * ((toga_ ? -0.04f : 0.10f) * rise_front + 0.25f * rise_back +
-                            (toga_ ? 0.0f : 0.05f) * left_hand);
+    return hem_ + scale_ * ((sinus_ ? -0.04f : 0.10f) * rise_front + 0.25f * rise_back +
+                            (sinus_ ? 0.0f : 0.05f) * left_hand);
   }
 
   // Radius of cloth that does not follow every edge of its support.
@@ -195,7 +193,7 @@ class MantleDraper {
   void LayOut() {
     Random random(pattern_.seed, 3);
     panels_ = {{33, 12, glm::vec2(3.1f, 1.1f) * scale_}};
-    if (toga_) {
+    if (sinus_) {
       panels_.push_back({17, 7, glm::vec2(1.5f, 0.55f) * scale_});
     }
     for (uint8_t panel = 0; panel < panels_.size(); ++panel) {
@@ -268,26 +266,22 @@ class MantleDraper {
         result.reach[sheet_.particle[v]] = 0.0f;
       }
     }
-    const GarmentPattern pattern = pattern_;
     const float rows = panels_[0].size.y;
-    const float bow = toga_ ? panels_[1].size.y : 0.0f;
+    const float bow = sinus_ ? panels_[1].size.y : 0.0f;
     const float row = panels_[0].size.y / (4.0f * float(panels_[0].rows - 1));
     MarkBands(sheet_, [&](uint8_t panel, const glm::vec2& middle) {
-      return pattern.border && (panel == 0 ? rows : bow) - middle.y < 2.99f * row;
+      return border_ && (panel == 0 ? rows : bow) - middle.y < 2.99f * row;
     });
-    result.dye = [=](uint8_t panel, const glm::vec2& flat) {
+    result.dye = [rows, dyer = Dyer(pattern_, measures_)](uint8_t panel, const glm::vec2& flat) {
       const bool is_wrap = (panel & ~kBand) == 0;
-      const float from_hem = (is_wrap ? rows : bow) - flat.y;
-      const float soil =
-          is_wrap ? pattern.wear * std::clamp(1.0f - from_hem / 0.2f, 0.0f, 1.0f) : 0.0f;
-      return ((panel & kBand) != 0 ? pattern.stripe_colour : pattern.colour) * (1.0f - 0.3f * soil);
+      return dyer.At((panel & kBand) != 0, is_wrap ? rows - flat.y : kUnsoiled);
     };
     result.covers_left_of = JointPlace(body_, standing_, "l_shoulder").x - 0.005f;
     result.covers_above = JointPlace(body_, standing_, "l_elbow").y - 0.05f;
     result.loose_margin = std::clamp(0.4f * hem_, 0.05f, 0.18f);
-    result.wraps = toga_;  // A palla lets the stola below it swing.
+    result.wraps = sinus_;  // A palla lets the stola below it swing.
     result.cover_margin = 0.03f;
-    if (toga_) {
+    if (sinus_) {
       result.trims.push_back(RollBalteus());
       result.trims.push_back(PullUmbo());
       result.trims.push_back(ThrowEnd(result.trims));
@@ -306,7 +300,7 @@ class MantleDraper {
   // The upper edge is gathered into a flat band of overlapping folds.
   Trim RollBalteus() const {
     Trim trim;
-    trim.colour = pattern_.colour;
+    trim.colour = colour_;
     GridPanel roll;
     roll.columns = 36;
     roll.rows = 25;
@@ -338,7 +332,7 @@ class MantleDraper {
   // over it in small bows.
   Trim PullUmbo() const {
     Trim trim;
-    trim.colour = pattern_.colour;
+    trim.colour = colour_;
     GridPanel pouch;
     pouch.columns = 17;
     pouch.rows = 17;
@@ -420,7 +414,7 @@ class MantleDraper {
     }
     SmoothGrid(kColumns, kRows, reaches);
     Trim end;
-    end.colour = pattern_.colour;
+    end.colour = colour_;
     GridPanel grid;
     grid.columns = kColumns;
     grid.rows = kRows;
@@ -465,13 +459,16 @@ class MantleDraper {
     SmoothWeights(trim.sheet, 6, distances);
   }
 
-  const GarmentPattern pattern_;
+  const GarmentPattern& pattern_;
   const Progress& progress_;
   const FittedBody& body_;
   PosedBody standing_;
   std::vector<const Sheet*> worn_;
   Outline outline_;
-  bool toga_;
+  Measures measures_;
+  bool sinus_ = false;
+  bool border_ = false;
+  glm::vec3 colour_ = glm::vec3(0.0f);
   float scale_;
   float hem_ = 0.3f;
   float shoulder_ = 1.4f;
@@ -482,144 +479,6 @@ class MantleDraper {
   std::vector<bool> held_;
 };
 
-// A square of cloth, gathered on a cord around the waist.
-class ApronDraper {
- public:
-  ApronDraper(const GarmentPattern& pattern,
-              const FittedBody& body,
-              std::span<const DrapedGarment> worn,
-              const Progress& progress)
-      : pattern_(pattern),
-        progress_(progress),
-        body_(body),
-        standing_(PoseBody(body, StandingTurns(body, 1.0f))),
-        worn_(SheetsOf(worn)),
-        outline_(body, standing_, worn_, false),
-        wave_(kFolds, pattern.seed + 5) {
-    const auto y = [&](const char* joint) { return JointPlace(body_, standing_, joint).y; };
-    hem_ = pattern.hem < 1.0f ? glm::mix(y("r_hip"), y("r_knee"), pattern.hem)
-                              : glm::mix(y("r_knee"), 0.0f, pattern.hem - 1.0f);
-    top_ = BeltHeight(pattern, body) - 0.03f;
-    waist_ = y("vl1");
-    MeasureFolds();
-  }
-
-  DrapedGarment Drape() {
-    LayOut();
-    DrapedGarment result;
-    Settle(100, 0.0125f, 0.014f);
-    const std::vector<float> distances =
-        TakeWeights(body_, standing_, WeightSource::kArmless, sheet_);
-    SmoothWeights(sheet_, 8, distances);
-    Divide(1, sheet_, result);
-    Settle(40, 0.01f, 0.008f);
-    std::copy_n(sheet_.positions.begin(), result.coarse_positions.size(),
-                result.coarse_positions.begin());
-    Finish(result);
-    return result;
-  }
-
- private:
-  static constexpr int kFolds = 14;  // Folds in a full turn.
-  static constexpr float kHalfTurn = 0.50f * kPiF;
-  static constexpr float kFullness = 1.22f;  // Width of the cloth relative to its span.
-
-  float Angle(float across) const { return kPiF + kHalfTurn * across; }
-  glm::vec3 Curve(float across, float out, float height) const {
-    const float angle = Angle(across);
-    return outline_.Place(angle, outline_.Hanging(angle, top_, height) + 0.014f + out, height);
-  }
-
-  void MeasureFolds() {
-    const float middle = 0.5f * (top_ + hem_);
-    const auto curve = [&](float share, float out) {
-      return Curve(2.0f * share - 1.0f, out, middle);
-    };
-    float span = 0.0f;
-    for (int i = 0; i < 60; ++i) {
-      span += glm::distance(curve(float(i) / 60.0f, 0.0f), curve(float(i + 1) / 60.0f, 0.0f));
-    }
-    width_ = kFullness * span;
-    depth_ = FoldDepth(curve, wave_, 0.0f, 1.0f, width_, 0.03f);
-  }
-
-  void LayOut() {
-    Random random(pattern_.seed, 5);
-    GridPanel grid;
-    grid.columns = 23;
-    grid.rows = 1 + static_cast<size_t>(std::round((top_ - hem_) / (0.05f * body_.height / 1.7f)));
-    grid.flat = [&](size_t column, size_t row) {
-      return glm::vec2(width_ * float(column) / float(grid.columns - 1),
-                       (top_ - hem_) * float(row) / float(grid.rows - 1));
-    };
-    grid.place = [&](size_t column, size_t row) {
-      const float share = float(column) / float(grid.columns - 1);
-      const float down = float(row) / float(grid.rows - 1);
-      // Gathered on the cord, slightly longer at the corners.
-      const float across = 2.0f * share - 1.0f;
-      const float height = glm::mix(top_, hem_ - 0.02f * across * across, down);
-      const float fold = depth_ * glm::mix(0.3f, 1.0f, glm::smoothstep(0.0f, 0.5f, down));
-      return Curve(across, fold * (1.0f + wave_.At(share)) + 0.001f * float(random.Normal()),
-                   height);
-    };
-    AddPanel(sheet_, grid, 0);
-  }
-
-  void Settle(int steps, float cell, float own_gap) {
-    DrapeMaterial material;
-    material.gap = 0.012f;
-    material.own_gap = own_gap;
-    const BodyField field = FieldOver(standing_, worn_, cell, 3.0f * cell);
-    Draper draper(sheet_, material, progress_);
-    draper.TakeLengths(1.01f);
-    draper.gravity = 1.5f;
-    for (uint32_t p = 0; p < sheet_.positions.size(); ++p) {
-      if (sheet_.flat[p].y < 1e-4f) {
-        draper.pins.push_back({p, sheet_.positions[p], 1.0f});
-      }
-    }
-    draper.Run(steps, field);
-  }
-
-  void Finish(DrapedGarment& result) {
-    result.skin = standing_.skin;
-    for (const glm::vec3& p : sheet_.positions) {
-      const float below = std::min(top_ - 0.05f, waist_) - p.y;
-      result.reach.push_back(below <= 0.0f ? 0.0f : 0.015f + 0.5f * below);
-    }
-    const float length = top_ - hem_;
-    result.dye = [pattern = pattern_, length](uint8_t, const glm::vec2& flat) {
-      const float stain = pattern.wear * glm::smoothstep(0.35f, 1.0f, flat.y / length);
-      return pattern.colour * (1.0f - 0.22f * stain);
-    };
-    GarmentPattern cord = pattern_;
-    cord.belt = Belt::kCord;
-    cord.belt_colour = 0.85f * pattern_.colour;
-    // The cord goes around the garment and the garments below.
-    Sheet all = sheet_;
-    for (const Sheet* below : worn_) {
-      all.positions.insert(all.positions.end(), below->positions.begin(), below->positions.end());
-    }
-    result.trims.push_back(TieGirdle(cord, body_, standing_, all, top_ - 0.008f));
-    result.sheet = std::move(sheet_);
-    result.cover_margin = 0.03f;
-  }
-
-  const GarmentPattern pattern_;
-  const Progress& progress_;
-  const FittedBody& body_;
-  PosedBody standing_;
-  std::vector<const Sheet*> worn_;
-  Outline outline_;
-  FoldWave wave_;
-  float hem_ = 0.5f;
-  float top_ = 1.0f;
-  float waist_ = 1.0f;
-  float width_ = 0.6f;
-  float depth_ = 0.01f;
-  Sheet sheet_;
-};
-
 }  // namespace
 
 Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
@@ -627,13 +486,6 @@ Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
                                   std::span<const DrapedGarment> worn,
                                   const Progress& progress) {
   return MantleDraper(pattern, body, worn, progress).Drape();
-}
-
-Result<DrapedGarment> DrapeApron(const GarmentPattern& pattern,
-                                 const FittedBody& body,
-                                 std::span<const DrapedGarment> worn,
-                                 const Progress& progress) {
-  return ApronDraper(pattern, body, worn, progress).Drape();
 }
 
 }  // namespace lararium::import

@@ -1,0 +1,97 @@
+#include "editor/import/wardrobe/measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "editor/import/wardrobe/draped.h"
+#include "editor/import/wardrobe/shoulder_line.h"
+
+namespace lararium::import {
+namespace {
+
+struct JointHeight {
+  std::string_view measure;
+  const char* joint;
+};
+constexpr JointHeight kHeights[] = {{"chest", "vt4"}, {"ribs", "vt10"}, {"waist", "vl1"},
+                                    {"loins", "vl5"}, {"hip", "r_hip"}, {"knee", "r_knee"}};
+constexpr std::array<std::string_view, 10> kMeasures = {
+    "chest", "ribs", "waist", "loins", "hip", "knee", "height", "girth", "shoulder", "upper_arm"};
+
+}  // namespace
+
+std::span<const std::string_view> MeasureNames() { return kMeasures; }
+
+Measures::Measures(const GarmentPattern& pattern,
+                   const FittedBody& body,
+                   const PosedBody& laid,
+                   float above)
+    : pattern_(pattern) {
+  for (const JointHeight& height : kHeights) {
+    values_.emplace(height.measure, JointPlace(body, laid, height.joint).y);
+  }
+  const glm::vec3 shoulder = JointPlace(body, laid, "r_shoulder");
+  const PosedBody standing = PoseBody(body, StandingTurns(body, 1.0f));
+  float girth = 0.0f;
+  for (float y = Of("knee"); y < shoulder.y; y += 0.03f) {
+    girth = std::max(girth, Girth(body, standing, y, 0.03f).Length());
+  }
+  values_.emplace("height", body.height);
+  values_.emplace("girth", girth);
+  values_.emplace("shoulder", ShoulderLine(body, laid, above).LengthTo(shoulder.x));
+  values_.emplace("upper_arm", glm::distance(shoulder, JointPlace(body, laid, "r_elbow")));
+}
+
+float Measures::Value(
+    const Formula& formula, std::string_view what, float least, float most, float otherwise) const {
+  if (formula.empty()) {
+    return otherwise;
+  }
+  const float value = formula.Value([this](std::string_view name) { return ValueOf(name); });
+  if (value >= least && value <= most) {
+    return value;
+  }
+  if (error_.ok()) {
+    error_ = Status::Error(
+        pattern_.design->file.string(),
+        std::string(what) + " is " + std::to_string(value) + " on this body",
+        "write a formula from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+  return std::isfinite(value) ? std::clamp(value, least, most) : least;
+}
+
+bool Measures::IsTrue(const Formula& formula, bool otherwise) const {
+  return formula.empty()
+             ? otherwise
+             : formula.Value([this](std::string_view name) { return ValueOf(name); }) != 0.0f;
+}
+
+float Measures::ValueOf(std::string_view name) const {
+  const auto known = values_.find(name);
+  if (known != values_.end()) {
+    return known->second;
+  }
+  const auto set = pattern_.numbers.find(name);
+  if (set != pattern_.numbers.end()) {
+    return set->second;
+  }
+  const auto size = pattern_.design->sizes.find(name);
+  const float value = size->second.Value([this](std::string_view used) { return ValueOf(used); });
+  values_.emplace(name, value);
+  return value;
+}
+
+Dyer::Dyer(const GarmentPattern& pattern, const Measures& measures)
+    : colour_(pattern.Colour(pattern.design->fabric.colour)),
+      band_colour_(pattern.design->bands ? pattern.Colour(pattern.design->bands->colour) : colour_),
+      soil_(measures.Value(pattern.design->fabric.soil, "fabric: soil", 0.0f, 1.0f)),
+      soil_height_(pattern.design->fabric.soil_height) {}
+
+glm::vec3 Dyer::At(bool band, float from_hem) const {
+  const float soil = soil_ * std::clamp(1.0f - from_hem / soil_height_, 0.0f, 1.0f);
+  return (band ? band_colour_ : colour_) * (1.0f - soil);
+}
+
+}  // namespace lararium::import
