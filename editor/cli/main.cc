@@ -95,6 +95,9 @@ struct Runner {
     return RunRender(options, progress, log);
   }
   Result<CommandResult> operator()(const PortraitOptions& options) { return RunPortrait(options); }
+  Result<CommandResult> operator()(const WardrobeOptions& options) {
+    return RunWardrobe(options, progress);
+  }
   Result<CommandResult> operator()(const ReferenceOptions& options) {
     return RunReference(options, progress, log);
   }

@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "editor/cli/command_table.h"
+#include "editor/import/cast/cast_presets.h"
+#include "editor/import/wardrobe/garment_design.h"
 
 namespace lararium::editor {
 
@@ -46,6 +48,25 @@ void ParseSize(const std::string& text, PortraitOptions& portrait) {
       std::clamp(portrait.width, 16, kLargest) != portrait.width ||
       std::clamp(portrait.height, 16, kLargest) != portrait.height) {
     throw CLI::ValidationError("--size", "takes WxH, from 16 to 4096 pixels");
+  }
+}
+
+void AddWardrobe(CLI::App* command, WardrobeOptions& wardrobe) {
+  command->add_option("--check", wardrobe.check, "Check this file garment.json")
+      ->check(CLI::ExistingFile);
+  command->add_option("--picture", wardrobe.picture, "Picture this garment of the library")
+      ->check(CLI::IsMember(import::GarmentNames()));
+  command->add_option("--on", wardrobe.on, "Who wears it in the picture")
+      ->check(CLI::IsMember(import::CastPresetNames()));
+  command->add_option("--out", wardrobe.out, "The picture (.png, .jpg)");
+}
+
+void CheckWardrobe(const WardrobeOptions& wardrobe) {
+  if (wardrobe.picture.empty() != wardrobe.out.empty()) {
+    throw CLI::ValidationError("--picture", "needs --out, and --out needs it");
+  }
+  if (!wardrobe.check.empty() && !wardrobe.picture.empty()) {
+    throw CLI::ValidationError("--picture", "excludes --check");
   }
 }
 
@@ -184,6 +205,7 @@ void AddShowCommands(CommandTable& table) {
   table.Add("check", "Find every problem", AddCheck);
   table.Add("render", "Composite the show into a recording", AddRender, CheckRender);
   table.Add("portrait", "Picture people and things in a studio", AddPortrait);
+  table.Add("wardrobe", "List, check and picture garments", AddWardrobe, CheckWardrobe);
   table.Add("reference", "Path-trace a moment of a show, or a person in a probe's light",
             AddReference);
   table.Add("export", "Pack the show", AddExport, CheckExport);

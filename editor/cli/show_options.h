@@ -10,6 +10,7 @@
 #include "editor/check/dry_run.h"
 #include "editor/jobs/portrait.h"
 #include "editor/jobs/reference.h"
+#include "editor/jobs/wardrobe.h"
 
 namespace lararium::editor {
 

@@ -310,6 +310,18 @@ TEST(EditorOptions, PortraitsShowPeopleStandingWalkingOrInAClip) {
   EXPECT_THAT(Refusal({"portrait", file, "--out", "p.png", "--view", "top"}), HasSubstr("--view"));
 }
 
+TEST(EditorOptions, AGarmentIsCheckedOrPicturedOnAPreset) {
+  const auto listed = Parsed<WardrobeOptions>({"wardrobe"});
+  EXPECT_TRUE(listed.check.empty() && listed.picture.empty());
+  const auto pictured =
+      Parsed<WardrobeOptions>({"wardrobe", "--picture", "tunic", "--on", "girl", "--out", "t.png"});
+  EXPECT_EQ(pictured.picture, "tunic");
+  EXPECT_EQ(pictured.on, "girl");
+  EXPECT_THAT(Refusal({"wardrobe", "--picture", "tunic"}), HasSubstr("--out"));
+  EXPECT_THAT(Refusal({"wardrobe", "--picture", "spacesuit", "--out", "t.png"}),
+              HasSubstr("spacesuit"));
+}
+
 TEST(EditorOptions, CastChangesWhatIsGivenOfSomebodyNamed) {
   const auto cast = Parsed<CastOptions>({"cast", "p", "--name", "ada", "--voice-rate", "120",
                                          "--bone", "l_hip=LeftUpLeg", "--bone", "r_hip="});

@@ -1,0 +1,24 @@
+#pragma once
+
+// The garments of the library: lists them, checks a file, and pictures one on a person.
+
+#include <filesystem>
+#include <string>
+
+#include "editor/text/command_result.h"
+#include "shared/core/progress.h"
+#include "shared/core/status.h"
+
+namespace lararium::editor {
+
+struct WardrobeOptions {
+  std::filesystem::path check = {};  // A file garment.json; empty: none.
+  std::string picture = {};          // A garment of the library; empty: none.
+  std::string on = "server";         // The preset that wears it.
+  std::filesystem::path out = {};    // The picture.
+};
+
+// Without a file and a garment, lists the library.
+Result<CommandResult> RunWardrobe(const WardrobeOptions& options, Progress& progress);
+
+}  // namespace lararium::editor
