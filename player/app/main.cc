@@ -175,9 +175,12 @@ int main(int argc, char** argv) {
   }
   const StaffLinks staff = {*page != nullptr ? (*page)->link() : -1,
                             *fleet != nullptr ? (*fleet)->link() : -1};
-  const bool in_group = *fleet != nullptr && (*fleet)->in_group();
+  PlayLinks links = {.staff = staff, .in_group = *fleet != nullptr && (*fleet)->in_group()};
+  if (*updater != nullptr) {
+    links.look_for_update = [&updater] { (*updater)->LookNow(); };
+  }
   if (!play->kiosk.enabled) {
-    return Report(Play(*play, start, **log, {.staff = staff, .in_group = in_group}), **log);
+    return Report(Play(*play, start, **log, links), **log);
   }
   std::optional<Curtain> curtain;
   if (!play->display.headless && play->display.mode != Display::kOpenXr) {
@@ -185,10 +188,9 @@ int main(int argc, char** argv) {
   }
   const auto child = [&](const ChildStart& number, Heartbeat& heartbeat) {
     const auto begun = number.number == 0 ? start : std::chrono::steady_clock::now();
-    return Report(
-        PlayNewest(*play, begun, **log,
-                   {.start = number, .heartbeat = heartbeat, .staff = staff, .in_group = in_group}),
-        **log);
+    links.start = number;
+    links.heartbeat = heartbeat;
+    return Report(PlayNewest(*play, begun, **log, links), **log);
   };
   return Supervise(child, {}, **log);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 #include "player/app/options.h"
 #include "player/kiosk/watchdog.h"
@@ -19,9 +20,10 @@ struct PlayLinks {
   // A kiosk has these two (watchdog.h).
   ChildStart start = {};
   Heartbeat heartbeat = Heartbeat();
-  StaffLinks staff = {};           // Links to the processes that show its state.
-  UpdateWatch* updates = nullptr;  // nullptr: there are no updates.
-  bool in_group = false;           // The fleet's process plays one drama with other devices.
+  StaffLinks staff = {};                       // Links to the processes that show its state.
+  UpdateWatch* updates = nullptr;              // nullptr: there are no updates.
+  std::function<void()> look_for_update = {};  // Empty: there are no updates.
+  bool in_group = false;  // The fleet's process plays one drama with other devices.
 };
 
 // Runs a show until its source ends, the window closes, the process gets SIGINT or SIGTERM, or it

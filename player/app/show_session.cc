@@ -101,6 +101,7 @@ ShowSession::ShowSession(const PlayOptions& options,
       restarts_(links.start.number),
       quality_(static_cast<size_t>(options.quality.value_or(0))),
       updates_(links.updates),
+      look_for_update_(links.look_for_update),
       maker_(options.bundle, DramaOptionsOf(options, links.in_group), log) {
   GroupPort port;
   if (links.in_group && !lock_step()) {
@@ -173,6 +174,7 @@ Status ShowSession::Prepare() {
 // Dramas are the same where the show, the program and the seed are.
 Status ShowSession::JoinGroup(const show::ShowContent& content) {
   if (!feed_) {
+    controls_->SetMarkers(MarkersOf(content.drama));
     return Status();
   }
   if (!options_.visitor.empty() || !options_.output.visitor_log.empty()) {
@@ -300,6 +302,11 @@ void ShowSession::TakeInput() {
   if (staff_) {
     for (const StaffCommand& command : staff_->link().TakeCommands()) {
       controls_->Obey(command, Now());
+      if (command.update && look_for_update_) {
+        look_for_update_();
+      } else if (command.update) {
+        log_.Warn("no updates are looked for: the player was started without --updates");
+      }
     }
   }
   SetVolume();

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -107,6 +108,7 @@ class ShowSession {
   std::optional<VisitorControls> controls_;  // The constructor always sets it.
   std::optional<StaffReporter> staff_;       // nullopt: neither a staff page nor a fleet.
   UpdateWatch* updates_;                     // nullptr: no updates
+  std::function<void()> look_for_update_;    // Empty: no updates.
   int64_t told_statistics_ = -1;
   std::optional<Recorder> recorder_;
   std::optional<HeapKeeper> heap_keeper_;      // Set after the first pictures.

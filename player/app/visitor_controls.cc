@@ -1,5 +1,6 @@
 #include "player/app/visitor_controls.h"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -20,7 +21,7 @@ VisitorControls::VisitorControls(const ChoiceOptions& options,
                                  const KioskOptions& kiosk,
                                  const ChildStart& start,
                                  Log& log)
-    : options_(options) {
+    : options_(options), log_(log) {
   if (kiosk.enabled) {
     kiosk_.emplace(kiosk.state.empty() ? DefaultStateFolder() : kiosk.state, start, log);
     kiosk_->SetVisit({.longest = 60.0 * kiosk.visit_minutes});
@@ -110,6 +111,12 @@ void VisitorControls::Obey(const StaffCommand& command, double now) {
   if (command.action) {
     Do(*command.action, now);
   }
+  if (command.hold && markers_) {
+    Hold(*command.hold);
+  }
+  if (!command.go_to.empty() && markers_) {
+    GoTo(command.go_to);
+  }
   restarts_ = restarts_ || (command.begin_again && kiosk_);
   ends_ = ends_ || command.end || restarts_;
 }
@@ -140,6 +147,7 @@ void VisitorControls::AfterFrame(const show::StagedFrame& staged, double shown) 
   kiosk_->AfterFrame(shown, staged, *show_);
   if (kiosk_->TakeNewVisitor()) {
     menu_.Close();
+    Hold(false);
     Change(house_, shown);
   }
 }
@@ -155,11 +163,16 @@ void VisitorControls::FillStaffState(const show::StagedFrame& staged, StaffState
   state.languages = content.spoken_languages;
   state.caption_languages = content.caption_languages;
   state.has_descriptions = content.has_descriptions;
+  state.held = markers_ ? std::optional(holds_) : std::nullopt;
+  for (const GroupOwn::Marker& marker : markers_.value_or(std::vector<GroupOwn::Marker>())) {
+    state.markers.push_back(marker.name);
+  }
 }
 
 void VisitorControls::Do(Action action, double now) {
   switch (action) {
     case Action::kRestart:
+      Hold(false);
       if (kiosk_) {
         kiosk_->BeginAgain(now, *show_);
       } else {
@@ -195,6 +208,7 @@ void VisitorControls::ApplyChoices() {
   output_->renderer().SetCaptionStyle(choices_.caption_style);
   show_->input().SetDescriptions(choices_.descriptions);
   show_->input().SetReducedMotion(choices_.reduced_motion);
+  show_->input().Hold(holds_);
   menu_.SetItems(ItemsOf(show_->content(), choices_));
 }
 
@@ -212,6 +226,21 @@ void VisitorControls::ToggleMenu(double now) {
   }
   const double scale = ScaleFor(output_->PictureCamera(), items.size());
   menu_.Open(std::move(items), now, scale);
+}
+
+void VisitorControls::Hold(bool holds) {
+  holds_ = holds;
+  show_->input().Hold(holds);
+}
+
+void VisitorControls::GoTo(const std::string& marker) {
+  const auto found = std::find_if(markers_->begin(), markers_->end(),
+                                  [&](const GroupOwn::Marker& m) { return m.name == marker; });
+  if (found == markers_->end()) {
+    log_.Warn("the staff asked for the marker \"{}\", which the drama does not have", marker);
+    return;
+  }
+  show_->input().RestartAt(static_cast<double>(found->tick) / drama::Drama::kTicksPerSecond);
 }
 
 Offer VisitorControls::offer() const {

@@ -5,10 +5,13 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "player/app/gaze_menu.h"
 #include "player/app/options.h"
 #include "player/app/picture_output.h"
+#include "player/fleet/group_message.h"
 #include "player/kiosk/kiosk.h"
 #include "player/kiosk/visitor_actions.h"
 #include "player/staff/staff_messages.h"
@@ -60,6 +63,9 @@ class VisitorControls {
   bool ends() const { return ends_; }
   // True if the staff asked the watchdog to restart the show.
   bool restarts() const { return restarts_; }
+  // Sets the moments to which the staff may go, and lets them hold the drama. A player in a group
+  // does without, because its link does so for all.
+  void SetMarkers(std::vector<GroupOwn::Marker> markers) { markers_ = std::move(markers); }
   // Adds what the staff sees of the show, the choices and the kiosk.
   void FillStaffState(const show::StagedFrame& staged, StaffState& state) const;
 
@@ -70,6 +76,8 @@ class VisitorControls {
   void ApplyChoices();
   void Keep(double now);
   void ToggleMenu(double now);
+  void Hold(bool holds);
+  void GoTo(const std::string& marker);
   Offer offer() const;
 
   ChoiceOptions options_;
@@ -83,7 +91,10 @@ class VisitorControls {
   vision::PoseSource* poses_ = nullptr;
   PictureOutput* output_ = nullptr;
   show::Show* show_ = nullptr;
-  double story_length_ = 0.0;  // Seconds; 0: not known.
+  double story_length_ = 0.0;                             // Seconds; 0: not known.
+  std::optional<std::vector<GroupOwn::Marker>> markers_;  // nullopt: in a group.
+  bool holds_ = false;                                    // The staff holds the drama.
+  Log& log_;
 };
 
 }  // namespace lararium::player

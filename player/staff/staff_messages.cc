@@ -48,6 +48,8 @@ void DescribeCommand(Fields& fields, StaffCommand& command) {
     command.end = true;
   } else if (what == "begin_again") {
     command.begin_again = true;
+  } else if (what == "update") {
+    command.update = true;
   } else if (what == "hold" || what == "resume") {
     command.hold = what == "hold";
   } else if (what == "go_to") {

@@ -15,10 +15,12 @@
 namespace lararium::player {
 
 enum class StaffMessage : char {
-  // Messages to the processes. Only the page gets the last two.
+  // Messages to the processes. Only the page gets pictures and the table
+  // of days, and only the fleet the published days.
   kState = 'S',       // JSON, staff_state.h
   kPicture = 'P',     // a JPEG
   kStatistics = 'C',  // VisitStatistics::ToCsv
+  kDays = 'D',        // PublishedStatistics()
   // Messages to the player.
   kCommand = 'A',        // JSON, ParseStaffCommand
   kPictureWanted = 'W',  // empty; only the page sends it
@@ -54,7 +56,8 @@ struct StaffCommand {
   std::optional<bool> reduced_motion;
   bool end = false;          // ends the player, also a kiosk
   bool begin_again = false;  // ends the player; a kiosk's watchdog starts it again
-  // Commands for the drama of a group. A player alone ignores them.
+  bool update = false;       // looks for a newer show at once
+  // Commands for the drama. In a group they are for that of all its devices.
   std::optional<bool> hold;  // true holds the drama, false lets it go on
   std::string go_to;         // name of a marker; empty: stay
 
@@ -64,10 +67,11 @@ struct StaffCommand {
 // Applies a command to choices, if the show offers the value. Ignores StaffCommand::action.
 void Choose(const StaffCommand& command, const Offer& offer, Choices& choices);
 
-// {"do": "restart" | "find_anew" | "louder" | "quieter" | "end" | "begin_again"}, or
+// {"do": "restart" | "find_anew" | "louder" | "quieter" | "end" | "begin_again" |
+// "update" | "hold" | "resume"}, or
 // {"do": "volume" | "language" | "captions" | "caption_size" | "caption_contrast" |
-// "descriptions" | "reduced_motion", "value": ...}, or, for a group, {"do": "hold" | "resume"} or
-// {"do": "go_to", "value": MARKER}. The text may come from an attacker.
+// "descriptions" | "reduced_motion", "value": ...}, or {"do": "go_to", "value": MARKER}. The text
+// may come from an attacker.
 Result<StaffCommand> ParseStaffCommand(std::string_view text);
 
 }  // namespace lararium::player

@@ -8,6 +8,7 @@ namespace lararium::player {
 namespace {
 
 constexpr size_t kMostLanguages = 32;
+constexpr size_t kMostMarkers = 64;
 constexpr int kSchema = 1;
 
 double Share(int64_t part, int64_t whole) {
@@ -19,10 +20,10 @@ Json OrNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-Json FirstOf(const std::vector<std::string>& languages) {
-  const size_t count = std::min(languages.size(), kMostLanguages);
-  return std::vector<std::string>(languages.begin(),
-                                  languages.begin() + static_cast<std::ptrdiff_t>(count));
+Json FirstOf(const std::vector<std::string>& texts, size_t most) {
+  const size_t count = std::min(texts.size(), most);
+  return std::vector<std::string>(texts.begin(),
+                                  texts.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 Json JsonOf(const std::vector<RecentWarnings::Entry>& warnings) {
@@ -99,13 +100,15 @@ std::string StaffJson(const StaffState& state, const StaffMachine& machine) {
       {"power", power},
       {"sound", {{"volume", state.choices.volume}, {"audible", state.audible}}},
       {"language", state.choices.language},
-      {"languages", FirstOf(state.languages)},
+      {"languages", FirstOf(state.languages, kMostLanguages)},
       {"captions", state.choices.captions},
-      {"caption_languages", FirstOf(state.caption_languages)},
+      {"caption_languages", FirstOf(state.caption_languages, kMostLanguages)},
       {"caption_size", NameOf(render::kCaptionSizes, state.choices.caption_style.size)},
       {"caption_contrast", NameOf(render::kCaptionContrasts, state.choices.caption_style.contrast)},
       {"descriptions", state.has_descriptions ? Json(state.choices.descriptions) : Json()},
       {"reduced_motion", state.choices.reduced_motion},
+      {"held", OrNull(state.held)},
+      {"markers", FirstOf(state.markers, kMostMarkers)},
       {"up_seconds", state.up_seconds},
       {"restarts", state.restarts},
       {"memory_mib", machine.memory_mib},

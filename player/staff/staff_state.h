@@ -76,8 +76,10 @@ struct StaffState {
   std::vector<std::string> languages;
   std::vector<std::string> caption_languages;
   bool has_descriptions = false;
-  double up_seconds = 0.0;  // time since the start of this run
-  int restarts = 0;         // number of restarts before it
+  std::optional<bool> held;          // The staff holds the drama; nullopt: in a group.
+  std::vector<std::string> markers;  // Moments of the drama to which the staff may go.
+  double up_seconds = 0.0;           // time since the start of this run
+  int restarts = 0;                  // number of restarts before it
 };
 
 // The state of the machine.

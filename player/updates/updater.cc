@@ -2,6 +2,8 @@
 
 #include <curl/curl.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -33,6 +35,7 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t kSpareBytes = 64'000'000;  // Stays free on the disk.
 constexpr double kFirstRetrySeconds = 30.0;
+constexpr double kLeastPauseSeconds = 1.0;  // Passes between two looks that were asked for.
 constexpr int kLowestPriority = 19;
 
 // The part of a show that has arrived. Only appends.
@@ -122,8 +125,16 @@ Status Assemble(const bundle::Publication& wanted,
   return part.Flush();
 }
 
+// Waits for a time, or until the bell rings. Returns whether it rang.
+bool Wait(double seconds, int bell) {
+  pollfd waiting = {bell, POLLIN, 0};
+  uint64_t rung = 0;
+  return ::poll(&waiting, 1, static_cast<int>(std::min(1000.0 * seconds, 2e9))) > 0 &&
+         ::read(bell, &rung, sizeof(rung)) > 0;
+}
+
 // Looks at the server until the program ends. After a failure it comes back sooner at first.
-[[noreturn]] void Run(const UpdaterOptions& options, Log& log) {
+[[noreturn]] void Run(const UpdaterOptions& options, int bell, Log& log) {
   const UpdateStore store(options.folder, options.shipped);
   std::string fault;
   double retry = 0.0;
@@ -142,7 +153,10 @@ Status Assemble(const bundle::Publication& wanted,
     retry = fetched.ok() ? 0.0 : std::max(2.0 * retry, kFirstRetrySeconds);
     const double pause =
         fetched.ok() ? options.interval_seconds : std::min(retry, options.interval_seconds);
-    std::this_thread::sleep_for(std::chrono::duration<double>(pause));
+    if (Wait(pause, bell)) {
+      log.Info("update: the staff asked to look now");
+      std::this_thread::sleep_for(std::chrono::duration<double>(kLeastPauseSeconds));
+    }
   }
 }
 
@@ -182,13 +196,15 @@ Result<bool> FetchNewest(const UpdaterOptions& options, const UpdateStore& store
 }
 
 Result<std::unique_ptr<Updater>> Updater::Start(const UpdaterOptions& options, Log& log) {
-  const pid_t process = ::fork();
+  const int bell = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  const pid_t process = bell < 0 ? -1 : ::fork();
   if (process < 0) {
+    ::close(bell);
     return Status::Error("update",
                          std::string("no process can be started: ") + std::strerror(errno));
   }
   if (process > 0) {
-    return std::unique_ptr<Updater>(new Updater(process));
+    return std::unique_ptr<Updater>(new Updater(process, bell));
   }
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   ::prctl(PR_SET_NAME, "lararium-update");
@@ -201,12 +217,19 @@ Result<std::unique_ptr<Updater>> Updater::Start(const UpdaterOptions& options, L
   if (const Status entered = options.sandbox ? EnterUpdateSandbox() : Status(); !entered.ok()) {
     log.Warn("update: {}", entered.message());
   }
-  Run(options, log);
+  Run(options, bell, log);
+}
+
+void Updater::LookNow() const {
+  const uint64_t ring = 1;
+  // A bell that has rung too often to count has rung.
+  [[maybe_unused]] const ssize_t written = ::write(bell_, &ring, sizeof(ring));
 }
 
 Updater::~Updater() {
   ::kill(process_, SIGTERM);
   ::waitpid(process_, nullptr, 0);
+  ::close(bell_);
 }
 
 }  // namespace lararium::player

@@ -43,11 +43,14 @@ class Updater {
   Updater& operator=(const Updater&) = delete;
 
   pid_t process() const { return process_; }
+  // Makes the process look at the server now. Any process that was forked since may call it.
+  void LookNow() const;
 
  private:
-  explicit Updater(pid_t process) : process_(process) {}
+  Updater(pid_t process, int bell) : process_(process), bell_(bell) {}
 
   pid_t process_;
+  int bell_;  // An eventfd that wakes the process.
 };
 
 }  // namespace lararium::player

@@ -244,12 +244,12 @@ double Show::GroupTime(const VisitorInput::Values& input,
   return wanted;
 }
 
-double Show::DramaTime(double time) {
+double Show::DramaTime(double time, bool held) {
   const double passed = time - last_time_;
   last_time_ = time;
   if (passed < 0.0) {
     held_seconds_ = 0.0;  // Time was set back.
-  } else if (drama_->holds()) {
+  } else if (held || drama_->holds()) {
     held_seconds_ += passed;
   }
   return std::clamp(time - start_ - held_seconds_, 0.0, drama::Drama::kMaxTime);
@@ -448,7 +448,7 @@ void Show::StageFrame(vision::TrackedFrame tracked, double time, StagedFrame& st
     staged.camera.opacity *= seat_->catching_up() ? 0.0f : 1.0f;
   } else {
     drama_->SetVisitor(VisitorOf(input, located.camera_from_stage));
-    staged.time = DramaTime(time);
+    staged.time = DramaTime(time, input.holds);
   }
   AdvanceTo(staged.time);
   const double behind = static_cast<double>(tick_) - staged.time * kTicksPerSecond;  // 0..1 ticks

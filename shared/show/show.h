@@ -123,8 +123,8 @@ class Show {
                    const std::optional<geometry::Rigid3>& camera_from_stage,
                    double time);
   // Converts the frames' time into the drama's time: seconds since the drama's start, less the time
-  // for which it was held.
-  double DramaTime(double time);
+  // for which it was held. held: by the staff.
+  double DramaTime(double time, bool held);
   // Fills people, things and light from drawn_, the camera and the time in `staged`.
   void StagePeopleAndThings(StagedFrame& staged);
   // Replaces the mesh of a person whose finer detail has been read since the last frame.

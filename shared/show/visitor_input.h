@@ -20,6 +20,7 @@ class VisitorInput {
     float hour = -1.0f;     // Local hour of day; negative: unknown.
     bool describes = false;
     bool reduced_motion = false;
+    bool holds = false;                  // The drama stands still.
     std::optional<double> restart = {};  // Time of the drama, seconds.
     bool forgets_pose = false;
   };
@@ -34,6 +35,8 @@ class VisitorInput {
   void SetDescriptions(bool on) { Set(&Values::describes, on); }
   // Avoids gliding corrections for visitors who are sensitive to motion: people fade instead.
   void SetReducedMotion(bool on) { Set(&Values::reduced_motion, on); }
+  // Holds the drama or lets it go on. A show that has joined a group ignores this.
+  void Hold(bool on) { Set(&Values::holds, on); }
   // The next frame continues the drama from this time (seconds): for the next visitor, or after a
   // restart. People appear only after tracking has found a pose again.
   void RestartAt(double seconds) {
@@ -48,7 +51,8 @@ class VisitorInput {
     const std::lock_guard lock(mutex_);
     return std::exchange(values_, {.hour = values_.hour,
                                    .describes = values_.describes,
-                                   .reduced_motion = values_.reduced_motion});
+                                   .reduced_motion = values_.reduced_motion,
+                                   .holds = values_.holds});
   }
 
  private:
