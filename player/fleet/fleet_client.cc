@@ -33,6 +33,7 @@ constexpr std::chrono::seconds kLongestPauseInGroup(1);  // The group waits for 
 // At least the first time passes between two states, and at most the second.
 constexpr std::chrono::milliseconds kLeastBetween(500);
 constexpr std::chrono::milliseconds kMostBetween(2000);
+constexpr std::chrono::minutes kBetweenStatistics(5);
 constexpr int kOnce = 2;         // Quality of service: a command arrives exactly once.
 constexpr int kAtLeastOnce = 1;  // Quality of service of presence and of a group's events.
 constexpr int kNewestWins = 0;   // Quality of service of states and of a group's beats.
@@ -214,6 +215,7 @@ void FleetClient::Run() {
     }
     StepGroup();
     PublishState();
+    PublishStatistics();
   }
   if (connected_) {
     PublishPresence(false);
@@ -229,6 +231,9 @@ bool FleetClient::TakeMessages() {
     if (message->kind == StaffMessage::kState) {
       state_.Set(message->content);
       has_news_ = true;
+    } else if (message->kind == StaffMessage::kDays) {
+      has_new_statistics_ = has_new_statistics_ || statistics_ != message->content;
+      statistics_ = message->content;
     } else if (message->kind == StaffMessage::kGroup && relay_) {
       relay_->TakeOwn(message->content, Microseconds(CLOCK_MONOTONIC));
     }
@@ -276,6 +281,9 @@ void FleetClient::Connected(int code) {
   }
   PublishPresence(true);
   published_ = {};
+  // The broker may have lost them.
+  has_new_statistics_ = !statistics_.empty();
+  published_statistics_ = Clock::now() - kBetweenStatistics;
 }
 
 void FleetClient::Lost(std::string_view why) {
@@ -372,6 +380,17 @@ void FleetClient::PublishState() {
                     json.data(), kNewestWins, true);
   published_ = Clock::now();
   has_news_ = false;
+}
+
+void FleetClient::PublishStatistics() {
+  if (!connected_ || !has_new_statistics_ ||
+      Clock::now() - published_statistics_ < kBetweenStatistics) {
+    return;
+  }
+  mosquitto_publish(client_.get(), nullptr, topics_.statistics.c_str(),
+                    static_cast<int>(statistics_.size()), statistics_.data(), kAtLeastOnce, true);
+  published_statistics_ = Clock::now();
+  has_new_statistics_ = false;
 }
 
 void FleetClient::PublishPresence(bool online) {

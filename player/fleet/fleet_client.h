@@ -54,6 +54,7 @@ class FleetClient {
   void TakeOfGroup(std::string_view topic, std::string_view payload);
   void StepGroup();
   void PublishState();
+  void PublishStatistics();
   void PublishPresence(bool online);
   void Note(const std::string& text);
 
@@ -75,6 +76,9 @@ class FleetClient {
   std::chrono::seconds pause_{1};
   Clock::time_point published_;
   bool has_news_ = false;
+  std::string statistics_;
+  bool has_new_statistics_ = false;
+  Clock::time_point published_statistics_;
   LastState state_;
   CommandGate gate_;
   std::string buffer_;

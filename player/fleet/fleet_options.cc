@@ -163,6 +163,7 @@ FleetTopics TopicsOf(std::string_view site, std::string_view name, std::string_v
   FleetTopics topics;
   topics.state = base + "/state";
   topics.presence = base + "/presence";
+  topics.statistics = base + "/statistics";
   topics.commands = {DeviceCommands(site, name)};
   if (!group.empty()) {
     topics.commands.push_back(GroupCommands(site, group));

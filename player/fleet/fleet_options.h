@@ -61,6 +61,7 @@ void NameDevice(FleetOptions& options);
 struct FleetTopics {
   std::string state;                  // Retained. Written by the device.
   std::string presence;               // Retained. Written by the device, or as its last will.
+  std::string statistics;             // Retained. Written by the device.
   std::vector<std::string> commands;  // Topics of the device and of its group.
   // Topics within a group are empty without one. Members write "to" topics under their own names
   // and read "from" topics, which have "+" where the name of another member stands.

@@ -198,18 +198,19 @@ std::string Configuration(const FleetPlan& plan) {
          "\nlistener " + std::to_string(plan.page_port) + "\nprotocol websockets\n" + tls;
 }
 
-// A device may write its own state and presence, and read its own commands and those of its group.
-// Members of a group write to each other under their own names, and hear who of them is gone. The
-// staff may write states to delete those of devices that are no more.
+// A device may write its own state, presence and statistics, and read its own commands and those of
+// its group. Members of a group write to each other under their own names, and hear who of them is
+// gone. The staff may write what devices wrote, to delete that of devices that are no more.
 std::string Rights(const FleetPlan& plan) {
   const std::string all = "topic readwrite lararium/" + plan.site + "/device/+/";
   std::string text = std::string("user ") + FleetPlan::kStaff + "\n" + all + "state\n" + all +
-                     "presence\ntopic write " + DeviceCommands(plan.site, "+") + "\ntopic write " +
+                     "presence\n" + all + "statistics\ntopic write " +
+                     DeviceCommands(plan.site, "+") + "\ntopic write " +
                      GroupCommands(plan.site, "+") + "\n";
   for (const FleetDevice& device : plan.devices) {
     const FleetTopics topics = TopicsOf(plan.site, device.name, device.group);
     text += "\nuser " + device.name + "\ntopic write " + topics.state + "\ntopic write " +
-            topics.presence + "\n";
+            topics.presence + "\ntopic write " + topics.statistics + "\n";
     for (const std::string& commands : topics.commands) {
       text += "topic read " + commands + "\n";
     }

@@ -115,7 +115,7 @@ void Kiosk::AfterFrame(double now, const show::StagedFrame& staged, show::Show& 
     log_.Info("the visit is over");
     watch_.Leave();
   }
-  Count(now, staged);
+  Count(now, staged, show.content());
   state_.title = show.content().title;
   state_.seconds = watch_.present() ? staged.time : 0.0;
   if (now - remembered_ >= kRememberSeconds) {
@@ -124,17 +124,29 @@ void Kiosk::AfterFrame(double now, const show::StagedFrame& staged, show::Show& 
   }
 }
 
-void Kiosk::Count(double now, const show::StagedFrame& staged) {
+void Kiosk::Count(double now, const show::StagedFrame& staged, const show::ShowContent& content) {
   if (today_.empty()) {
     today_ = Today();
   }
+  const Eigen::Vector3d at = staged.camera.camera_from_stage
+                                 ? staged.camera.camera_from_stage->Center()
+                                 : Eigen::Vector3d::Zero();
+  // A choice that was not made is the first language.
+  const auto chosen = [](const std::string& choice, const std::vector<std::string>& offered) {
+    return std::string_view(!choice.empty() || offered.empty() ? choice : offered.front());
+  };
   counter_.Count({.now = now,
                   .noticed = watch_.noticed(),
                   .last_sign = watch_.last_sign(),
-                  .tracked = staged.tracked.camera_from_map.has_value(),
+                  .tracked = staged.tracked.camera_from_map.has_value() &&
+                             staged.camera.camera_from_stage.has_value(),
                   .people_went = staged.camera.state == show::TrackingLossFader::State::kGone,
                   .drama_time = staged.time,
-                  .story_length = story_length_},
+                  .story_length = story_length_,
+                  .place = content.places[staged.camera.place].stage.name,
+                  .at = {at.x(), at.z()},
+                  .language = chosen(state_.choices.language, content.spoken_languages),
+                  .captions = chosen(state_.choices.captions, content.caption_languages)},
                  statistics_.Day(today_));
 }
 

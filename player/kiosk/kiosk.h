@@ -72,7 +72,7 @@ class Kiosk {
  private:
   void Write(const std::filesystem::path& folder);
   void SaveStatistics(const std::filesystem::path& folder, bool& told);
-  void Count(double now, const show::StagedFrame& staged);
+  void Count(double now, const show::StagedFrame& staged, const show::ShowContent& content);
   void KeepStatistics(double now);
   void Remember(double now);
   void Welcome(double now, show::Show& show);

@@ -15,7 +15,7 @@ namespace lararium::player {
 namespace {
 
 constexpr int64_t kSchema = 1;
-constexpr uint64_t kMaxBytes = 1 << 18;
+constexpr uint64_t kMaxBytes = 4 << 20;
 constexpr int64_t kMostCount = 1'000'000'000;
 constexpr double kMostSeconds = 200'000.0;  // more than a day has, because clocks may be set back
 // Longer intervals between frames count as this time, because nothing is known about the rest.
@@ -56,11 +56,21 @@ void DescribeDay(Fields& fields, DayCounts& day) {
   DescribeSeconds(fields, "played_seconds", day.played_seconds);
   DescribeSeconds(fields, "seen_seconds", day.seen_seconds);
   DescribeSeconds(fields, "tracked_seconds", day.tracked_seconds);
+  DescribeFields(fields, day.details);
 }
 
 void DescribeDays(Fields& fields, std::vector<DayCounts>& days) {
   fields.Schema(kSchema, "was written by a newer player", "update this one");
   fields.List("days", days, VisitStatistics::kMostDays, DescribeDay);
+}
+
+// A day as others may know it.
+DayCounts PublicDay(DayCounts day) {
+  if (day.visitors < VisitDetails::kLeastTold) {
+    return {.day = day.day, .visitors = day.visitors, .restarts = day.restarts};
+  }
+  RemoveSmallCounts(day.details);
+  return day;
 }
 
 void SetAside(const std::filesystem::path& path, const Status& why, Log& log) {
@@ -83,6 +93,11 @@ DayCounts& VisitStatistics::Day(const std::string& day) {
                        [](const DayCounts& d, const std::string& name) { return d.day < name; });
   if (at == days_.end() || at->day != day) {
     at = days_.insert(at, DayCounts{.day = day});
+    const size_t index = static_cast<size_t>(at - days_.begin());
+    for (size_t i = 0; i + kMostDetailedDays < days_.size(); ++i) {
+      days_[i].details = {};
+    }
+    at = days_.begin() + static_cast<std::ptrdiff_t>(index);
   }
   if (days_.size() > kMostDays) {
     const bool is_oldest = at == days_.begin();
@@ -147,6 +162,20 @@ Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::s
   return statistics;
 }
 
+std::string PublishedStatistics(const VisitStatistics& statistics) {
+  const std::vector<DayCounts>& all = statistics.days();
+  std::vector<DayCounts> days;
+  for (size_t i = all.size() - std::min(all.size(), kMostPublishedDays); i < all.size(); ++i) {
+    days.push_back(PublicDay(all[i]));
+  }
+  std::string text = DumpJson(FormatFields(days, DescribeDays));
+  while (text.size() > kMostPublishedBytes) {
+    days.erase(days.begin());
+    text = DumpJson(FormatFields(days, DescribeDays));
+  }
+  return text;
+}
+
 Status SaveVisitStatistics(const std::filesystem::path& folder, const VisitStatistics& statistics) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -157,18 +186,42 @@ Status SaveVisitStatistics(const std::filesystem::path& folder, const VisitStati
   return SaveJson(StatisticsFile(folder), FormatFields(statistics.days(), DescribeDays));
 }
 
+void VisitCounter::BeginVisit(const Moment& moment, DayCounts& day) {
+  is_whole_ = !std::exchange(counted_before_, false);
+  day.visitors += is_whole_ ? 1 : 0;
+  began_ = moment.last_sign;
+  counted_until_ = moment.last_sign;
+  pending_ = {};
+  located_ = false;
+  visit_ = {.drama_seconds = moment.drama_time,
+            .language = std::string(moment.language),
+            .captions = std::string(moment.captions)};
+}
+
+// Notes where the camera was when tracking was lost.
+void VisitCounter::NoteCell(const Moment& moment) {
+  const auto metre = [](double value) {
+    constexpr double kFarthest = VisitDetails::kFarthest;
+    return static_cast<int>(std::clamp(std::floor(value), -kFarthest, kFarthest));
+  };
+  if (visit_.lost.size() + pending_.lost.size() < VisitDetails::kMostCells && located_) {
+    pending_.lost.push_back({std::string(moment.place), metre(last_at_[0]), metre(last_at_[1])});
+  }
+}
+
 void VisitCounter::Count(const Moment& moment, DayCounts& day) {
   const double frame = std::clamp(moment.now - last_now_, 0.0, kLongestFrame);
   const double step = moment.drama_time - last_drama_time_;
   if (moment.noticed && !there_) {
-    day.visitors += std::exchange(counted_before_, false) ? 0 : 1;
-    counted_until_ = moment.last_sign;
-    pending_ = {};
+    BeginVisit(moment, day);
   }
   if (moment.noticed) {
     pending_.seen_seconds += there_ ? frame : 0.0;
     pending_.tracked_seconds += there_ && moment.tracked ? frame : 0.0;
-    pending_.losses += moment.people_went && !gone_ ? 1 : 0;
+    if (moment.people_went && !gone_) {
+      ++pending_.losses;
+      NoteCell(moment);
+    }
     const bool ended = moment.story_length > 0.0 && step > 0.0 && step < kLongestStep &&
                        last_drama_time_ < moment.story_length &&
                        moment.drama_time >= moment.story_length;
@@ -179,7 +232,23 @@ void VisitCounter::Count(const Moment& moment, DayCounts& day) {
     day.seen_seconds += pending_.seen_seconds;
     day.tracked_seconds += pending_.tracked_seconds;
     day.losses += pending_.losses;
+    for (FloorCell& cell : pending_.lost) {
+      if (std::find(visit_.lost.begin(), visit_.lost.end(), cell) == visit_.lost.end()) {
+        visit_.lost.push_back(std::move(cell));
+      }
+    }
     pending_ = {};
+    visit_.seconds = counted_until_ - began_;
+    visit_.drama_seconds = moment.drama_time;
+    visit_.language = moment.language;
+    visit_.captions = moment.captions;
+  }
+  if (there_ && !moment.noticed && is_whole_) {
+    AddVisit(visit_, day.details);
+  }
+  if (moment.tracked) {
+    located_ = moment.noticed;
+    last_at_ = moment.at;
   }
   there_ = moment.noticed;
   gone_ = moment.people_went;

@@ -1,14 +1,17 @@
 #pragma once
 
 // Statistics of a kiosk for each day: counts and sums, without images, persons or times of day.
-// VisitCounter collects them while a show runs.
+// What leaves the device has no small counts (PublishedStatistics()). VisitCounter collects them
+// while a show runs.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "player/kiosk/visit_details.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
 
@@ -23,6 +26,7 @@ struct DayCounts {
   double tracked_seconds = 0.0;
   int64_t losses = 0;    // losses of tracking that were long enough for people to fade out
   int64_t restarts = 0;  // restarts by the watchdog
+  VisitDetails details = {};
 
   friend bool operator==(const DayCounts&, const DayCounts&) = default;
 };
@@ -30,8 +34,10 @@ struct DayCounts {
 class VisitStatistics {
  public:
   static constexpr size_t kMostDays = 400;
+  static constexpr size_t kMostDetailedDays = 92;
 
-  // The counts of a day, to add to them. If there are more than kMostDays, the oldest is removed.
+  // The counts of a day, to add to them. If there are more than kMostDays, the oldest is removed;
+  // days before the last kMostDetailedDays lose their details.
   DayCounts& Day(const std::string& day);
   // The days in ascending order.
   const std::vector<DayCounts>& days() const { return days_; }
@@ -56,6 +62,14 @@ Result<VisitStatistics> ParseVisitStatistics(std::string_view text, const std::s
 // Writes atomically: after a failure the old file is still complete.
 Status SaveVisitStatistics(const std::filesystem::path& folder, const VisitStatistics& statistics);
 
+// The text that a device of a fleet publishes (docs/file-formats.md): the last kMostPublishedDays
+// without small counts. Of a day with fewer than VisitDetails::kLeastTold visitors it has only
+// their number and the restarts. Days that do not fit into kMostPublishedBytes are left out, the
+// oldest first.
+inline constexpr size_t kMostPublishedDays = 31;
+inline constexpr size_t kMostPublishedBytes = 60'000;
+std::string PublishedStatistics(const VisitStatistics& statistics);
+
 // Updates the counts, frame by frame.
 class VisitCounter {
  public:
@@ -67,6 +81,10 @@ class VisitCounter {
     bool people_went = false;   // people have faded out, because tracking was lost
     double drama_time = 0.0;    // seconds
     double story_length = 0.0;  // seconds; 0: unknown
+    std::string_view place = {};
+    std::array<double, 2> at = {};   // x and z of the camera on the place's stage; valid if tracked
+    std::string_view language = {};  // The spoken language; "": none.
+    std::string_view captions = {};
   };
 
   // resumed: the first visitor was present before a restart and is counted already.
@@ -82,7 +100,11 @@ class VisitCounter {
     double seen_seconds = 0.0;
     double tracked_seconds = 0.0;
     int64_t losses = 0;
+    std::vector<FloorCell> lost;
   };
+
+  void BeginVisit(const Moment& moment, DayCounts& day);
+  void NoteCell(const Moment& moment);
 
   bool counted_before_;
   bool there_ = false;
@@ -91,6 +113,12 @@ class VisitCounter {
   double last_now_ = 0.0;
   double last_drama_time_ = 0.0;
   Pending pending_;
+  // The visit that goes on. Its details are added to the day when it is over.
+  VisitSummary visit_;
+  double began_ = 0.0;
+  bool is_whole_ = false;  // The beginning of the visit was seen.
+  bool located_ = false;   // The camera was tracked in this visit.
+  std::array<double, 2> last_at_ = {};
 };
 
 }  // namespace lararium::player

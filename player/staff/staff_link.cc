@@ -62,6 +62,7 @@ void StaffLink::Run(const std::stop_token& stop) {
     }
     if (const std::optional<VisitStatistics> statistics = statistics_.TryTake()) {
       SendStaffMessage(page_.socket, StaffMessage::kStatistics, statistics->ToCsv());
+      SendStaffMessage(fleet_.socket, StaffMessage::kDays, PublishedStatistics(*statistics));
     }
     if (const std::optional<cv::Mat> picture = picture_.TryTake()) {
       SendPicture(*picture);

@@ -47,7 +47,7 @@ class StaffLink {
   StaffLink(const StaffLinks& links, Log& log, GroupPort group = {});
 
   // Send a state, statistics or a picture. If several wait, only the newest is sent. The fleet gets
-  // only states.
+  // no pictures, and of the statistics what may be published.
   void Tell(StaffState state) { state_.Put(std::move(state)); }
   void TellStatistics(VisitStatistics statistics) { statistics_.Put(std::move(statistics)); }
   // rgba: result of render::AsyncReadback.

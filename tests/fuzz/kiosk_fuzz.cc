@@ -38,6 +38,15 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (const auto days = player::ParseVisitStatistics(text, "statistics.json"); days.ok()) {
     CHECK(days->days().size() <= player::VisitStatistics::kMostDays);
     CHECK(days->ToCsv().starts_with("day,"));
+    const std::string published = player::PublishedStatistics(*days);
+    CHECK(published.size() <= player::kMostPublishedBytes);
+    const auto told = player::ParseVisitStatistics(published, "published");
+    CHECK(told.ok());
+    for (const player::DayCounts& day : told->days()) {
+      for (const auto& [cell, visits] : day.details.lost) {
+        CHECK(visits >= player::VisitDetails::kLeastTold);
+      }
+    }
   }
   if (const auto command = player::ParseStaffCommand(text); command.ok()) {
     CHECK(!command->volume || (*command->volume >= 0.0 && *command->volume <= 1.0));

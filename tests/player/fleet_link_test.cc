@@ -35,6 +35,7 @@ using ::testing::IsEmpty;
 
 constexpr char kState[] = "lararium/pompeii/device/tablet-01/state";
 constexpr char kPresence[] = "lararium/pompeii/device/tablet-01/presence";
+constexpr char kStatistics[] = "lararium/pompeii/device/tablet-01/statistics";
 constexpr char kCommands[] = "lararium/pompeii/device/tablet-01/do";
 constexpr char kRestart[] = R"({"do": "restart"})";
 
@@ -218,6 +219,30 @@ TEST_F(FleetLinkTest, StateAndPresenceAreKeptForThoseWhoComeLater) {
   Client later(StaffAccount(), "staff");
   later.Subscribe("lararium/pompeii/#");
   EXPECT_TRUE(Soon([&] { return later.Text(kState) != "" && later.Text(kPresence) != ""; }));
+}
+
+TEST_F(FleetLinkTest, StatisticsAreKeptWithoutSmallCountsAndPublishedOnceInFiveMinutes) {
+  SetUpAndStart();
+  Join();
+  ASSERT_TRUE(StaffSees("Vetutius"));
+  VisitStatistics statistics;
+  statistics.Day("2026-11-23").visitors = 12;
+  statistics.Day("2026-11-23").details.ended = {9, 11};
+  player_->TellStatistics(statistics);
+  EXPECT_TRUE(Soon([&] { return staff_->Text(kStatistics) != ""; }));
+  EXPECT_EQ(staff_->Last(kStatistics)["days"][0]["ended"], Json({0, 11}));
+  const std::string published = staff_->Text(kStatistics);
+  EXPECT_EQ(published, PublishedStatistics(statistics));
+  statistics.Day("2026-11-23").visitors = 13;
+  player_->TellStatistics(statistics);
+  ASSERT_TRUE(StaffSees("later"));
+  EXPECT_EQ(staff_->Text(kStatistics), published);
+  KillBroker();
+  StartBroker();
+  staff_.emplace(StaffAccount(), "staff");
+  staff_->Subscribe("lararium/pompeii/#");
+  EXPECT_TRUE(Soon([&] { return staff_->Text(kStatistics) == PublishedStatistics(statistics); }))
+      << "a broker that comes back is told at once";
 }
 
 TEST_F(FleetLinkTest, APlayerThatFallsSilentIsSeenToBeSo) {

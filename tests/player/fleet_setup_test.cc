@@ -44,6 +44,7 @@ TEST_F(FleetSetupTest, EachDeviceMayWriteItsStateAndReadItsCommandsAndThoseOfIts
               HasSubstr("user tablet-01\n"
                         "topic write lararium/pompeii/device/tablet-01/state\n"
                         "topic write lararium/pompeii/device/tablet-01/presence\n"
+                        "topic write lararium/pompeii/device/tablet-01/statistics\n"
                         "topic read lararium/pompeii/device/tablet-01/do\n"
                         "topic read lararium/pompeii/group/red/do\n"));
 }
