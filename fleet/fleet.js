@@ -6,6 +6,7 @@ let words = {};
 const language = navigator.languages.map((tag) => tag.slice(0, 2)).find((tag) => tag === 'en' || tag === 'it') ?? 'en';
 const kRedrawMs = 500;
 const kMostDevices = 1000;
+const kMostOnTheirWay = 10;
 const kMostText = 100;
 const kSilentMs = 6000;  // Devices publish at least every two seconds.
 const kLowBattery = 0.15;
@@ -35,6 +36,11 @@ function take(topic, payload, kept) {
     devices.get(name)?.row?.remove();
     devices.get(name)?.dot?.remove();
     devices.delete(name);
+    forgetStatistics(name);
+    return;
+  }
+  if (what === 'statistics') {
+    takeStatistics(name, payload);
     return;
   }
   let value;
@@ -63,8 +69,8 @@ function connect(password) {
   client.on('connect', () => {
     status('connected', 'good');
     byId('login').hidden = true;
-    ['devices', 'commands', 'floor'].forEach((id) => { byId(id).hidden = false; });
-    client.subscribe(['state', 'presence'].map((what) => `lararium/${site}/device/+/${what}`));
+    ['devices', 'commands', 'floor', 'report'].forEach((id) => { byId(id).hidden = false; });
+    client.subscribe(['state', 'presence', 'statistics'].map((what) => `lararium/${site}/device/+/${what}`));
   });
   client.on('message', (topic, payload, packet) => take(topic, payload, packet.retain));
   client.on('close', () => {
@@ -228,12 +234,12 @@ function showSelection() {
   offer(byId('choose-voices'), ['', ...offered('languages')], (code) => code === '' ? '–' : languageName(code));
   offer(byId('choose-captions'), ['', ...captions, ...(captions.length > 0 ? ['off'] : [])],
     (code) => code === '' ? '–' : languageName(code));
-  offer(byId('choose-marker'), ['', ...distinct(chosen.flatMap(({state}) => state?.drama?.markers ?? []))],
+  offer(byId('choose-marker'), ['', ...distinct(chosen.flatMap(({state}) => state?.drama?.markers ?? state?.player?.markers ?? []))],
     (marker) => marker === '' ? '–' : marker);
-  const grouped = chosen.some(({state}) => state?.drama);
+  const holdable = chosen.some(({state}) => state?.drama || typeof state?.player?.held === 'boolean');
   for (const control of document.querySelectorAll('[data-do]')) {
     const ofDrama = ['hold', 'resume', 'go_to'].includes(control.dataset.do);
-    control.disabled = chosen.length === 0 || (ofDrama && !grouped);
+    control.disabled = chosen.length === 0 || (ofDrama && !holdable);
   }
   byId('forget').disabled = chosen.every(({online}) => online);
 }
@@ -250,8 +256,8 @@ function svg(name, attributes, ...children) {
 const least = (values) => Math.floor(values.reduce((a, b) => Math.min(a, b)) - kMargin);
 const most = (values) => Math.ceil(values.reduce((a, b) => Math.max(a, b)) + kMargin);
 
-// Draws what lies under the devices: a line for each metre, and the surfaces of the place.
-function drawFloor(left, right, far, near, {cell = 0.1, points = []}) {
+// What lies under the devices: a line for each metre, and the surfaces of the place.
+function floorOf(left, right, far, near, {cell = 0.1, points = []}) {
   let lines = '';
   for (let x = left; x <= right; ++x) {
     lines += `M${x} ${far}V${near}`;
@@ -260,10 +266,9 @@ function drawFloor(left, right, far, near, {cell = 0.1, points = []}) {
     lines += `M${left} ${z}H${right}`;
   }
   const surface = points.map(([x, z]) => `M${x} ${z}h${cell}v${cell}h${-cell}z`).join('');
-  byId('plan').setAttribute('viewBox', `${left} ${far} ${right - left} ${near - far}`);
-  byId('ground').replaceChildren(
-    svg('path', {class: 'grid', d: lines, 'stroke-width': kLineShare * (right - left)}), svg('path', {class: 'surface', d: surface}));
+  return [svg('path', {class: 'grid', d: lines, 'stroke-width': kLineShare * (right - left)}), svg('path', {class: 'surface', d: surface})];
 }
+const viewOf = (left, right, far, near) => `${left} ${far} ${right - left} ${near - far}`;
 
 // Seen from above: x to the right, and what lies ahead of the stage (-z) upwards.
 function showPlan() {
@@ -281,7 +286,8 @@ function showPlan() {
   const key = [place, ...bounds].join(' ');
   if (byId('ground').dataset.key !== key) {
     byId('ground').dataset.key = key;
-    drawFloor(...bounds, plans[place] ?? {});
+    byId('plan').setAttribute('viewBox', viewOf(...bounds));
+    byId('ground').replaceChildren(...floorOf(...bounds, plans[place] ?? {}));
   }
   const dot = kDotShare * (bounds[1] - bounds[0]);
   for (const {device, x, z} of here) {
@@ -304,10 +310,27 @@ function redraw() {
     showRows();
     showSelection();
     showPlan();
+    showReport();
   }
 }
 
 // --- Commands
+
+// Commands that wait, as [topic, text, callback], and how many are on their way. Mosquitto 2.0.11 never answers some messages of
+// quality of service 2 if more than its max_inflight_messages (20) are on their way.
+const waiting = [];
+let onTheirWay = 0;
+function sendWaiting() {
+  while (waiting.length > 0 && onTheirWay < kMostOnTheirWay) {
+    const [topic, text, done] = waiting.shift();
+    ++onTheirWay;
+    client.publish(topic, text, {qos: 2}, (error) => {
+      --onTheirWay;
+      done(error);
+      sendWaiting();
+    });
+  }
+}
 
 function tell(command) {
   const chosen = selectedDevices();
@@ -315,19 +338,20 @@ function tell(command) {
   let failed = 0;
   update(byId('sent'), words.sending);
   for (const {name} of chosen) {
-    client.publish(`lararium/${site}/device/${name}/do`, JSON.stringify(command), {qos: 2}, (error) => {
+    waiting.push([`lararium/${site}/device/${name}/do`, JSON.stringify(command), (error) => {
       failed += error ? 1 : 0;
       if (++answered === chosen.length) {
         update(byId('sent'), failed === 0 ? words.sent.replace('{}', answered) : words.not_sent, failed === 0 ? '' : 'bad');
       }
-    });
+    }]);
   }
+  sendWaiting();
 }
 
 // Deletes what the broker keeps of devices that are gone.
 function forget() {
   for (const {name, online} of selectedDevices()) {
-    for (const what of online ? [] : ['state', 'presence']) {
+    for (const what of online ? [] : ['state', 'presence', 'statistics']) {
       client.publish(`lararium/${site}/device/${name}/${what}`, '', {qos: 1, retain: true});
     }
   }
@@ -352,6 +376,7 @@ function listen() {
     showSelection();
   });
   byId('forget').addEventListener('click', forget);
+  listenToReport();
   for (const button of document.querySelectorAll('button[data-do]')) {
     button.addEventListener('click', () => {
       const {sure} = button.dataset;
@@ -388,6 +413,7 @@ async function begin() {
   }
   byId('table').setAttribute('aria-label', words.devices);
   byId('all').setAttribute('aria-label', words.select_all);
+  byId('report-table').setAttribute('aria-label', words.report);
   const settings = await load('settings.json');
   site = settings.site;
   broker = `wss://${settings.host}:${settings.page_port}/`;

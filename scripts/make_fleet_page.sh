@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/fetch_mqtt.sh
 mkdir -p build/fleet-page
-cp build/mqtt/{mqtt.min.js,LICENSE.md} player/staff/page/{page.css,parts.js,words.json} fleet/{index.html,fleet.css,fleet.js} \
+cp build/mqtt/{mqtt.min.js,LICENSE.md} player/staff/page/{page.css,parts.js,words.json} fleet/{index.html,fleet.css,fleet.js,report.js} \
   build/fleet-page
 cp fleet/words.json build/fleet-page/fleet_words.json
 echo "the fleet's page is in build/fleet-page"

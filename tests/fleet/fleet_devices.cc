@@ -18,6 +18,7 @@
 #include "player/app/device_file.h"
 #include "player/fleet/fleet_client.h"
 #include "player/fleet/fleet_options.h"
+#include "player/kiosk/visit_statistics.h"
 #include "player/staff/staff_messages.h"
 #include "player/staff/staff_state.h"
 
@@ -52,6 +53,36 @@ std::string StateOf(size_t index, double seconds) {
   machine.battery = Battery{index % 10 == 7 ? 0.08 : 0.8, false};
   machine.memory_mib = 240.0;
   return StaffJson(state, machine);
+}
+
+// The visits of three days. Their number falls from device to device; the last devices have fewer
+// than ten in a day.
+VisitStatistics StatisticsOf(size_t index) {
+  VisitStatistics statistics;
+  for (int day = 0; day < 3; ++day) {
+    DayCounts& counts = statistics.Day("2026-11-2" + std::to_string(5 + day));
+    const int visits = 20 * (day + 2) - static_cast<int>(index);
+    for (int i = 0; i < visits; ++i) {
+      VisitSummary visit;
+      visit.drama_seconds = i % 3 == 0 ? 100.0 : 235.0;
+      visit.seconds = visit.drama_seconds + (i % 5 == 0 ? 120.0 : 0.0);
+      visit.language = i % 2 == 0 ? "la" : "it";
+      visit.captions = i % 4 == 0 ? "off" : i % 4 == 1 ? "en" : "it";
+      for (int x = -1; x <= 1; ++x) {
+        if (i % (x + 2) == 0) {
+          visit.lost.push_back({"thermopolium", x, day});
+        }
+      }
+      AddVisit(visit, counts.details);
+      ++counts.visitors;
+      counts.completed += visit.drama_seconds > 200.0 ? 1 : 0;
+      counts.played_seconds += visit.seconds;
+      counts.seen_seconds += visit.seconds;
+      counts.tracked_seconds += 0.95 * visit.seconds;
+      counts.losses += static_cast<int64_t>(visit.lost.size());
+    }
+  }
+  return statistics;
 }
 
 struct SimulatedDevice {
@@ -115,6 +146,9 @@ int main(int argc, char** argv) {
     if (devices.back() == nullptr) {
       return 1;
     }
+  }
+  for (size_t i = 0; i < devices.size(); ++i) {
+    SendStaffMessage(devices[i]->player, StaffMessage::kDays, PublishedStatistics(StatisticsOf(i)));
   }
   std::string buffer;
   for (double seconds = 0.0;; seconds += kInterval) {

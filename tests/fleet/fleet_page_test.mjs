@@ -88,6 +88,37 @@ async function logIn(browser, password) {
   await click(browser, '#password-form button');
 }
 
+// The visits of fleet_devices.cc on its days, of so many devices of the first process.
+const number = (value) => new Intl.NumberFormat('en').format(value);
+const visitsOf = (day, i) => Math.max(0, 20 * (day + 2) - i);
+const total = (values) => values.reduce((a, b) => a + b, 0);
+const visitsOn = (days, devices) => total(days.flatMap((day) => Array.from({length: devices}, (_, i) => visitsOf(day, i))));
+
+// The device of the second process counts like the first of the others.
+async function report(browser, screens) {
+  const last = visitsOn([2], COUNT - 1) + visitsOf(2, 0);
+  await browser.until(`document.getElementById('report-sum').textContent === '${number(last)} visits on ${COUNT} devices'`);
+  check(true, 'the report has the visits of the last day');
+  await choose(browser, 'from', '2026-11-25');
+  const all = visitsOn([0, 1, 2], COUNT - 1) + visitsOf(0, 0) + visitsOf(1, 0) + visitsOf(2, 0);
+  await browser.until(`document.getElementById('report-sum').textContent.startsWith('${number(all)} visits on')`);
+  await screens.take(browser, 'report');
+  await browser.evaluate(`document.getElementById('report').scrollIntoView()`);
+  writeFileSync(`${work}/report_wide.png`, await browser.screenshot(1280, 900));
+  await choose(browser, 'to', '2026-11-25');
+  // Each visit of the day lost tracking in this square. Devices with fewer than ten visits do not tell.
+  const told = total([...Array(COUNT - 1).keys()].map((i) => visitsOf(0, i)).filter((visits) => visits >= 10)) + visitsOf(0, 0);
+  await browser.until(`document.getElementById('lost').getAttribute('aria-label').includes('x -1, z 0: ${told}')`);
+  check(true, 'counts of fewer than ten visits are left out of the sums');
+  const lines = (await browser.evaluate('csvOf(chosenDays())')).trim().split('\r\n').map((line) => line.replaceAll('"', '').split(','));
+  assert.deepEqual(lines[0].slice(1), ['device', 'what', 'which', 'count']);
+  assert.equal(total(lines.filter(([, , what]) => what === 'visits').map((line) => Number(line[4]))), visitsOn([0], COUNT - 1) + visitsOf(0, 0));
+  const counts = lines.filter(([, , what]) => what.startsWith('visits_')).map((line) => Number(line[4]));
+  check(counts.length > 100 && Math.min(...counts) >= 10, 'the file has the same, and no count of fewer than ten visits');
+  await choose(browser, 'to', '2026-11-27');
+  await choose(browser, 'from', '2026-11-27');
+}
+
 async function visit(browser, broker, devices, hanging) {
   const screens = new Screens(work, axe);
   const url = `https://127.0.0.1:${pagePort}/`;
@@ -139,14 +170,21 @@ async function visit(browser, broker, devices, hanging) {
   await browser.until(`[...document.getElementById('choose-voices').options].some((option) => option.value === 'it')`);
   await choose(browser, 'choose-voices', 'it');
   await click(browser, 'button[data-do=hold]');
-  await sleep(2);
-  const obeyed = devices.text.split('\n').filter((line) => line.includes('{')).sort();
+  await click(browser, 'button[data-do=update]');
+  const obeyedSoFar = () => devices.text.split('\n').filter((line) => line.includes('{')).sort();
+  for (let i = 0; i < 100 && obeyedSoFar().length < 4 * RED; ++i) {
+    await sleep(0.2);
+  }
+  await sleep(1);
+  const obeyed = obeyedSoFar();
   assert.deepEqual(obeyed, names.slice(0, RED).flatMap((name) => [
-    `${name} {"do":"hold"}`, `${name} {"do":"language","value":"it"}`, `${name} {"do":"restart"}`]).sort());
+    `${name} {"do":"hold"}`, `${name} {"do":"language","value":"it"}`, `${name} {"do":"restart"}`, `${name} {"do":"update"}`]).sort());
   check(true, `commands reached the ${RED} devices that were selected, once, and no other`);
   await choose(browser, 'group', '');
 
   check(await browser.evaluate(`document.querySelectorAll('#plan circle').length`) === COUNT, 'the plan shows all devices');
+
+  await report(browser, screens);
 
   // The page's own redraws, from their first text to the layout after them.
   await browser.evaluate(`void (() => { const [rows, plan] = [showRows, showPlan]; let begin; window.times = [];
@@ -178,6 +216,18 @@ async function visit(browser, broker, devices, hanging) {
   }
   await browser.until(`${cell(names[0], 3)} === 'Waiting for a visitor'`);
   check(await browser.evaluate(`document.querySelectorAll('#rows b, img').length`) === 0, 'malformed states disturb no other device');
+
+  const day = '{"day": "2026-11-27", "visitors": 10, "completed": 0, "losses": 0, "restarts": 0, "played_seconds": 0, "seen_seconds": 0, "tracked_seconds": 0';
+  for (const text of ['{', '[]', '{"schema": 2, "days": []}', '{"schema": 1, "days": [{}]}', `{"schema": 1, "days": [${day}, "lengths": [-1]}]}`,
+    `{"schema": 1, "days": [${day}, "languages": {"<b>": 10}}]}`, `{"schema": 1, "days": [${day}, "lost": [{"place": "=1+1", "x": 0, "z": 0, "visits": 10}]}]}`,
+    `{"schema": 1, "days": [], "more": "${'x'.repeat(60_000)}"`]) {
+    publish('statistics', '{"schema": 1, "days": []}');
+    await browser.until(`document.getElementById('not-understood').hidden`);
+    publish('statistics', text);
+    await browser.until(`document.getElementById('not-understood').textContent === 'The statistics of ${HANGING} are not understood and are left out'`, 5);
+  }
+  check(await browser.evaluate(`document.getElementById('report-sum').textContent`) === `${number(visitsOn([2], COUNT - 1))} visits on ${COUNT - 1} devices`,
+    'malformed statistics are one warning and disturb no others');
 
   publish('presence', '{"online": false}');
   await browser.until(`${cell(HANGING, 3)} === 'gone'`);
