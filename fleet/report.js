@@ -110,6 +110,9 @@ function lengthName(i) {
 }
 const minuteName = (i) => i === 60 ? '≥ 60 min' : `${i}–${i + 1} min`;
 
+// Nothing that was told may still be some visits.
+const valueName = (value) => value === 0 ? '–' : number(value, 0);
+
 // Bars of [name, count], one below another.
 function drawBars(id, bars) {
   const picture = byId(id);
@@ -117,14 +120,14 @@ function drawBars(id, bars) {
   picture.closest('figure').querySelector('.nothing').hidden = bars.length > 0;
   picture.toggleAttribute('hidden', bars.length === 0);
   picture.setAttribute('viewBox', `0 0 ${kBarBegin + kBarLength + 60} ${kBarHeight * Math.max(1, bars.length)}`);
-  picture.setAttribute('aria-label', bars.map(([name, value]) => `${name}: ${value}`).join(', ') || words.nothing_told);
+  picture.setAttribute('aria-label', bars.map(([name, value]) => `${name}: ${valueName(value)}`).join(', ') || words.nothing_told);
   picture.replaceChildren(...bars.flatMap(([name, value], i) => {
     const length = kBarLength * value / largest;
     const y = kBarHeight * (i + 0.7);
     return [
       svg('text', {x: kBarBegin - 8, y, 'text-anchor': 'end'}, name.slice(0, 20)),
       svg('rect', {x: kBarBegin, y: kBarHeight * i + 4, width: length, height: kBarHeight - 8}),
-      svg('text', {x: kBarBegin + length + 6, y}, number(value, 0)),
+      svg('text', {x: kBarBegin + length + 6, y}, valueName(value)),
     ];
   }));
 }

@@ -102,9 +102,13 @@ async function report(browser, screens) {
   await choose(browser, 'from', '2026-11-25');
   const all = visitsOn([0, 1, 2], COUNT - 1) + visitsOf(0, 0) + visitsOf(1, 0) + visitsOf(2, 0);
   await browser.until(`document.getElementById('report-sum').textContent.startsWith('${number(all)} visits on')`);
+  const others = (hidden) => browser.evaluate(`['devices', 'commands', 'floor'].forEach((id) => { document.getElementById(id).hidden = ${hidden}; })`);
+  await others(true);
   await screens.take(browser, 'report');
-  await browser.evaluate(`document.getElementById('report').scrollIntoView()`);
-  writeFileSync(`${work}/report_wide.png`, await browser.screenshot(1280, 900));
+  for (const [name, width, height] of [['wide', 1280, 1600], ['tall', 390, 2400]]) {
+    writeFileSync(`${work}/report_${name}.png`, await browser.screenshot(width, height));
+  }
+  await others(false);
   await choose(browser, 'to', '2026-11-25');
   // Each visit of the day lost tracking in this square. Devices with fewer than ten visits do not tell.
   const told = total([...Array(COUNT - 1).keys()].map((i) => visitsOf(0, i)).filter((visits) => visits >= 10)) + visitsOf(0, 0);
