@@ -235,7 +235,7 @@ class DesignReader {
                      "'" + name + "' is no parameter with a colour", "add it to \"parameters\"");
   }
 
-  // Which pieces make a garment: one before and one behind the body, or one of another placement.
+  // A garment has these pieces: one before and one behind the body, or one of another placement.
   void CheckPieces(Fields& fields) {
     const std::vector<Piece>& pieces = design_.pieces;
     const bool hangs = pieces.size() == 2 && pieces[0].placed == Placement::kFront &&
@@ -293,7 +293,7 @@ class DesignReader {
     }
   }
 
-  // Whether a size can be computed; `done` are those that can be.
+  // Tells whether a size can be computed; `done` are those that can be.
   bool Resolves(const std::string& name,
                 std::set<std::string, std::less<>>& open,
                 std::set<std::string, std::less<>>& done) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a garment is: the content of scenes/library/garments/NAME/garment.json. Every number of it
+// The design of a garment: the content of scenes/library/garments/NAME/garment.json. Every number
 // may be a formula of the measures of a body, of the values that a recipe sets, and of the sizes
 // that the file names. docs/how-to-make-a-garment.md describes each field.
 

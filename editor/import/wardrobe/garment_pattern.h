@@ -33,7 +33,7 @@ struct GarmentPattern {
 
 // Describes a garment, for reading. Errors name the field and the accepted values.
 void DescribeFields(Fields& fields, GarmentPattern& pattern);
-// The same for a design that has been read.
+// Describes a garment of a design that has been read.
 void DescribeFields(Fields& fields,
                     std::shared_ptr<const GarmentDesign> design,
                     GarmentPattern& pattern);

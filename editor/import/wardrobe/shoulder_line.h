@@ -9,7 +9,7 @@
 
 namespace lararium::import {
 
-// From the middle outward: height and side position as functions of length.
+// Height and side position as functions of the length from the middle outward.
 class ShoulderLine {
  public:
   // `above` is the height above the skin, metres.
