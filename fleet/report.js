@@ -10,8 +10,8 @@ const kDay = /^\d{4}-\d{2}-\d{2}$/;
 const kTag = /^[A-Za-z0-9-]{1,64}$/;
 const kPlaceName = /^[\w-]{1,64}$/;
 const kBarHeight = 26;
-const kBarBegin = 130;
-const kBarLength = 260;
+const kBarBegin = 110;
+const kBarLength = 170;
 // By the names of devices: their days, by dates; null: not understood.
 const statistics = new Map();
 
@@ -163,7 +163,7 @@ function drawLost(lost) {
   picture.setAttribute('aria-label', here.map(({x, z, visits}) => `x ${x}, z ${z}: ${visits}`).join('; '));
   picture.replaceChildren(...floorOf(...bounds, plans[place] ?? {}), ...here.flatMap(({x, z, visits}) => [
     svg('rect', {x, y: z, width: 1, height: 1, 'fill-opacity': 0.15 + 0.35 * visits / largest}),
-    svg('text', {x: x + 0.5, y: z + 0.62, 'text-anchor': 'middle', 'font-size': 0.34}, number(visits, 0)),
+    svg('text', {x: x + 0.5, y: z + 0.62, 'text-anchor': 'middle', 'font-size': 0.28}, number(visits, 0)),
   ]));
 }
 

@@ -167,6 +167,26 @@ TEST_F(UpdaterTest, AShowThatFailedIsNotFetchedAgain) {
   EXPECT_EQ(Playable(), "-- corrected");
 }
 
+TEST_F(UpdaterTest, AProcessThatWaitsLooksAtOnceWhenItIsAskedTo) {
+  options_.interval_seconds = 1000.0;
+  Publish("-- first", 1);
+  const auto log = MakeSilentLog();
+  const auto updater = Updater::Start(options_, *log);
+  ASSERT_TRUE(updater.ok()) << updater.message();
+  const auto arrives = [this](uint64_t serial) {
+    for (int i = 0; i < 200 && store_.Newest().serial != serial; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return store_.Newest().serial == serial;
+  };
+  ASSERT_TRUE(arrives(1));
+  for (const uint64_t serial : {2, 3}) {
+    Publish("-- version " + std::to_string(serial), serial);
+    (*updater)->LookNow();
+    EXPECT_TRUE(arrives(serial));
+  }
+}
+
 TEST_F(UpdaterTest, AKilledProcessLeavesTheOldOrTheNewShowAndNeverAMixture) {
   Random random(7);
   map_[0] ^= 1;
