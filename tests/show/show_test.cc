@@ -342,6 +342,24 @@ TEST_F(ShowTest, ADramaHoldsWhileTrackingIsLostIfItsAuthorWantsThat) {
   EXPECT_NEAR(staged.time, 0.1, 0.02) << "who goes back has nothing to catch up with";
 }
 
+TEST_F(ShowTest, AHeldDramaGoesOnWhereItWas) {
+  const std::unique_ptr<Show> show = Make();
+  StagedFrame staged = At(*show, 0.5);
+  show->input().Hold(true);
+  for (const double time : {0.6, 1.0, 2.0}) {
+    show->StageFrame({}, time, staged);
+    EXPECT_NEAR(staged.time, 0.5, 1e-6) << time;
+  }
+  show->input().RestartAt(3.0);
+  show->StageFrame({}, 2.5, staged);
+  EXPECT_NEAR(staged.time, 3.0, 1e-6) << "goes to another moment, and stays there";
+  show->StageFrame({}, 2.8, staged);
+  EXPECT_NEAR(staged.time, 3.0, 1e-6);
+  show->input().Hold(false);
+  show->StageFrame({}, 2.9, staged);
+  EXPECT_NEAR(staged.time, 3.1, 1e-6);
+}
+
 TEST_F(ShowTest, TheDramaHearsOfItsVisitor) {
   show::ShowContent content = test::SmallContent();
   content.drama = R"(
