@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/core/json_fields.h"
@@ -46,6 +48,25 @@ struct VisitDetails {
 
   bool empty() const { return *this == VisitDetails(); }
   friend bool operator==(const VisitDetails&, const VisitDetails&) = default;
+};
+
+// Details of which copies share the memory. Statistics of many days are copied on the thread that
+// draws, and only one day changes.
+class SharedDetails {
+ public:
+  SharedDetails() = default;
+  SharedDetails(VisitDetails details)  // NOLINT: converts on purpose
+      : details_(std::make_shared<const VisitDetails>(std::move(details))) {}
+
+  const VisitDetails& operator*() const {
+    static const VisitDetails kNone;
+    return details_ ? *details_ : kNone;
+  }
+  const VisitDetails* operator->() const { return &**this; }
+  friend bool operator==(const SharedDetails& a, const SharedDetails& b) { return *a == *b; }
+
+ private:
+  std::shared_ptr<const VisitDetails> details_;  // nullptr: none.
 };
 
 // One visit, when it is over.

@@ -56,7 +56,11 @@ void DescribeDay(Fields& fields, DayCounts& day) {
   DescribeSeconds(fields, "played_seconds", day.played_seconds);
   DescribeSeconds(fields, "seen_seconds", day.seen_seconds);
   DescribeSeconds(fields, "tracked_seconds", day.tracked_seconds);
-  DescribeFields(fields, day.details);
+  VisitDetails details = *day.details;
+  DescribeFields(fields, details);
+  if (fields.reading() && !details.empty()) {
+    day.details = std::move(details);
+  }
 }
 
 void DescribeDays(Fields& fields, std::vector<DayCounts>& days) {
@@ -69,7 +73,9 @@ DayCounts PublicDay(DayCounts day) {
   if (day.visitors < VisitDetails::kLeastTold) {
     return {.day = day.day, .visitors = day.visitors, .restarts = day.restarts};
   }
-  RemoveSmallCounts(day.details);
+  VisitDetails details = *day.details;
+  RemoveSmallCounts(details);
+  day.details = std::move(details);
   return day;
 }
 
@@ -244,7 +250,9 @@ void VisitCounter::Count(const Moment& moment, DayCounts& day) {
     visit_.captions = moment.captions;
   }
   if (there_ && !moment.noticed && is_whole_) {
-    AddVisit(visit_, day.details);
+    VisitDetails details = *day.details;
+    AddVisit(visit_, details);
+    day.details = std::move(details);
   }
   if (moment.tracked) {
     located_ = moment.noticed;

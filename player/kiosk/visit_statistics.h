@@ -26,7 +26,7 @@ struct DayCounts {
   double tracked_seconds = 0.0;
   int64_t losses = 0;    // losses of tracking that were long enough for people to fade out
   int64_t restarts = 0;  // restarts by the watchdog
-  VisitDetails details = {};
+  SharedDetails details = {};
 
   friend bool operator==(const DayCounts&, const DayCounts&) = default;
 };

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -108,6 +109,50 @@ void BM_GroupSeatNext(benchmark::State& state) {
   state.counters["longest_us"] = 1e6 * longest;
 }
 BENCHMARK(BM_GroupSeatNext)->UseManualTime()->Iterations(20'000);
+
+// Statistics of a kiosk that has counted for 400 days.
+VisitStatistics LongStatistics() {
+  VisitDetails details;
+  for (int i = 0; i < 100; ++i) {
+    AddVisit({.seconds = 3.0 * i,
+              .drama_seconds = 3.0 * i,
+              .language = std::to_string(i % 3),
+              .captions = std::to_string(i % 4),
+              .lost = {{"thermopolium", i % 10, i / 10}}},
+             details);
+  }
+  VisitStatistics statistics;
+  for (int day = 0; day < 400; ++day) {
+    statistics.Day(std::to_string(1000 + day) + "-01-01").details = VisitDetails(details);
+  }
+  return statistics;
+}
+
+// What a frame of a kiosk counts. A visit begins or ends each 300 frames.
+void BM_VisitCounterCount(benchmark::State& state) {
+  VisitStatistics statistics = LongStatistics();
+  DayCounts& day = statistics.Day("1399-01-01");
+  VisitCounter counter;
+  VisitCounter::Moment moment = {.tracked = true, .place = "thermopolium", .language = "it"};
+  int64_t frame = 0;
+  for (auto _ : state) {
+    moment.now += 1.0 / 60.0;
+    moment.noticed = ++frame / 300 % 2 == 0;
+    moment.last_sign = moment.now;
+    counter.Count(moment, day);
+  }
+}
+BENCHMARK(BM_VisitCounterCount);
+
+// What the frame in which a visitor comes or leaves, and one in a minute, copies twice.
+void BM_VisitStatisticsCopy(benchmark::State& state) {
+  const VisitStatistics statistics = LongStatistics();
+  for (auto _ : state) {
+    VisitStatistics copy = statistics;
+    benchmark::DoNotOptimize(copy);
+  }
+}
+BENCHMARK(BM_VisitStatisticsCopy);
 
 }  // namespace
 }  // namespace lararium::player

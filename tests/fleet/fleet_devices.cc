@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "player/app/device_file.h"
@@ -61,6 +62,7 @@ VisitStatistics StatisticsOf(size_t index) {
   VisitStatistics statistics;
   for (int day = 0; day < 3; ++day) {
     DayCounts& counts = statistics.Day("2026-11-2" + std::to_string(5 + day));
+    VisitDetails details;
     const int visits = 20 * (day + 2) - static_cast<int>(index);
     for (int i = 0; i < visits; ++i) {
       VisitSummary visit;
@@ -73,7 +75,7 @@ VisitStatistics StatisticsOf(size_t index) {
           visit.lost.push_back({"thermopolium", x, day});
         }
       }
-      AddVisit(visit, counts.details);
+      AddVisit(visit, details);
       ++counts.visitors;
       counts.completed += visit.drama_seconds > 200.0 ? 1 : 0;
       counts.played_seconds += visit.seconds;
@@ -81,6 +83,7 @@ VisitStatistics StatisticsOf(size_t index) {
       counts.tracked_seconds += 0.95 * visit.seconds;
       counts.losses += static_cast<int64_t>(visit.lost.size());
     }
+    counts.details = std::move(details);
   }
   return statistics;
 }

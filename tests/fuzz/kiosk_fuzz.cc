@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto told = player::ParseVisitStatistics(published, "published");
     CHECK(told.ok());
     for (const player::DayCounts& day : told->days()) {
-      for (const auto& [cell, visits] : day.details.lost) {
+      for (const auto& [cell, visits] : day.details->lost) {
         CHECK(visits >= player::VisitDetails::kLeastTold);
       }
     }

@@ -227,7 +227,7 @@ TEST_F(FleetLinkTest, StatisticsAreKeptWithoutSmallCountsAndPublishedOnceInFiveM
   ASSERT_TRUE(StaffSees("Vetutius"));
   VisitStatistics statistics;
   statistics.Day("2026-11-23").visitors = 12;
-  statistics.Day("2026-11-23").details.ended = {9, 11};
+  statistics.Day("2026-11-23").details = VisitDetails{.ended = {9, 11}};
   player_->TellStatistics(statistics);
   EXPECT_TRUE(Soon([&] { return staff_->Text(kStatistics) != ""; }));
   EXPECT_EQ(staff_->Last(kStatistics)["days"][0]["ended"], Json({0, 11}));

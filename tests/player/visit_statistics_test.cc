@@ -30,11 +30,12 @@ TEST_F(VisitStatisticsTest, ComeBackAsTheyWereSaved) {
   EXPECT_TRUE(Load().days().empty()) << "none yet";
   VisitStatistics statistics;
   statistics.Day("2026-11-23") = {"2026-11-23", 12, 3600.0, 7, 3500.0, 3400.0, 4, 1};
-  statistics.Day("2026-11-23").details = {.lengths = {2, 0, 10},
-                                          .ended = {1, 11},
-                                          .languages = {{"it", 12}},
-                                          .captions = {{"off", 12}},
-                                          .lost = {{{"bar", -2, 3}, 4}, {{"bar", 0, 3}, 1}}};
+  statistics.Day("2026-11-23").details =
+      VisitDetails{.lengths = {2, 0, 10},
+                   .ended = {1, 11},
+                   .languages = {{"it", 12}},
+                   .captions = {{"off", 12}},
+                   .lost = {{{"bar", -2, 3}, 4}, {{"bar", 0, 3}, 1}}};
   statistics.Day("2026-11-22").visitors = 3;
   ASSERT_TRUE(SaveVisitStatistics(folder_.path(), statistics).ok());
   EXPECT_EQ(Load(), statistics);
@@ -60,7 +61,7 @@ TEST_F(VisitStatisticsTest, OfAPlayerWithoutDetailsAreStillRead) {
       "restarts": 0}]})");
   ASSERT_EQ(Load().days().size(), 1u);
   EXPECT_EQ(Load().days().front().visitors, 41);
-  EXPECT_TRUE(Load().days().front().details.empty());
+  EXPECT_TRUE(Load().days().front().details->empty());
 }
 
 TEST_F(VisitStatisticsTest, DamagedDetailsAreSetAside) {
@@ -97,9 +98,9 @@ TEST_F(VisitStatisticsTest, OfOldDaysHaveNoDetails) {
     statistics.Day(std::to_string(1000 + i) + "-01-01").details = FullDetails();
   }
   const auto detailed = std::count_if(statistics.days().begin(), statistics.days().end(),
-                                      [](const DayCounts& d) { return !d.details.empty(); });
+                                      [](const DayCounts& d) { return !d.details->empty(); });
   EXPECT_EQ(detailed, static_cast<std::ptrdiff_t>(VisitStatistics::kMostDetailedDays));
-  EXPECT_FALSE(statistics.days().back().details.empty());
+  EXPECT_FALSE(statistics.days().back().details->empty());
   ASSERT_TRUE(SaveVisitStatistics(folder_.path(), statistics).ok());
   EXPECT_EQ(Load(), statistics) << "the largest file is still read";
 }
@@ -107,15 +108,15 @@ TEST_F(VisitStatisticsTest, OfOldDaysHaveNoDetails) {
 TEST_F(VisitStatisticsTest, OfADayWithFewVisitorsOnlyTheirNumberIsPublished) {
   VisitStatistics statistics;
   statistics.Day("2026-11-23") = {"2026-11-23", 9, 90.0, 7, 100.0, 50.0, 4, 1};
-  statistics.Day("2026-11-23").details.lengths = {9};
+  statistics.Day("2026-11-23").details = VisitDetails{.lengths = {9}};
   statistics.Day("2026-11-24") = {"2026-11-24", 10, 90.0, 7, 100.0, 50.0, 4, 1};
-  statistics.Day("2026-11-24").details.ended = {9, 10};
+  statistics.Day("2026-11-24").details = VisitDetails{.ended = {9, 10}};
   const auto published = ParseVisitStatistics(PublishedStatistics(statistics), "published");
   ASSERT_TRUE(published.ok()) << published.message();
   VisitStatistics expected;
   expected.Day("2026-11-23") = {.day = "2026-11-23", .visitors = 9, .restarts = 1};
   expected.Day("2026-11-24") = {"2026-11-24", 10, 90.0, 7, 100.0, 50.0, 4, 1};
-  expected.Day("2026-11-24").details.ended = {0, 10};
+  expected.Day("2026-11-24").details = VisitDetails{.ended = {0, 10}};
   EXPECT_EQ(*published, expected);
 }
 
@@ -241,13 +242,13 @@ TEST_F(VisitCounterTest, AVisitHasItsLengthItsEndAndItsLanguageWhenItIsOver) {
   Watch(40.0, true);
   moment_.language = "it";
   Watch(40.0, true);
-  EXPECT_TRUE(day_.details.empty()) << "goes on";
+  EXPECT_TRUE(day_.details->empty()) << "goes on";
   Watch(45.0, false);
   Leave();
-  EXPECT_THAT(day_.details.lengths, ElementsAre(0, 1)) << "80 s";
-  EXPECT_THAT(day_.details.ended, ElementsAre(0, 1)) << "without the time on the stand";
-  EXPECT_THAT(day_.details.languages, ElementsAre(Pair("it", 1)));
-  EXPECT_TRUE(day_.details.captions.empty());
+  EXPECT_THAT(day_.details->lengths, ElementsAre(0, 1)) << "80 s";
+  EXPECT_THAT(day_.details->ended, ElementsAre(0, 1)) << "without the time on the stand";
+  EXPECT_THAT(day_.details->languages, ElementsAre(Pair("it", 1)));
+  EXPECT_TRUE(day_.details->captions.empty());
 }
 
 TEST_F(VisitCounterTest, ASquareOfTheFloorCountsOnceForAVisitThatLostTrackingThere) {
@@ -269,7 +270,7 @@ TEST_F(VisitCounterTest, ASquareOfTheFloorCountsOnceForAVisitThatLostTrackingThe
   Watch(45.0, false, false, true);
   Leave();
   EXPECT_EQ(day_.losses, 4);
-  EXPECT_THAT(day_.details.lost,
+  EXPECT_THAT(day_.details->lost,
               ElementsAre(Pair(FloorCell{"bar", 1, -1}, 1), Pair(FloorCell{"bar", 2, 0}, 1)))
       << "not where the headset was laid down";
 }
@@ -279,11 +280,11 @@ TEST_F(VisitCounterTest, AVisitWhoseBeginningWasNotSeenHasNoDetails) {
   Come();
   Watch(10.0, true);
   Leave();
-  EXPECT_TRUE(day_.details.empty());
+  EXPECT_TRUE(day_.details->empty());
   Come();
   Watch(10.0, true);
   Leave();
-  EXPECT_THAT(day_.details.lengths, ElementsAre(1));
+  EXPECT_THAT(day_.details->lengths, ElementsAre(1));
 }
 
 TEST_F(VisitCounterTest, GoingToAnotherMomentIsNotSeeingTheEnd) {
