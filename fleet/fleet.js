@@ -256,7 +256,7 @@ function svg(name, attributes, ...children) {
 const least = (values) => Math.floor(values.reduce((a, b) => Math.min(a, b)) - kMargin);
 const most = (values) => Math.ceil(values.reduce((a, b) => Math.max(a, b)) + kMargin);
 
-// What lies under the devices: a line for each metre, and the surfaces of the place.
+// Draws the ground under the devices: a line for each metre, and the surfaces of the place.
 function floorOf(left, right, far, near, {cell = 0.1, points = []}) {
   let lines = '';
   for (let x = left; x <= right; ++x) {

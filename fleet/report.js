@@ -4,7 +4,7 @@
 
 const kMostStatistics = 65536;  // bytes
 const kMostCount = 1e9;
-const kLeastVisits = 10;  // Of a day with fewer, devices tell only their number.
+const kLeastVisits = 10;  // Devices tell only the number of visits of a day that had fewer.
 const kLengthMinutes = [1, 2, 5, 10, 20];
 const kDay = /^\d{4}-\d{2}-\d{2}$/;
 const kTag = /^[A-Za-z0-9-]{1,64}$/;
@@ -12,7 +12,7 @@ const kPlaceName = /^[\w-]{1,64}$/;
 const kBarHeight = 26;
 const kBarBegin = 110;
 const kBarLength = 170;
-// By the names of devices: their days, by dates; null: not understood.
+// The days of each device by their dates, by the names of devices; null: not understood.
 const statistics = new Map();
 
 // --- What devices published
@@ -110,7 +110,7 @@ function lengthName(i) {
 }
 const minuteName = (i) => i === 60 ? '≥ 60 min' : `${i}–${i + 1} min`;
 
-// Nothing that was told may still be some visits.
+// A count that devices left out may still be some visits.
 const valueName = (value) => value === 0 ? '–' : number(value, 0);
 
 // Bars of [name, count], one below another.
@@ -133,7 +133,7 @@ function drawBars(id, bars) {
 }
 
 const largestFirst = (map, name) => [...map].sort((a, b) => b[1] - a[1]).map(([key, value]) => [name(key), value]);
-// Without the empty bars at both ends.
+// Leaves out the empty bars at both ends.
 function between(values, name) {
   const last = values.findLastIndex((value) => value > 0);
   return values.map((value, i) => [name(i), value]).slice(Math.max(0, values.findIndex((value) => value > 0)), last + 1);
@@ -192,7 +192,7 @@ function fillTable(days) {
   }));
 }
 
-// One count a line (RFC 4180), so that tables of any form can be made of it.
+// Writes one count a line (RFC 4180), so that tables of any form can be made of it.
 function csvOf(days) {
   const lines = [['day', 'device', 'what', 'which', 'count']];
   for (const [name, day, value] of days) {

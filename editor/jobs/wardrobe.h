@@ -18,7 +18,7 @@ struct WardrobeOptions {
   std::filesystem::path out = {};    // The picture.
 };
 
-// Without a file and a garment, lists the library.
+// Lists the library if neither a file nor a garment is given.
 Result<CommandResult> RunWardrobe(const WardrobeOptions& options, Progress& progress);
 
 }  // namespace lararium::editor

@@ -69,7 +69,7 @@ class SharedDetails {
   std::shared_ptr<const VisitDetails> details_;  // nullptr: none.
 };
 
-// One visit, when it is over.
+// Summary of one visit, made when it is over.
 struct VisitSummary {
   double seconds = 0.0;
   double drama_seconds = 0.0;  // Time of the drama at which it ended.

@@ -128,7 +128,7 @@ VisitStatistics LongStatistics() {
   return statistics;
 }
 
-// What a frame of a kiosk counts. A visit begins or ends each 300 frames.
+// Measures the counting of one frame of a kiosk. A visit begins or ends each 300 frames.
 void BM_VisitCounterCount(benchmark::State& state) {
   VisitStatistics statistics = LongStatistics();
   DayCounts& day = statistics.Day("1399-01-01");
@@ -144,7 +144,7 @@ void BM_VisitCounterCount(benchmark::State& state) {
 }
 BENCHMARK(BM_VisitCounterCount);
 
-// What the frame in which a visitor comes or leaves, and one in a minute, copies twice.
+// Measures the copy of all days that is made twice in the frame in which a visitor comes or leaves.
 void BM_VisitStatisticsCopy(benchmark::State& state) {
   const VisitStatistics statistics = LongStatistics();
   for (auto _ : state) {

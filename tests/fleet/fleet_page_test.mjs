@@ -88,7 +88,7 @@ async function logIn(browser, password) {
   await click(browser, '#password-form button');
 }
 
-// The visits of fleet_devices.cc on its days, of so many devices of the first process.
+// The visits of fleet_devices.cc on its days, of the given number of devices of the first process.
 const number = (value) => new Intl.NumberFormat('en').format(value);
 const visitsOf = (day, i) => Math.max(0, 20 * (day + 2) - i);
 const total = (values) => values.reduce((a, b) => a + b, 0);

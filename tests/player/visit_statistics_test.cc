@@ -77,7 +77,7 @@ TEST_F(VisitStatisticsTest, DamagedDetailsAreSetAside) {
   }
 }
 
-// As much as there can be in a day.
+// The most that there can be in a day.
 VisitDetails FullDetails() {
   VisitDetails details = {.lengths = std::vector<int64_t>(6, 1000),
                           .ended = std::vector<int64_t>(VisitDetails::kMostMinutes, 1000)};
