@@ -1,7 +1,7 @@
 #include "editor/jobs/wardrobe.h"
 
+#include <memory>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "editor/import/cast/cast_builder.h"
@@ -9,14 +9,13 @@
 #include "editor/import/wardrobe/garment_design.h"
 #include "editor/jobs/cast_library_fetch.h"
 #include "editor/jobs/portrait.h"
-#include "shared/core/file.h"
+#include "editor/jobs/studio.h"
 #include "shared/core/json.h"
 #include "shared/human/human.h"
+#include "shared/image/encode.h"
 
 namespace lararium::editor {
 namespace {
-
-constexpr uint64_t kLargestGarment = 1 << 20;  // Bytes.
 
 Json Summary(const import::GarmentDesign& design) {
   Json parameters = Json::array();
@@ -54,26 +53,24 @@ Result<CommandResult> PictureGarment(const WardrobeOptions& options, Progress& p
   LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary library, import::CastLibrary::Open(*folder));
   LARARIUM_ASSIGN_OR_RETURN(import::CastRecipe recipe, import::LoadCastPreset(options.on));
   recipe.garments = {{{"name", options.picture}}};
-  LARARIUM_ASSIGN_OR_RETURN(const human::Human human, import::BuildCast(library, recipe, progress));
-  std::filesystem::path file = options.out;
-  file += ".larhuman";
-  LARARIUM_RETURN_IF_ERROR(WriteFileAtomically(file, human::SerializeHuman(human)));
-  PortraitOptions portrait;
-  portrait.files = {file};
-  portrait.out = options.out;
-  Result<CommandResult> result = RunPortrait(portrait);
-  std::error_code ignored;
-  std::filesystem::remove(file, ignored);
-  return result;
+  LARARIUM_ASSIGN_OR_RETURN(human::Human human, import::BuildCast(library, recipe, progress));
+  const StudioPose pose = CalmPose(human);
+  LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Studio> studio, Studio::Create());
+  LARARIUM_RETURN_IF_ERROR(
+      studio->Seat(std::make_shared<const human::Human>(std::move(human)), pose));
+  const PortraitOptions portrait;
+  LARARIUM_ASSIGN_OR_RETURN(const StudioShot shot,
+                            studio->Shoot({}, cv::Size(portrait.width, portrait.height)));
+  LARARIUM_RETURN_IF_ERROR(image::WriteImage(options.out, shot.picture));
+  return CommandResult{"wrote " + options.out.string() + "\n", {{"out", options.out.string()}}};
 }
 
 }  // namespace
 
 Result<CommandResult> RunWardrobe(const WardrobeOptions& options, Progress& progress) {
   if (!options.check.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(options.check, kLargestGarment));
     LARARIUM_ASSIGN_OR_RETURN(const import::GarmentDesign design,
-                              import::ParseGarment(text, options.check));
+                              import::ReadGarment(options.check));
     return CommandResult{Line(design), Summary(design)};
   }
   return options.picture.empty() ? ListWardrobe() : PictureGarment(options, progress);

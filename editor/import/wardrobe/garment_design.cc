@@ -354,10 +354,13 @@ Result<GarmentDesign> ParseGarment(std::string_view text, const std::filesystem:
   return design;
 }
 
-Result<GarmentDesign> LoadGarment(std::string_view name, const std::filesystem::path& library) {
-  const std::filesystem::path file = GarmentFile(name, library);
+Result<GarmentDesign> ReadGarment(const std::filesystem::path& file) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxFile));
   return ParseGarment(text, file);
+}
+
+Result<GarmentDesign> LoadGarment(std::string_view name, const std::filesystem::path& library) {
+  return ReadGarment(GarmentFile(name, library));
 }
 
 }  // namespace lararium::import

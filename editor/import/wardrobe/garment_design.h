@@ -153,6 +153,8 @@ std::filesystem::path GarmentFile(std::string_view name,
 
 // Errors name the file, the piece or seam, and the field.
 Result<GarmentDesign> ParseGarment(std::string_view text, const std::filesystem::path& file);
+Result<GarmentDesign> ReadGarment(const std::filesystem::path& file);
+// Reads the file of a garment of a library.
 Result<GarmentDesign> LoadGarment(std::string_view name,
                                   const std::filesystem::path& library = GarmentLibrary());
 

@@ -25,6 +25,7 @@ namespace {
 constexpr size_t kMostGarments = 16;  // Limit of a recipe.
 
 using import::GarmentParameter;
+using import::GarmentPattern;
 using Garments = decltype(editor::CastCatalogue::garments);
 
 // The labels that the files of the library give to parameters, for translation.
@@ -43,20 +44,20 @@ std::string GarmentText(const Json& garment, const char* field) {
 std::string NameOf(const Json& garment) { return GarmentText(garment, "name"); }
 
 // The present values of a garment; the usual ones where the recipe has an error.
-import::GarmentPattern PatternOf(const Json& garment,
-                                 const std::shared_ptr<const import::GarmentDesign>& design){
-    import::GarmentPattern pattern;
-const auto read = [&](const Json& json) {
-  return ReadFields(JsonView(json, "garment"),
-                    [&](Fields& fields) { DescribeFields(fields, design, pattern); });
-};
-if (!read(garment).ok()) {
-  pattern = {};
-  const Status plain = read(Json::object());
-  DCHECK(plain.ok());
+GarmentPattern PatternOf(const Json& garment,
+                         const std::shared_ptr<const import::GarmentDesign>& design) {
+  GarmentPattern pattern;
+  const auto read = [&](const Json& json) {
+    return ReadFields(JsonView(json, "garment"),
+                      [&](Fields& fields) { DescribeFields(fields, design, pattern); });
+  };
+  if (!read(garment).ok()) {
+    pattern = {};
+    const Status plain = read(Json::object());
+    DCHECK(plain.ok());
+  }
+  return pattern;
 }
-return pattern;
-}  // namespace
 
 std::string HexOf(const glm::vec3& srgb) {
   char text[8];
@@ -80,7 +81,7 @@ class ParameterRow {
  public:
   ParameterRow(editor::Workspace& workspace,
                const GarmentParameter& parameter,
-               const import::GarmentPattern& pattern,
+               const GarmentPattern& pattern,
                Json& garment,
                RecipeChange& change)
       : workspace_(workspace),
@@ -158,7 +159,7 @@ class ParameterRow {
 
   editor::Workspace& workspace_;
   const GarmentParameter& parameter_;
-  const import::GarmentPattern& pattern_;
+  const GarmentPattern& pattern_;
   Json& garment_;
   RecipeChange& change_;
 };
@@ -202,7 +203,7 @@ Order DrawGarment(editor::Workspace& workspace,
   const Order order = Header(garments, garment, first, change);
   if (BeginProperties("garment")) {
     if (const auto found = garments.find(NameOf(garment)); found != garments.end()) {
-      const import::GarmentPattern pattern = PatternOf(garment, found->second);
+      const GarmentPattern pattern = PatternOf(garment, found->second);
       for (const GarmentParameter& parameter : found->second->parameters) {
         if (!parameter.label.empty()) {
           ParameterRow(workspace, parameter, pattern, garment, change).Draw();
@@ -232,7 +233,7 @@ void AddGarment(const Garments& garments, import::CastRecipe& recipe, RecipeChan
   }
 }
 
-}  // namespace lararium::panels
+}  // namespace
 
 void DrawWardrobe(editor::Workspace& workspace, import::CastRecipe& recipe, RecipeChange& change) {
   const editor::CastCatalogue* catalogue = workspace.cast().catalogue();
