@@ -75,8 +75,9 @@ export class Chromium {
 
   // Presses a key by its name, its number and the text that it types.
   async pressKey(key, windowsVirtualKeyCode, text) {
-    await this.send('Input.dispatchKeyEvent', {type: 'keyDown', key, windowsVirtualKeyCode, text});
-    await this.send('Input.dispatchKeyEvent', {type: 'keyUp', key, windowsVirtualKeyCode});
+    const code = {' ': 'Space'}[key] ?? (key.length === 1 ? `Key${key.toUpperCase()}` : key);
+    await this.send('Input.dispatchKeyEvent', {type: 'keyDown', key, code, windowsVirtualKeyCode, text});
+    await this.send('Input.dispatchKeyEvent', {type: 'keyUp', key, code, windowsVirtualKeyCode});
   }
 
   // Makes a page the one that is seen; others are hidden.

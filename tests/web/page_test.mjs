@@ -146,6 +146,27 @@ function checkPoses(noted) {
 
 const share = (changed) => `${(100 * changed).toFixed(1)} %`;
 
+// Keys that reach the drama while the menu's button, the menu or nothing has the focus.
+async function checkKeys(browser) {
+  await browser.evaluate(`import('./show.js').then(({Show}) => {
+    window.keys = [];
+    const {pressKey} = Show.prototype;
+    Show.prototype.pressKey = function (key) {
+      window.keys.push(key);
+      pressKey.call(this, key);
+    };
+  })`);
+  await focus(browser, 'open_menu');
+  await type(browser, 'k', ' ');
+  await browser.until(`document.getElementById('menu').open`);
+  await type(browser, 'k', 'Escape');
+  await browser.until(`!document.getElementById('menu').open`);
+  await browser.evaluate('document.activeElement.blur()');
+  await type(browser, ' ', 'ArrowDown', 'Escape', 'Tab');
+  const keys = await browser.evaluate('keys.join()');
+  check(keys === 'k,space,down,escape', `keys reach the drama but for those that the page needs: ${keys}`);
+}
+
 async function visit(browser) {
   await browser.open(`${origin}/`, `(${watch})(${STEP})`);
   await browser.until(READY);
@@ -173,6 +194,7 @@ async function visit(browser) {
   assert.equal(await browser.evaluate(`document.getElementById('lararium').dataset.people`), `${bodies.length}`);
   await browser.until(`${POSES} >= ${FRAMES}`, 200);
   await screens.take(browser, 'show');
+  await checkKeys(browser);
   await browser.until(`noted.at(-1).milliseconds - noted.findLast((frame) => frame.tracked.pose).milliseconds > 3000`, 100);
   await screens.take(browser, 'guide');
   const before = await browser.evaluate(POSES);

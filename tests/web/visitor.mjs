@@ -31,7 +31,7 @@ export const PLAYS = `document.getElementById('card').hidden`;
 export const press = (browser, id = 'go') => browser.evaluate(`document.getElementById('${id}').click()`, true);
 
 export const FOCUSED = `document.activeElement.id || document.activeElement.dataset.key`;
-const KEYS = {Tab: [9], Enter: [13, '\r'], Escape: [27], ArrowDown: [40], Home: [36], End: [35]};
+const KEYS = {Tab: [9], Enter: [13, '\r'], Escape: [27], ArrowDown: [40], Home: [36], End: [35], ' ': [32, ' '], k: [75, 'k']};
 export const type = async (browser, ...names) => {
   for (const name of names) {
     await browser.pressKey(name, ...KEYS[name]);

@@ -116,6 +116,9 @@ EMSCRIPTEN_KEEPALIVE void lararium_choose(bool descriptions, bool reduced_motion
   show->input().SetReducedMotion(reduced_motion);
 }
 
+// A key by its name, as render::KeyName() has it.
+EMSCRIPTEN_KEEPALIVE void lararium_press_key(const char* key) { show->input().PressKey(key); }
+
 EMSCRIPTEN_KEEPALIVE void lararium_restart() { show->input().RestartAt(0.0); }
 
 EMSCRIPTEN_KEEPALIVE void lararium_forget_pose() { show->input().ForgetPose(); }

@@ -4,6 +4,7 @@ import {showTexts} from './captions.js';
 import {Choices, OFF} from './choices.js';
 import {compileProgram, Folder} from './folder.js';
 import {keep} from './keep.js';
+import {keyOf} from './keys.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
 import {Place} from './place.js';
 import {DRAMA, GUIDE, LANGUAGES, PERSON, Show, SHOW, THINGS, VOICES} from './show.js';
@@ -474,6 +475,12 @@ function drawTracked({number, tracked, seen}) {
 document.addEventListener('visibilitychange', () => {
   if (document.hidden && visit !== undefined) {
     pause();
+  }
+});
+document.addEventListener('keydown', (event) => {
+  const key = visit === undefined || element('menu').open ? undefined : keyOf(event);
+  if (key !== undefined) {
+    visit.show.pressKey(key);
   }
 });
 canvas.addEventListener('webglcontextlost', () => stop(() => showProblem(new Error(sentence('drawing_lost')))));

@@ -115,6 +115,11 @@ export class Show {
     this.module._lararium_choose(descriptions, reducedMotion);
   }
 
+  // A key for the drama, by its name (keys.js).
+  pressKey(key) {
+    this.module.ccall('lararium_press_key', null, ['string'], [key]);
+  }
+
   restart() {
     this.module._lararium_restart();
     this.time = 0;
