@@ -165,6 +165,21 @@ void AddExport(CLI::App* command, ExportOptions& pack) {
                    "Where the folder will be served (https://...): also write its QR code, and a "
                    "page with it to be printed")
       ->needs(web);
+  CLI::Option* fleet =
+      command
+          ->add_option("--fleet", pack.fleet,
+                       "Let the page join the fleet of a site: wss://HOST[:PORT]/SITE")
+          ->needs(web);
+  CLI::Option* password =
+      command
+          ->add_option("--fleet-password-file", pack.fleet_password,
+                       "File visitors.password of the fleet's folder; every visitor can read it "
+                       "in the page")
+          ->check(CLI::ExistingFile)
+          ->needs(fleet);
+  fleet->needs(password);
+  command->add_option("--group", pack.group, "Play one drama together with this group of the fleet")
+      ->needs(fleet);
   AddPoints(command, pack.points);
   AddSign(command, pack.sign);
 }

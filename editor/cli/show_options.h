@@ -36,6 +36,10 @@ struct ExportOptions {
   std::filesystem::path sign = {};  // Secret key file; empty: the bundle is not signed.
   std::filesystem::path page = {};  // See ExportRequest.
   std::string address = {};         // See exporter::WebExport.
+  // See bundle::FleetEntry; an empty address: pages join no fleet.
+  std::string fleet = {};
+  std::string group = {};
+  std::filesystem::path fleet_password = {};
 };
 
 struct PublishOptions {

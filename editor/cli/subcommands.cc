@@ -1,5 +1,7 @@
 #include "editor/cli/subcommands.h"
 
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "editor/check/project_check.h"
@@ -95,6 +97,18 @@ CommandResult DescribeWebFolder(const std::filesystem::path& folder,
   return result;
 }
 
+Result<std::optional<bundle::FleetEntry>> ReadFleet(const ExportOptions& options) {
+  constexpr uint64_t kMostPasswordBytes = 1024;
+  if (options.fleet.empty()) {
+    return std::optional<bundle::FleetEntry>();
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const std::string text,
+                            ReadText(options.fleet_password, kMostPasswordBytes));
+  bundle::FleetEntry fleet = {options.fleet, options.group, text.substr(0, text.find('\n'))};
+  LARARIUM_RETURN_IF_ERROR(bundle::CheckFleet(fleet, "--fleet"));
+  return std::optional(std::move(fleet));
+}
+
 }  // namespace
 
 Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress) {
@@ -102,6 +116,7 @@ Result<CommandResult> RunExport(const ExportOptions& options, Progress& progress
   LARARIUM_ASSIGN_OR_RETURN(const ProjectDocument document, LoadProject(paths));
   ExportRequest request{
       .out = options.out, .key = options.sign, .page = options.page, .address = options.address};
+  LARARIUM_ASSIGN_OR_RETURN(request.fleet, ReadFleet(options));
   request.budget.max_points = options.points.value_or(request.budget.max_points);
   if (!options.web.empty()) {
     request.out = options.web;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 
 #include "editor/export/qr_page.h"
 #include "editor/export/web_content.h"
@@ -22,6 +23,9 @@ namespace lararium::exporter {
 namespace {
 
 constexpr char kDramaName[] = "drama.lua";
+// Files of the page that only the page of a fleet loads.
+constexpr std::string_view kMqtt = "mqtt.min.js";
+constexpr std::string_view kFleetFiles[] = {kMqtt, "mqtt.LICENSE.md", "fleet.js"};
 
 // The content of the file: the manifest, and members that refer to the content and to `made`.
 struct Packing {
@@ -258,6 +262,14 @@ Status CheckWebExport(const WebExport& web) {
                          "build it with scripts/install_web_tools.sh, cmake --preset web and "
                          "cmake --build --preset web");
   }
+  if (web.fleet) {
+    LARARIUM_RETURN_IF_ERROR(bundle::CheckFleet(*web.fleet, "--fleet"));
+    if (!FileExists(web.page / kMqtt)) {
+      return Status::Error(web.page.string(), "the page cannot speak with a broker",
+                           "run scripts/fetch_mqtt.sh, cmake --preset web and cmake --build "
+                           "--preset web");
+    }
+  }
   return bundle::CheckWebFolder(web.folder);
 }
 
@@ -267,8 +279,15 @@ Result<bundle::WebFolderReport> ExportWebFolder(ExportContent content,
                                                 Progress& progress) {
   LARARIUM_RETURN_IF_ERROR(CheckWebExport(web));
   LARARIUM_RETURN_IF_ERROR(ReduceForWeb(content, progress));
-  LARARIUM_ASSIGN_OR_RETURN(const Packing packing, Pack(content, progress));
+  LARARIUM_ASSIGN_OR_RETURN(Packing packing, Pack(content, progress));
+  packing.manifest.fleet = web.fleet;
   std::vector<bundle::MemberContent> page = FilesBelow(web.page);
+  if (!web.fleet) {
+    std::erase_if(page, [](const bundle::MemberContent& file) {
+      return std::find(std::begin(kFleetFiles), std::end(kFleetFiles), file.name) !=
+             std::end(kFleetFiles);
+    });
+  }
   std::string print;
   std::string code;
   if (!web.address.empty()) {

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "shared/audio/sound_library.h"
+#include "shared/bundle/show_manifest.h"
 #include "shared/bundle/signature.h"
 #include "shared/bundle/web_folder.h"
 #include "shared/core/progress.h"
@@ -88,6 +90,8 @@ struct WebExport {
   std::filesystem::path page;  // Folder of the page's files, as the preset `web` builds it.
   // Where the folder will be served, for a page with a QR code to be printed; empty: none.
   std::string address = {};
+  // The fleet that pages join; they do so with more of the page's files.
+  std::optional<bundle::FleetEntry> fleet = {};
 };
 // Checks that the page is there and that the folder may be written.
 Status CheckWebExport(const WebExport& web);

@@ -160,7 +160,8 @@ Result<bundle::WebFolderReport> ExportProjectForWeb(const ProjectPaths& paths,
   const exporter::WebExport web{
       .folder = request.out,
       .page = request.page.empty() ? ShippedData("lararium/web", "build/web/page") : request.page,
-      .address = request.address};
+      .address = request.address,
+      .fleet = request.fleet};
   LARARIUM_RETURN_IF_ERROR(exporter::CheckWebExport(web));
   ExportRequest smaller = request;
   smaller.budget = ForBrowsers(request.budget);

@@ -3,6 +3,7 @@
 // Exports a project as the bundle that visitors get.
 
 #include <filesystem>
+#include <optional>
 
 #include "editor/document/project.h"
 #include "shared/bundle/publication.h"
@@ -32,6 +33,7 @@ struct ExportRequest {
   // Folder of the page for browsers; empty: the one that comes with this program.
   std::filesystem::path page = {};
   std::string address = {};  // See exporter::WebExport.
+  std::optional<bundle::FleetEntry> fleet = {};
 };
 
 // Bakes stale products, packs all places, the cast and the drama, and signs the bundle. On an error

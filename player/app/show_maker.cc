@@ -1,19 +1,12 @@
 #include "player/app/show_maker.h"
 
 #include <chrono>
-#include <span>
 #include <utility>
 
-#include "shared/bundle/sha256.h"
 #include "shared/bundle/show_manifest.h"
 #include "shared/bundle/signature.h"
 
 namespace lararium::player {
-namespace {
-
-constexpr size_t kVersionDigits = 12;
-
-}  // namespace
 
 void ShowMaker::SetDevice(const Device& device, bool camera_look) {
   camera_look_ = camera_look;
@@ -30,9 +23,8 @@ void ShowMaker::SetPicture(const PictureSize& size, const show::ViewPart& part, 
 Result<show::ShowContent> ShowMaker::Load(const show::LanguageChoice& languages, float finest) {
   languages_ = languages;
   LARARIUM_ASSIGN_OR_RETURN(const bundle::Bundle bundle, Open());
-  const std::string manifest = bundle::FormatShowManifest(bundle.manifest());
-  version_ = bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(manifest))))
-                 .substr(0, kVersionDigits);
+  version_ = bundle::ShowVersion(bundle.manifest());
+  drama_version_ = bundle::DramaVersion(bundle.manifest());
   return Read(bundle, languages, finest);
 }
 

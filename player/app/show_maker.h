@@ -42,9 +42,9 @@ class ShowMaker {
 
   // Reads and checks the bundle. finest: see show::LoadShowContent.
   Result<show::ShowContent> Load(const show::LanguageChoice& languages, float finest);
-  // Identity of the bundle that was loaded: the first twelve digits of the SHA-256 of its manifest,
-  // which has the hashes of everything else.
+  // bundle::ShowVersion() and bundle::DramaVersion() of the bundle that was loaded.
   const std::string& version() const { return version_; }
+  const std::string& drama_version() const { return drama_version_; }
   // Creates a show at the beginning of its drama.
   Result<std::unique_ptr<show::Show>> Make(show::ShowContent content) const;
 
@@ -80,6 +80,7 @@ class ShowMaker {
   show::DramaGroup* group_ = nullptr;  // nullptr: shows play alone.
   show::LanguageChoice languages_;
   std::string version_;
+  std::string drama_version_;
   // The show in other languages, and these. Declared last, because its thread uses the other
   // members.
   show::LanguageChoice other_languages_;

@@ -181,8 +181,9 @@ Status ShowSession::JoinGroup(const show::ShowContent& content) {
     return Status::Error("--visitor, --visitor-log", "cannot go with a group",
                          "play alone with --fleet and without --group");
   }
-  feed_->SetShow(maker_.version() + " " + LARARIUM_VERSION + " " + std::to_string(options_.seed),
-                 MarkersOf(content.drama));
+  feed_->SetShow(
+      maker_.drama_version() + " " + LARARIUM_VERSION + " " + std::to_string(options_.seed),
+      MarkersOf(content.drama));
   return Status();
 }
 

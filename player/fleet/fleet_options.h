@@ -8,19 +8,17 @@
 #include <string_view>
 #include <vector>
 
+#include "shared/bundle/fleet_address.h"
 #include "shared/core/json_fields.h"
 #include "shared/core/status.h"
 
 namespace lararium::player {
 
-// The broker, and the site whose devices it connects.
-struct FleetAddress {
-  static constexpr uint16_t kPort = 8883;
-
-  std::string host;
-  uint16_t port = kPort;
-  std::string site;
-};
+using bundle::CheckFleetName;
+using bundle::FleetAddress;
+using bundle::IsFleetName;
+using bundle::IsHost;
+using bundle::ParseFleetAddress;
 
 struct FleetOptions {
   std::string address;  // "mqtts://HOST[:PORT]/SITE"; empty: the device belongs to no fleet.
@@ -40,15 +38,6 @@ struct FleetOptions {
 
   friend bool operator==(const FleetOptions&, const FleetOptions&) = default;
 };
-
-// 1 to 64 letters, digits, "_" and "-": sites, devices and groups, which are parts of topics.
-bool IsFleetName(std::string_view name);
-Status CheckFleetName(std::string_view where, std::string_view name);
-// True for an IP address, or for a name that has only characters of host names.
-bool IsHost(std::string_view host);
-
-// Parses "mqtts://HOST[:PORT]/SITE"; an IPv6 address stands in brackets. where: see Status.
-Result<FleetAddress> ParseFleetAddress(std::string_view where, std::string_view text);
 
 // Describes the field `fleet` of a device file. Paths are relative to its folder.
 void DescribeFields(Fields& fields, FleetOptions& options);

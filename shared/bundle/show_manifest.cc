@@ -6,7 +6,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <set>
+#include <span>
+#include <utility>
 
+#include "shared/bundle/fleet_address.h"
 #include "shared/bundle/member_name.h"
 #include "shared/bundle/zip_layout.h"
 #include "shared/core/json.h"
@@ -189,6 +192,13 @@ void ManifestDescription::ListedMember(bundle::Member& member) {
   fields_.Integer(Optional("packed", member.packed > 0), member.packed, 1, kMaxBundleBytes);
 }
 
+void DescribeFleet(Fields& fields, FleetEntry& fleet) {
+  fields.Text("address", fleet.address, kMaxName);
+  fields.Text(Optional("group", !fleet.group.empty()), fleet.group, kMaxName);
+  fields.Text("password", fleet.password, kMaxName);
+  fields.Check(fields.reading() ? CheckFleet(fleet, fields.where()) : Status());
+}
+
 void ManifestDescription::Describe(ShowManifest& manifest) {
   fields_.Schema(ShowManifest::kSchema,
                  "the bundle has version {}, this program reads version " +
@@ -227,6 +237,7 @@ void ManifestDescription::Describe(ShowManifest& manifest) {
             [this](bundle::Member& member) { ListedMember(member); });
   NamedList(Optional("page", !manifest.page.empty()), manifest.page, kMaxMembers - 1,
             [this](bundle::Member& file) { ListedMember(file); });
+  fields_.Object("fleet", manifest.fleet, DescribeFleet);
   fields_.Require(!manifest.places.empty(), "the show has no place", "export the bundle again");
   std::set<std::string_view> listed;
   for (const bundle::Member& member : manifest.members) {
@@ -244,6 +255,19 @@ void DescribeManifest(Fields& fields, ShowManifest& manifest) {
 
 }  // namespace
 
+Status CheckFleet(const FleetEntry& fleet, const std::string& where) {
+  LARARIUM_RETURN_IF_ERROR(ParseFleetAddress(where, fleet.address, kPageScheme).status());
+  if (!fleet.group.empty()) {
+    LARARIUM_RETURN_IF_ERROR(CheckFleetName(where + " group", fleet.group));
+  }
+  const bool plain = std::all_of(fleet.password.begin(), fleet.password.end(),
+                                 [](char c) { return c > ' ' && c <= '~'; });
+  return plain && !fleet.password.empty()
+             ? Status()
+             : Status::Error(where, "the password of visitors' pages is empty or no plain text",
+                             "take the file visitors.password of the fleet's folder");
+}
+
 bool Describes(const ShowManifest& manifest, const LineEntry& line) {
   return line.speaker == LineEntry::kDescription &&
          std::none_of(manifest.cast.begin(), manifest.cast.end(),
@@ -257,6 +281,53 @@ Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string&
 std::string FormatShowManifest(const ShowManifest& manifest) {
   const Json json = FormatFields(manifest, DescribeManifest);
   return DumpJson(json, 1) + "\n";
+}
+
+std::string ShowVersion(const ShowManifest& manifest) {
+  constexpr size_t kDigits = 12;
+  const std::string text = FormatShowManifest(manifest);
+  return FormatSha256(ComputeSha256(std::as_bytes(std::span(text)))).substr(0, kDigits);
+}
+
+std::string DramaVersion(ShowManifest manifest) {
+  std::set<std::string> deciding = {manifest.drama};
+  for (PlaceEntry& place : manifest.places) {
+    for (const OccluderEntry& occluder : place.occluders) {
+      deciding.insert(occluder.mesh);
+    }
+    PlaceEntry kept;
+    kept.name = place.name;
+    kept.occluders = std::move(place.occluders);
+    place = std::move(kept);
+  }
+  for (CastEntry& person : manifest.cast) {
+    person.motion.clear();
+  }
+  for (ObjectEntry& object : manifest.objects) {
+    object.extent.clear();
+  }
+  for (const LineEntry& line : manifest.lines) {
+    for (const auto& [language, spoken] : line.spoken) {
+      deciding.insert(spoken.visemes);
+    }
+  }
+  for (const std::vector<SpokenLanguage>* languages : {&manifest.spoken, &manifest.descriptions}) {
+    for (const SpokenLanguage& language : *languages) {
+      deciding.insert(language.captions);
+    }
+  }
+  std::erase_if(manifest.members,
+                [&](const Member& member) { return !deciding.contains(member.name); });
+  for (Member& member : manifest.members) {
+    member.packed = 0;
+  }
+  std::sort(manifest.members.begin(), manifest.members.end(),
+            [](const Member& a, const Member& b) { return a.name < b.name; });
+  manifest.credits.clear();
+  manifest.caption_font.reset();
+  manifest.page.clear();
+  manifest.fleet.reset();
+  return ShowVersion(manifest);
 }
 
 }  // namespace lararium::bundle

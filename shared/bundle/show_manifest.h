@@ -104,6 +104,16 @@ struct SoundEntry {
   std::string file;  // member: WAV, FLAC or Ogg
 };
 
+// The fleet of a museum, which a page in a browser joins.
+struct FleetEntry {
+  std::string address;   // "wss://HOST[:PORT]/SITE"
+  std::string group;     // Group that plays one drama; empty: none.
+  std::string password;  // The account "visitors" has it. Every visitor can read it.
+};
+
+// Errors call the entry `where`.
+Status CheckFleet(const FleetEntry& fleet, const std::string& where);
+
 struct ShowManifest {
   static constexpr int kSchema = 2;
 
@@ -119,10 +129,11 @@ struct ShowManifest {
   std::vector<std::string> captions;
   std::vector<SpokenLanguage> descriptions;  // Languages of audio descriptions; may be empty.
   std::optional<CaptionFontEntry> caption_font;
-  std::vector<SoundEntry> sounds;  // names are unique
-  std::string paradata;            // member, JSON: stage::ParseParadata; empty: none
-  std::vector<Member> members;     // same order as in the file
-  std::vector<Member> page;        // Files of the page, in folders for browsers; otherwise empty.
+  std::vector<SoundEntry> sounds;   // names are unique
+  std::string paradata;             // member, JSON: stage::ParseParadata; empty: none
+  std::vector<Member> members;      // same order as in the file
+  std::vector<Member> page;         // Files of the page, in folders for browsers; otherwise empty.
+  std::optional<FleetEntry> fleet;  // Only in folders for browsers.
 };
 
 // True if a line of the manifest is an audio description for visitors who do not see well.
@@ -132,5 +143,11 @@ bool Describes(const ShowManifest& manifest, const LineEntry& line);
 // Errors call the text `where`.
 Result<ShowManifest> ParseShowManifest(std::string_view text, const std::string& where);
 std::string FormatShowManifest(const ShowManifest& manifest);
+
+// Twelve hexadecimal digits that are others whenever anything in the show is.
+std::string ShowVersion(const ShowManifest& manifest);
+// Twelve hexadecimal digits that are the same for a bundle and a folder for browsers of one drama:
+// those of the script, of the times of lines, of names, and of what people walk around.
+std::string DramaVersion(ShowManifest manifest);
 
 }  // namespace lararium::bundle

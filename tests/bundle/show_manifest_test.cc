@@ -95,6 +95,51 @@ TEST(ShowManifest, ParadataAreAMember) {
   EXPECT_EQ(parsed->paradata, manifest.paradata);
 }
 
+TEST(ShowManifest, AFolderMayNameTheFleetOfItsPages) {
+  ShowManifest manifest = Listed();
+  manifest.fleet = {"wss://broker.museum.example/pompeii", "red", "abc"};
+  const auto parsed = ParseShowManifest(FormatShowManifest(manifest), "manifest.json");
+  ASSERT_TRUE(parsed.ok()) << parsed.message();
+  ASSERT_TRUE(parsed->fleet);
+  EXPECT_EQ(parsed->fleet->address, manifest.fleet->address);
+  EXPECT_EQ(parsed->fleet->group, "red");
+  EXPECT_EQ(parsed->fleet->password, "abc");
+  const auto refusal = [](const FleetEntry& fleet) {
+    return CheckFleet(fleet, "--fleet").message();
+  };
+  EXPECT_THAT(refusal({"ws://host/site", "", "abc"}), HasSubstr("wss://HOST/SITE"));
+  EXPECT_THAT(refusal({"wss://host", "", "abc"}), HasSubstr("name of a site"));
+  EXPECT_THAT(refusal({"wss://host/site", "a/b", "abc"}), HasSubstr("not a valid name"));
+  EXPECT_THAT(refusal({"wss://host/site", "", ""}), HasSubstr("visitors.password"));
+  manifest.fleet->address = "mqtts://host/site";
+  EXPECT_THAT(ParseShowManifest(FormatShowManifest(manifest), "manifest.json").message(),
+              HasSubstr("wss://HOST/SITE"));
+}
+
+TEST(ShowManifest, BundlesAndFoldersOfOneDramaHaveOneDramaVersion) {
+  const ShowManifest bundle = Listed();
+  ShowManifest folder = bundle;
+  folder.page.push_back({"index.html", 3, ComputeSha256({})});
+  folder.places[0].map_from_stage.scale = 0.38;
+  folder.cast[0].motion = "cast/0.motion.larhuman";
+  for (Member& member : folder.members) {
+    if (member.name.starts_with("cast/") || member.name.ends_with(".larscene")) {
+      member.size = 900;
+    }
+    member.packed = 1;
+  }
+  EXPECT_EQ(DramaVersion(bundle), DramaVersion(folder));
+  EXPECT_NE(ShowVersion(bundle), ShowVersion(folder));
+  EXPECT_EQ(DramaVersion(bundle).size(), 12u);
+  for (const char* deciding : {"drama.lua", "places/0/occluder0.larmesh"}) {
+    ShowManifest other = bundle;
+    for (Member& member : other.members) {
+      member.size += member.name == deciding ? 1 : 0;
+    }
+    EXPECT_NE(DramaVersion(other), DramaVersion(bundle)) << deciding;
+  }
+}
+
 TEST(ShowManifest, ANewerSchemaAsksForANewerPlayer) {
   Json json = Json::parse(FormatShowManifest(Listed()));
   json["schema"] = ShowManifest::kSchema + 1;

@@ -229,6 +229,10 @@ TEST(EditorOptions, AnExportIsAFileOrASignedFolder) {
       Parsed<ExportOptions>({"export", "p", "--web", "b", "--sign", key, "--address", "https://x"});
   EXPECT_EQ(web.web, "b");
   EXPECT_EQ(web.address, "https://x");
+  EXPECT_THAT(Refusal({"export", "p", "--web", "b", "--sign", key, "--fleet", "wss://h/s"}),
+              HasSubstr("--fleet-password-file"));
+  EXPECT_THAT(Refusal({"export", "p", "--web", "b", "--sign", key, "--group", "red"}),
+              HasSubstr("--fleet"));
 }
 
 TEST(EditorOptions, TagsHaveASizeInMetres) {
