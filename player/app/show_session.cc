@@ -174,7 +174,7 @@ Status ShowSession::Prepare() {
 // Dramas are the same where the show, the program and the seed are.
 Status ShowSession::JoinGroup(const show::ShowContent& content) {
   if (!feed_) {
-    controls_->SetMarkers(MarkersOf(content.drama));
+    controls_->SetMarkers(group::MarkersOf(content.drama));
     return Status();
   }
   if (!options_.visitor.empty() || !options_.output.visitor_log.empty()) {
@@ -183,7 +183,7 @@ Status ShowSession::JoinGroup(const show::ShowContent& content) {
   }
   feed_->SetShow(
       maker_.drama_version() + " " + LARARIUM_VERSION + " " + std::to_string(options_.seed),
-      MarkersOf(content.drama));
+      group::MarkersOf(content.drama));
   return Status();
 }
 

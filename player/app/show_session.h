@@ -19,7 +19,6 @@
 #include "player/app/recorder.h"
 #include "player/app/show_maker.h"
 #include "player/app/visitor_controls.h"
-#include "player/fleet/group_feed.h"
 #include "player/kiosk/fault_log.h"
 #include "player/kiosk/watchdog.h"
 #include "player/staff/staff_reporter.h"
@@ -28,6 +27,7 @@
 #include "shared/core/log.h"
 #include "shared/core/memory.h"
 #include "shared/core/status.h"
+#include "shared/group/group_feed.h"
 #include "shared/show/frame_pipeline.h"
 #include "shared/show/show.h"
 #include "shared/show/show_statistics.h"
@@ -102,7 +102,7 @@ class ShowSession {
   Device device_;
   std::unique_ptr<capture::FrameSource> source_;
   std::unique_ptr<vision::PoseSource> poses_;
-  std::optional<GroupFeed> feed_;  // nullopt: the show plays alone.
+  std::optional<group::GroupFeed> feed_;  // nullopt: the show plays alone.
   std::unique_ptr<show::Show> show_;
   std::unique_ptr<PictureOutput> output_;
   std::optional<VisitorControls> controls_;  // The constructor always sets it.

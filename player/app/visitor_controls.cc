@@ -164,7 +164,8 @@ void VisitorControls::FillStaffState(const show::StagedFrame& staged, StaffState
   state.caption_languages = content.caption_languages;
   state.has_descriptions = content.has_descriptions;
   state.held = markers_ ? std::optional(holds_) : std::nullopt;
-  for (const GroupOwn::Marker& marker : markers_.value_or(std::vector<GroupOwn::Marker>())) {
+  for (const group::GroupOwn::Marker& marker :
+       markers_.value_or(std::vector<group::GroupOwn::Marker>())) {
     state.markers.push_back(marker.name);
   }
 }
@@ -234,8 +235,9 @@ void VisitorControls::Hold(bool holds) {
 }
 
 void VisitorControls::GoTo(const std::string& marker) {
-  const auto found = std::find_if(markers_->begin(), markers_->end(),
-                                  [&](const GroupOwn::Marker& m) { return m.name == marker; });
+  const auto found =
+      std::find_if(markers_->begin(), markers_->end(),
+                   [&](const group::GroupOwn::Marker& m) { return m.name == marker; });
   if (found == markers_->end()) {
     log_.Warn("the staff asked for the marker \"{}\", which the drama does not have", marker);
     return;

@@ -11,12 +11,12 @@
 #include "player/app/gaze_menu.h"
 #include "player/app/options.h"
 #include "player/app/picture_output.h"
-#include "player/fleet/group_message.h"
 #include "player/kiosk/kiosk.h"
 #include "player/kiosk/visitor_actions.h"
 #include "player/staff/staff_messages.h"
 #include "player/staff/staff_state.h"
 #include "shared/core/log.h"
+#include "shared/group/group_message.h"
 #include "shared/show/show.h"
 #include "shared/vision/tracked_frame.h"
 
@@ -65,7 +65,7 @@ class VisitorControls {
   bool restarts() const { return restarts_; }
   // Sets the moments to which the staff may go, and lets them hold the drama. A player in a group
   // does without, because its link does so for all.
-  void SetMarkers(std::vector<GroupOwn::Marker> markers) { markers_ = std::move(markers); }
+  void SetMarkers(std::vector<group::GroupOwn::Marker> markers) { markers_ = std::move(markers); }
   // Adds what the staff sees of the show, the choices and the kiosk.
   void FillStaffState(const show::StagedFrame& staged, StaffState& state) const;
 
@@ -91,9 +91,9 @@ class VisitorControls {
   vision::PoseSource* poses_ = nullptr;
   PictureOutput* output_ = nullptr;
   show::Show* show_ = nullptr;
-  double story_length_ = 0.0;                             // Seconds; 0: not known.
-  std::optional<std::vector<GroupOwn::Marker>> markers_;  // nullopt: in a group.
-  bool holds_ = false;                                    // The staff holds the drama.
+  double story_length_ = 0.0;                                    // Seconds; 0: not known.
+  std::optional<std::vector<group::GroupOwn::Marker>> markers_;  // nullopt: in a group.
+  bool holds_ = false;                                           // The staff holds the drama.
   Log& log_;
 };
 

@@ -171,7 +171,7 @@ FleetClient::FleetClient(const FleetOptions& options, int link)
       group_(options.group),
       link_(link) {
   if (!group_.empty()) {
-    relay_.emplace(GroupMemberOptions{
+    relay_.emplace(group::GroupMemberOptions{
         .name = name_, .guide = options.guide, .boot = RandomNumber(), .wall = [] {
           return Microseconds(CLOCK_REALTIME);
         }});
@@ -312,12 +312,30 @@ void FleetClient::Take(const mosquitto_message& message) {
   }
   if (const Status status = gate_.Check(payload, message.retain, Clock::now()); status.ok()) {
     const bool to_all = topic != topics_.commands.front();
-    if (!relay_ || !relay_->TakeCommand(payload, to_all, Microseconds(CLOCK_MONOTONIC))) {
+    if (!relay_ || !GiveToGroup(payload, to_all)) {
       SendStaffMessage(link_, StaffMessage::kCommand, payload);
     }
   } else if (gate_.tells()) {
     Note(status.message() + "; refused so far: " + std::to_string(gate_.refused()));
   }
+}
+
+// A command that concerns the drama is one for the group, if there is a player. Returns false if it
+// is one for the player.
+bool FleetClient::GiveToGroup(std::string_view payload, bool to_all) {
+  using What = group::GroupWish::What;
+  const Result<StaffCommand> command = ParseStaffCommand(payload);
+  const bool restarts = command.ok() && command->action == Action::kRestart;
+  if (!command.ok() || !relay_->member().has_player() ||
+      !(restarts || command->hold || !command->go_to.empty())) {
+    return false;
+  }
+  relay_->member().Want(restarts         ? What::kRestart
+                        : !command->hold ? What::kGoTo
+                        : *command->hold ? What::kHold
+                                         : What::kResume,
+                        command->go_to, to_all, Microseconds(CLOCK_MONOTONIC));
+  return true;
 }
 
 // The last part of a topic is the name of the member that wrote it, for which the broker vouches.
@@ -345,7 +363,7 @@ void FleetClient::StepGroup() {
   }
   const int64_t now = Microseconds(CLOCK_MONOTONIC);
   relay_->Step(now);
-  for (const GroupMember::Outgoing& message : relay_->member().TakeOutgoing()) {
+  for (const group::GroupMember::Outgoing& message : relay_->member().TakeOutgoing()) {
     std::string topic = message.to.empty() ? topics_.to_all : topics_.to_one;
     if (!message.to.empty()) {
       topic.replace(topic.find('+'), 1, message.to);

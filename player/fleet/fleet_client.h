@@ -11,9 +11,9 @@
 
 #include "player/fleet/command_gate.h"
 #include "player/fleet/fleet_options.h"
-#include "player/fleet/group_relay.h"
 #include "player/staff/staff_state.h"
 #include "shared/core/status.h"
+#include "shared/group/group_relay.h"
 
 struct mosquitto;
 struct mosquitto_message;
@@ -51,6 +51,7 @@ class FleetClient {
   void Connected(int code);
   void Lost(std::string_view why);
   void Take(const mosquitto_message& message);
+  bool GiveToGroup(std::string_view payload, bool to_all);
   void TakeOfGroup(std::string_view topic, std::string_view payload);
   void StepGroup();
   void PublishState();
@@ -62,7 +63,7 @@ class FleetClient {
   FleetTopics topics_;
   std::string name_;
   std::string group_;
-  std::optional<GroupRelay> relay_;  // nullopt: the device is in no group.
+  std::optional<group::GroupRelay> relay_;  // nullopt: the device is in no group.
   bool group_refused_told_ = false;
   int link_;
   MosquittoClient client_;

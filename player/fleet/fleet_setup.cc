@@ -9,10 +9,10 @@
 #include "player/fleet/fleet_certificates.h"
 #include "player/fleet/fleet_options.h"
 #include "player/fleet/floor_plan.h"
-#include "player/fleet/group_message.h"
 #include "player/kiosk/secret_file.h"
 #include "shared/core/file.h"
 #include "shared/core/json.h"
+#include "shared/group/group_message.h"
 
 namespace lararium::player {
 namespace {
@@ -81,7 +81,7 @@ Status Validate(const FleetPlan& plan, const std::string& where) {
     const auto members = std::count_if(
         plan.devices.begin(), plan.devices.end(),
         [&](const FleetDevice& d) { return !d.group.empty() && d.group == device.group; });
-    if (members > static_cast<std::ptrdiff_t>(kMostGroupMembers)) {
+    if (members > static_cast<std::ptrdiff_t>(group::kMostGroupMembers)) {
       return Status::Error(where, "the group \"" + device.group + "\" has more than 32 devices",
                            "make it two groups");
     }

@@ -25,7 +25,7 @@ enum class StaffMessage : char {
   kCommand = 'A',        // JSON, ParseStaffCommand
   kPictureWanted = 'W',  // empty; only the page sends it
   kNote = 'N',           // a text for the log
-  // A message between the player and its link to a group (player/fleet/group_message.h).
+  // A message between the player and its link to a group (shared/group/group_message.h).
   kGroup = 'G',
 };
 

@@ -1,15 +1,15 @@
 // libFuzzer harness: any bytes as a message of another device of a group, of the player to its
-// link, and of the link to its player; repeated, and as a command.
+// link, and of the link to its player; repeated.
 
 #include <string>
 #include <string_view>
 
-#include "player/fleet/group_feed.h"
-#include "player/fleet/group_relay.h"
 #include "shared/core/check.h"
+#include "shared/group/group_feed.h"
+#include "shared/group/group_relay.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace lararium::player;
+  using namespace lararium::group;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   if (const auto message = ParseGroupMessage(bytes); message.ok()) {
     const auto again = ParseGroupMessage(FormatGroupMessage(*message));
@@ -24,7 +24,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     relay.TakeOwn(now < 4'000'000 ? std::string_view(own) : bytes, now);
     const bool is_message = relay.TakeMessage("tablet-01", bytes, now).ok();
     CHECK(!is_message || ParseGroupMessage(bytes).ok());
-    relay.TakeCommand(bytes, false, now);
     relay.Step(now);
     for (const std::string& news : relay.TakeForPlayer(now)) {
       feed.Take(news);

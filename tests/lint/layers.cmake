@@ -8,6 +8,7 @@ set(floors
   "shared/stage"
   "shared/drama shared/bundle shared/render shared/audio"
   "shared/show"
+  "shared/group"
   "web/tracker"
   "web/page"
   "editor/text"

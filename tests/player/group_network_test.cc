@@ -15,8 +15,8 @@
 #include "player/fleet/fleet_client.h"
 #include "player/fleet/fleet_setup.h"
 #include "player/staff/staff_link.h"
+#include "tests/group/group_player.h"
 #include "tests/player/delay_proxy.h"
-#include "tests/player/group_player.h"
 #include "tests/player/test_broker.h"
 #include "tests/support/test_files.h"
 

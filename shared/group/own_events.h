@@ -6,10 +6,10 @@
 #include <deque>
 #include <string>
 
-#include "player/fleet/group_log.h"
-#include "player/fleet/group_message.h"
+#include "shared/group/group_log.h"
+#include "shared/group/group_message.h"
 
-namespace lararium::player {
+namespace lararium::group {
 
 // Times are microseconds of a steady clock.
 class OwnEvents {
@@ -42,4 +42,4 @@ class OwnEvents {
   int64_t sent_ = 0;
 };
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,9 +1,9 @@
-#include "player/fleet/own_events.h"
+#include "shared/group/own_events.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr int64_t kLeastBetweenPoses = 200'000;
@@ -74,4 +74,4 @@ GroupEvents OwnEvents::Take(const GroupLog& log, const std::string& name, int64_
   return events;
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -11,7 +11,7 @@
 
 #include "shared/core/status.h"
 
-namespace lararium::player {
+namespace lararium::group {
 
 // What a visitor does, or what the leader says of the visitors.
 struct GroupEntry {
@@ -176,4 +176,4 @@ inline constexpr size_t kMostGroupMembers = 32;
 Result<GroupMessage> ParseGroupMessage(std::string_view bytes);
 std::string FormatGroupMessage(const GroupMessage& message);
 
-}  // namespace lararium::player
+}  // namespace lararium::group

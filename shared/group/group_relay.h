@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "player/fleet/group_member.h"
 #include "shared/core/json.h"
 #include "shared/core/status.h"
+#include "shared/group/group_member.h"
 
-namespace lararium::player {
+namespace lararium::group {
 
 class GroupRelay {
  public:
@@ -22,9 +22,6 @@ class GroupRelay {
   Status TakeMessage(const std::string& from, std::string_view bytes, int64_t now);
   // A message of the player.
   void TakeOwn(std::string_view bytes, int64_t now);
-  // A command of the staff, if it concerns the drama of the group. Returns false if it is one for
-  // the player, or if there is no player yet. to_all: see GroupMember::Want.
-  bool TakeCommand(std::string_view json, bool to_all, int64_t now);
   void Step(int64_t now) { member_.Step(now); }
 
   GroupMember& member() { return member_; }
@@ -42,4 +39,4 @@ class GroupRelay {
   std::string told_clock_;
 };
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,11 +1,11 @@
-#include "player/fleet/group_clock.h"
+#include "shared/group/group_clock.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr int64_t kBucketTime = 4'000'000;
@@ -111,4 +111,4 @@ void GroupClock::Fit(int64_t own) {
   offset_ = base + std::llround(sum / weights);
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,4 +1,4 @@
-#include "player/fleet/group_member.h"
+#include "shared/group/group_member.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "shared/drama/drama.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr int64_t kSecond = 1'000'000;
@@ -555,4 +555,4 @@ void GroupMember::Send(const std::string& to, const GroupMessage& message, bool 
   outgoing_.push_back({to, FormatGroupMessage(message), reliable});
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,13 +1,13 @@
-#include "player/fleet/group_log.h"
+#include "shared/group/group_log.h"
 
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
 
-#include "player/fleet/own_events.h"
-#include "tests/player/group_player.h"
+#include "shared/group/own_events.h"
+#include "tests/group/group_player.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 using ::testing::IsEmpty;
@@ -221,4 +221,4 @@ TEST(OwnEvents, OfAVisitorWhoHardlyMovesAreNone) {
 }
 
 }  // namespace
-}  // namespace lararium::player
+}  // namespace lararium::group

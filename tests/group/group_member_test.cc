@@ -1,15 +1,15 @@
 // Groups of simulated devices: LARARIUM_GROUP_SECONDS is how long the long test plays.
 
-#include "player/fleet/group_member.h"
+#include "shared/group/group_member.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cstdio>
 
-#include "tests/player/simulated_group.h"
+#include "tests/group/simulated_group.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 using test::SimulatedGroup;
@@ -225,26 +225,27 @@ TEST(Group, IsHeldAndGoesOnAndToAMarkerWhereTheGuideWants) {
     group.Add();
   }
   group.Play(10.0);
-  GroupRelay& last = *group.device(2).relay;
-  const auto want = [&](const char* command) {
+  using What = GroupWish::What;
+  const auto want = [&](What what, const char* marker = "") {
     // The clock of a device is passed by its next frame; any time of before will do.
-    EXPECT_TRUE(last.TakeCommand(
-        command, false, group.device(2).clock_offset + static_cast<int64_t>(1e6 * group.now())));
+    group.device(2).relay->member().Want(
+        what, marker, false,
+        group.device(2).clock_offset + static_cast<int64_t>(1e6 * group.now()));
   };
-  want(R"({"do": "hold"})");
+  want(What::kHold);
   group.Play(2.0);
   const double held = group.device(0).seconds();
   group.Play(3.0);
   EXPECT_DOUBLE_EQ(group.device(0).seconds(), held);
   EXPECT_LE(group.Spread(), 0.02);
-  want(R"({"do": "resume"})");
+  want(What::kResume);
   group.Play(3.0);
   EXPECT_NEAR(group.device(0).seconds(), held + 2.4, 0.4);
-  want(R"({"do": "go_to", "value": "noon"})");
+  want(What::kGoTo, "noon");
   group.Play(3.0);
   EXPECT_NEAR(group.device(1).seconds(), 22.6, 0.4);
   EXPECT_LE(group.Spread(), 0.02);
-  want(R"({"do": "restart"})");
+  want(What::kRestart);
   group.Play(3.0);
   EXPECT_NEAR(group.device(1).seconds(), 2.6, 0.4);
   group.Play(10.0);
@@ -280,4 +281,4 @@ TEST(Group, OfOtherShowsAreApart) {
 }
 
 }  // namespace
-}  // namespace lararium::player
+}  // namespace lararium::group

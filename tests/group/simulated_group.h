@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "player/fleet/group_relay.h"
 #include "shared/core/random.h"
-#include "tests/player/group_player.h"
+#include "shared/group/group_relay.h"
+#include "tests/group/group_player.h"
 
 namespace lararium::test {
 
@@ -36,11 +36,11 @@ class SimulatedGroup {
     uint64_t visitor = 0;      // Seed of WanderingVisitor(); 0: the device has no visitor.
     std::string keys;          // Are pressed at the next frame.
     std::unique_ptr<GroupPlayer> player;
-    std::unique_ptr<player::GroupRelay> relay;
+    std::unique_ptr<group::GroupRelay> relay;
     int64_t busy_until[2] = {0, 0};  // Times at which the ways to and from the broker are free.
 
     double seconds() const { return player->seconds(); }
-    const player::GroupMember& member() const { return std::as_const(*relay).member(); }
+    const group::GroupMember& member() const { return std::as_const(*relay).member(); }
     size_t log_size() const { return member().log().size(); }
   };
 

@@ -1,4 +1,4 @@
-#include "player/fleet/group_feed.h"
+#include "shared/group/group_feed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "shared/drama/timeline_text.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr int64_t kMarkersEvery = 50;  // Messages.
@@ -116,4 +116,4 @@ std::vector<GroupOwn::Marker> MarkersOf(std::string_view script) {
   return markers;
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,4 +1,4 @@
-#include "tests/player/group_player.h"
+#include "tests/group/group_player.h"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ GroupPlayer::GroupPlayer(std::function<double()> steady)
   auto drama = drama::Drama::Create(kScript, "drama.lua", stage_, {}, *log_);
   EXPECT_TRUE(drama.ok()) << drama.message();
   drama_ = *std::move(drama);
-  feed_.SetShow("show", player::MarkersOf(kScript));
+  feed_.SetShow("show", group::MarkersOf(kScript));
   seat_ = std::make_unique<show::GroupSeat>(feed_.group(), *drama_);
 }
 
@@ -87,8 +87,8 @@ void GroupPlayer::Frame(const drama::Visitor& visitor) {
 
 std::string GroupPlayer::TakeOwn() {
   std::string own = feed_.TakeOwn();
-  const auto message = player::ParseGroupMessage(own);
-  if (const auto* told = message.ok() ? std::get_if<player::GroupOwn>(&*message) : nullptr;
+  const auto message = group::ParseGroupMessage(own);
+  if (const auto* told = message.ok() ? std::get_if<group::GroupOwn>(&*message) : nullptr;
       told != nullptr && told->mark.tick > 0) {
     marks_[{told->mark_run, told->mark.tick}] = told->mark.hash;
   }

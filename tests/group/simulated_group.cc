@@ -1,4 +1,4 @@
-#include "tests/player/simulated_group.h"
+#include "tests/group/simulated_group.h"
 
 #include <gtest/gtest.h>
 
@@ -32,10 +32,10 @@ SimulatedGroup::Device& SimulatedGroup::Add(bool guide) {
   device.player = std::make_unique<GroupPlayer>(
       [this, &device] { return 1e-6 * static_cast<double>(OwnTime(device)); });
   const uint64_t boot = uint64_t{random_.Next()} << 32 | random_.Next();
-  device.relay = std::make_unique<player::GroupRelay>(
-      player::GroupMemberOptions{.name = device.name, .guide = guide, .boot = boot, .wall = [this] {
-                                   return int64_t{1'800'000'000'000'000} + now_;
-                                 }});
+  device.relay = std::make_unique<group::GroupRelay>(
+      group::GroupMemberOptions{.name = device.name, .guide = guide, .boot = boot, .wall = [this] {
+                                  return int64_t{1'800'000'000'000'000} + now_;
+                                }});
   return device;
 }
 
@@ -105,7 +105,7 @@ void SimulatedGroup::Step() {
 void SimulatedGroup::Frame(Device& device, size_t index) {
   const int64_t now = OwnTime(device);
   device.relay->Step(now);
-  for (const player::GroupMember::Outgoing& message : device.relay->member().TakeOutgoing()) {
+  for (const group::GroupMember::Outgoing& message : device.relay->member().TakeOutgoing()) {
     for (size_t to = 0; to < size(); ++to) {
       if (message.to.empty() || devices_[to]->name == message.to) {
         Send(index, to, message.bytes);

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "player/fleet/group_feed.h"
 #include "shared/core/log.h"
 #include "shared/drama/drama.h"
+#include "shared/group/group_feed.h"
 #include "shared/show/drama_group.h"
 #include "shared/stage/stage.h"
 
@@ -26,7 +26,7 @@ class GroupPlayer {
   // steady: seconds of the device's clock.
   explicit GroupPlayer(std::function<double()> steady);
 
-  player::GroupFeed& feed() { return feed_; }
+  group::GroupFeed& feed() { return feed_; }
   // A frame. Keys are those of the visitor.
   void Frame(const drama::Visitor& visitor);
   // A message to the link, which is to be sent.
@@ -44,7 +44,7 @@ class GroupPlayer {
  private:
   std::shared_ptr<Log> log_ = MakeSilentLog();
   std::function<double()> steady_;
-  player::GroupFeed feed_;
+  group::GroupFeed feed_;
   stage::Stage stage_;
   std::unique_ptr<drama::Drama> drama_;
   std::unique_ptr<show::GroupSeat> seat_;

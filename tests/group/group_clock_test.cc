@@ -1,4 +1,4 @@
-#include "player/fleet/group_clock.h"
+#include "shared/group/group_clock.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "shared/core/random.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr int64_t kSecond = 1'000'000;
@@ -86,4 +86,4 @@ TEST_F(GroupClockTest, TakesTheTimeOfAnotherGroup) {
 }
 
 }  // namespace
-}  // namespace lararium::player
+}  // namespace lararium::group

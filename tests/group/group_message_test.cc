@@ -1,11 +1,11 @@
-#include "player/fleet/group_message.h"
+#include "shared/group/group_message.h"
 
 #include <gmock/gmock.h>
 
-#include "player/fleet/group_relay.h"
 #include "shared/core/random.h"
+#include "shared/group/group_relay.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 using ::testing::HasSubstr;
@@ -115,4 +115,4 @@ TEST(GroupRelay, RefusesMessagesThatOnlyPlayersSend) {
 }
 
 }  // namespace
-}  // namespace lararium::player
+}  // namespace lararium::group

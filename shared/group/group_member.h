@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "player/fleet/group_clock.h"
-#include "player/fleet/group_log.h"
-#include "player/fleet/group_message.h"
-#include "player/fleet/group_schedule.h"
-#include "player/fleet/own_events.h"
+#include "shared/group/group_clock.h"
+#include "shared/group/group_log.h"
+#include "shared/group/group_message.h"
+#include "shared/group/group_schedule.h"
+#include "shared/group/own_events.h"
 
-namespace lararium::player {
+namespace lararium::group {
 
 struct GroupMemberOptions {
   std::string name;
@@ -170,4 +170,4 @@ class GroupMember {
   bool full_told_ = false;
 };
 
-}  // namespace lararium::player
+}  // namespace lararium::group

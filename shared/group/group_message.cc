@@ -1,4 +1,4 @@
-#include "player/fleet/group_message.h"
+#include "shared/group/group_message.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 
-#include "player/fleet/group_generated.h"
 #include "shared/core/flatbuffer_blocks.h"
+#include "shared/group/group_generated.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 using flatbuffers::FlatBufferBuilder;
@@ -327,4 +327,4 @@ std::string FormatGroupMessage(const GroupMessage& message) {
   return writer.bytes();
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

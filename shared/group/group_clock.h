@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <deque>
 
-namespace lararium::player {
+namespace lararium::group {
 
 class GroupClock {
  public:
@@ -62,4 +62,4 @@ class GroupClock {
   int64_t last_sent_ = INT64_MIN;
 };
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,11 +1,11 @@
-#include "player/fleet/group_schedule.h"
+#include "shared/group/group_schedule.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "shared/drama/drama.h"
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr int64_t kSettled = 1'000'000;  // All devices know by now.
@@ -39,4 +39,4 @@ void GroupSchedule::Settle(int64_t time) {
   }
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,4 +1,4 @@
-#include "player/fleet/group_log.h"
+#include "shared/group/group_log.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr float kPerMetre = 50.0f;
@@ -262,4 +262,4 @@ void GroupLogReader::Read(const GroupLog& log, std::vector<drama::VisitorLog::En
   }
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "player/fleet/group_message.h"
 #include "shared/drama/visitor.h"
+#include "shared/group/group_message.h"
 
-namespace lararium::player {
+namespace lararium::group {
 
 class GroupLog {
  public:
@@ -106,4 +106,4 @@ class GroupLogReader {
   std::vector<drama::GroupVisitor> group_;
 };
 
-}  // namespace lararium::player
+}  // namespace lararium::group

@@ -1,11 +1,9 @@
-#include "player/fleet/group_relay.h"
+#include "shared/group/group_relay.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "player/staff/staff_messages.h"
-
-namespace lararium::player {
+namespace lararium::group {
 namespace {
 
 constexpr int64_t kPlayerAnswers = 500'000;  // The player says what it has within this time.
@@ -31,24 +29,6 @@ void GroupRelay::TakeOwn(std::string_view bytes, int64_t now) {
     player_said_ = own->places;
     member_.SetOwn(*own, now);
   }
-}
-
-bool GroupRelay::TakeCommand(std::string_view json, bool to_all, int64_t now) {
-  const Result<StaffCommand> command = ParseStaffCommand(json);
-  if (!command.ok() || !member_.has_player()) {
-    return false;
-  }
-  using What = GroupWish::What;
-  const bool restarts = command->action == Action::kRestart;
-  if (!restarts && !command->hold && command->go_to.empty()) {
-    return false;
-  }
-  member_.Want(restarts         ? What::kRestart
-               : !command->hold ? What::kGoTo
-               : *command->hold ? What::kHold
-                                : What::kResume,
-               command->go_to, to_all, now);
-  return true;
 }
 
 // The clock follows the log that belongs to it.
@@ -95,4 +75,4 @@ Json GroupRelay::State() const {
           {"members", member_.members()}, {"held", member_.schedule().held()}};
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::group

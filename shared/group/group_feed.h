@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "player/fleet/group_log.h"
-#include "player/fleet/group_message.h"
+#include "shared/group/group_log.h"
+#include "shared/group/group_message.h"
 #include "shared/show/drama_group.h"
 
-namespace lararium::player {
+namespace lararium::group {
 
 // Any thread, except for the functions of the link, which one thread calls.
 class GroupFeed {
@@ -50,4 +50,4 @@ class GroupFeed {
 // The markers of a drama, with their ticks.
 std::vector<GroupOwn::Marker> MarkersOf(std::string_view script);
 
-}  // namespace lararium::player
+}  // namespace lararium::group

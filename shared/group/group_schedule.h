@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "player/fleet/group_message.h"
+#include "shared/group/group_message.h"
 
-namespace lararium::player {
+namespace lararium::group {
 
 struct GroupSchedule {
   uint64_t run = 0;                // 0: there is none yet.
@@ -22,4 +22,4 @@ struct GroupSchedule {
   void Settle(int64_t time);
 };
 
-}  // namespace lararium::player
+}  // namespace lararium::group
