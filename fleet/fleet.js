@@ -27,16 +27,22 @@ const devices = new Map();
 
 // --- What the broker says
 
+function remove(name) {
+  devices.get(name)?.row?.remove();
+  devices.get(name)?.dot?.remove();
+  devices.delete(name);
+  forgetStatistics(name);
+}
+
+// Names of visitors' pages begin with "page/".
 function take(topic, payload, kept) {
-  const [, , kind, name, what] = topic.split('/');
+  const parts = topic.split('/');
+  const [kind, name, what] = [parts[2], parts.slice(3, -1).join('/'), parts.at(-1)];
   if (kind !== 'device' || (!devices.has(name) && devices.size >= kMostDevices)) {
     return;
   }
   if (payload.length === 0) {
-    devices.get(name)?.row?.remove();
-    devices.get(name)?.dot?.remove();
-    devices.delete(name);
-    forgetStatistics(name);
+    remove(name);
     return;
   }
   if (what === 'statistics') {
@@ -53,6 +59,9 @@ function take(topic, payload, kept) {
   devices.set(name, device);
   if (what === 'presence') {
     device.online = value?.online === true;
+    if (!device.online && name.startsWith('page/')) {  // Visitors leave, and the broker forgets them.
+      remove(name);
+    }
   } else if (what === 'state') {
     device.state = value;
     device.seen = kept ? 1000 * Number(value?.time ?? 0) : Date.now();
@@ -70,7 +79,7 @@ function connect(password) {
     status('connected', 'good');
     byId('login').hidden = true;
     ['devices', 'commands', 'floor', 'report'].forEach((id) => { byId(id).hidden = false; });
-    client.subscribe(['state', 'presence', 'statistics'].map((what) => `lararium/${site}/device/+/${what}`));
+    client.subscribe(['+/state', '+/presence', '+/statistics', 'page/+/state', 'page/+/presence'].map((what) => `lararium/${site}/device/${what}`));
   });
   client.on('message', (topic, payload, packet) => take(topic, payload, packet.retain));
   client.on('close', () => {

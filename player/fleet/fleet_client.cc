@@ -12,10 +12,13 @@
 #include <ctime>
 #include <iterator>
 #include <optional>
+#include <span>
 
 #include "player/kiosk/secret_file.h"
 #include "player/staff/staff_messages.h"
+#include "shared/bundle/sha256.h"
 #include "shared/core/check.h"
+#include "shared/core/file.h"
 
 namespace lararium::player {
 namespace {
@@ -59,20 +62,25 @@ Result<MosquittoClient> MakeClient(const FleetOptions& options,
                                    const std::string& kind,
                                    void* user) {
   constexpr bool kForget = true;  // The broker keeps no commands for a device that is away.
-  const std::string id = kind + "-" + options.broker().site + "-" + options.name;
+  // Clients that know the name of a session can end it: visitors' pages must not know it.
+  LARARIUM_ASSIGN_OR_RETURN(std::string secret, options.password.empty()
+                                                    ? ReadText(options.key)
+                                                    : ReadSecretLine(options.password));
+  const std::string id =
+      kind + "-" + options.broker().site + "-" + options.name + "-" +
+      bundle::FormatSha256(bundle::ComputeSha256(std::as_bytes(std::span(secret)))).substr(0, 16);
   mosquitto_lib_init();
   MosquittoClient client(mosquitto_new(id.c_str(), kForget, user));
   if (client == nullptr) {
     return Status::Error("fleet", TextOf(MOSQ_ERR_ERRNO));
   }
-  if (!options.password.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(std::string password, ReadSecretLine(options.password));
-    const int code =
-        mosquitto_username_pw_set(client.get(), options.name.c_str(), password.c_str());
-    ::explicit_bzero(password.data(), password.size());
-    if (code != MOSQ_ERR_SUCCESS) {
-      return Status::Error(options.password.string(), TextOf(code));
-    }
+  const int named =
+      options.password.empty()
+          ? MOSQ_ERR_SUCCESS
+          : mosquitto_username_pw_set(client.get(), options.name.c_str(), secret.c_str());
+  ::explicit_bzero(secret.data(), secret.size());
+  if (named != MOSQ_ERR_SUCCESS) {
+    return Status::Error(options.password.string(), TextOf(named));
   }
   // Without the function, OpenSSL would ask for the password of an encrypted key.
   const auto no_password = [](char* /*text*/, int /*size*/, int /*use*/, void* /*data*/) {
@@ -274,8 +282,8 @@ void FleetClient::Connected(int code) {
   for (const std::string& topic : topics_.commands) {
     mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kOnce);
   }
-  for (const std::string& topic : {topics_.from_all, topics_.from_one, topics_.presences}) {
-    if (relay_) {
+  for (const std::vector<std::string>* topics : {&topics_.heard, &topics_.presences}) {
+    for (const std::string& topic : *topics) {
       mosquitto_subscribe(client_.get(), nullptr, topic.c_str(), kAtLeastOnce);
     }
   }
@@ -338,21 +346,36 @@ bool FleetClient::GiveToGroup(std::string_view payload, bool to_all) {
   return true;
 }
 
+namespace {
+
 // The last part of a topic is the name of the member that wrote it, for which the broker vouches.
+// Empty: it is no name.
+std::string WriterOf(std::string_view topic) {
+  const size_t end = topic.rfind('/');
+  const std::string_view name = topic.substr(end + 1);
+  const bool is_page = topic.substr(0, end + 1).ends_with("/" + std::string(group::kPage));
+  return IsFleetName(name) ? (is_page ? std::string(group::kPage) : "") + std::string(name) : "";
+}
+
+}  // namespace
+
 void FleetClient::TakeOfGroup(std::string_view topic, std::string_view payload) {
   constexpr std::string_view kPresence = "/presence";
-  if (topic.ends_with(kPresence)) {
-    topic.remove_suffix(kPresence.size());
+  const bool is_presence = topic.ends_with(kPresence);
+  topic.remove_suffix(is_presence ? kPresence.size() : 0);
+  const std::string from = WriterOf(topic);
+  if (from.empty()) {
+    return;
+  }
+  if (is_presence) {
     if (payload == kOffline) {
-      relay_->member().SetGone(std::string(topic.substr(topic.rfind('/') + 1)));
+      relay_->member().SetGone(from);
     }
     return;
   }
-  const std::string from(topic.substr(topic.rfind('/') + 1));
-  const Status status = IsFleetName(from)
-                            ? relay_->TakeMessage(from, payload, Microseconds(CLOCK_MONOTONIC))
-                            : Status();
-  if (!status.ok() && !std::exchange(group_refused_told_, true)) {
+  const Status status = relay_->TakeMessage(from, payload, Microseconds(CLOCK_MONOTONIC));
+  // A page may send anything: visitors know its account.
+  if (!status.ok() && !group::IsPage(from) && !std::exchange(group_refused_told_, true)) {
     Note(status.message() + " (of \"" + from + "\")");
   }
 }

@@ -4,6 +4,7 @@
 
 #include "player/kiosk/secret_file.h"
 #include "shared/core/file.h"
+#include "shared/group/group_message.h"
 
 namespace lararium::player {
 namespace {
@@ -100,10 +101,12 @@ FleetTopics TopicsOf(std::string_view site, std::string_view name, std::string_v
     const std::string together = Base(site, "group", group);
     const std::string own(name);
     topics.to_all = together + "/all/" + own;
-    topics.from_all = together + "/all/+";
     topics.to_one = together + "/to/+/" + own;
-    topics.from_one = together + "/to/" + own + "/+";
-    topics.presences = Base(site, "device", "+") + "/presence";
+    for (const std::string& others : {std::string("+"), std::string(group::kPage) + "+"}) {
+      topics.heard.push_back(together + "/all/" + others);
+      topics.heard.push_back(together + "/to/" + own + "/" + others);
+      topics.presences.push_back(Base(site, "device", others) + "/presence");
+    }
   }
   return topics;
 }

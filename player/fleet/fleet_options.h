@@ -46,19 +46,21 @@ void ResolvePaths(const std::filesystem::path& folder, FleetOptions& options);
 // Uses the name of the machine where options have none.
 void NameDevice(FleetOptions& options);
 
-// The topics of a device (docs/file-formats.md).
+// The topics of a device (docs/file-formats.md). A visitor's page in a browser is a device whose
+// name begins with "page/". That is a level of its own of a topic, so that the broker lets no page
+// take the name of a device.
 struct FleetTopics {
   std::string state;                  // Retained. Written by the device.
   std::string presence;               // Retained. Written by the device, or as its last will.
   std::string statistics;             // Retained. Written by the device.
   std::vector<std::string> commands;  // Topics of the device and of its group.
-  // Topics within a group are empty without one. Members write "to" topics under their own names
-  // and read "from" topics, which have "+" where the name of another member stands.
+  // Topics within a group are empty without one. Members write to all, or to one whose name stands
+  // in place of "+", under their own names. They hear what devices and pages write, and whether
+  // these are there.
   std::string to_all;
-  std::string from_all;
   std::string to_one;
-  std::string from_one;
-  std::string presences;
+  std::vector<std::string> heard;
+  std::vector<std::string> presences;
 };
 FleetTopics TopicsOf(std::string_view site, std::string_view name, std::string_view group);
 // Topic of the commands to one device, or to a group.

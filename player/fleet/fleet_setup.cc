@@ -71,11 +71,12 @@ Status Validate(const FleetPlan& plan, const std::string& where) {
     return Status::Error(where, "devices and pages have the same port",
                          "give them different ones with --port and --page-port");
   }
-  std::vector<std::string> names = {FleetPlan::kStaff};
+  std::vector<std::string> names = {FleetPlan::kStaff, FleetPlan::kVisitors, "page"};
   for (const FleetDevice& device : plan.devices) {
     if (std::find(names.begin(), names.end(), device.name) != names.end()) {
-      return Status::Error(where, "the name \"" + device.name + "\" is taken",
-                           "give each device a name of its own, other than \"staff\"");
+      return Status::Error(
+          where, "the name \"" + device.name + "\" is taken",
+          "give each device a name of its own, other than \"staff\", \"visitors\" and \"page\"");
     }
     names.push_back(device.name);
     const auto members = std::count_if(
@@ -181,8 +182,7 @@ std::string Configuration(const FleetPlan& plan) {
   const std::string files = plan.broker_folder + "/";
   const std::string tls = "cafile " + files + "authority.crt\ncertfile " + files +
                           "server.crt\nkeyfile " + files + "server.key\n";
-  return "# Written by lararium-player fleet-setup. Players connect to the first port, fleet "
-         "pages\n"
+  return "# Written by lararium-player fleet-setup. Players connect to the first port, pages\n"
          "# to the second.\n"
          "allow_anonymous false\n"
          "password_file " +
@@ -198,15 +198,44 @@ std::string Configuration(const FleetPlan& plan) {
          "\nlistener " + std::to_string(plan.page_port) + "\nprotocol websockets\n" + tls;
 }
 
+// The topic of messages to one member, for members that are pages.
+std::string ToPages(std::string to_one) {
+  return to_one.replace(to_one.find("/to/+/"), 6, "/to/" + std::string(group::kPage) + "+/");
+}
+
+// The rights of visitors' pages, whose password is public. The id of a client is the name of its
+// page, so that a page writes under its own name only.
+std::string RightsOfPages(const FleetPlan& plan) {
+  const FleetTopics all = TopicsOf(plan.site, "+", "+");
+  std::string text = std::string("\nuser ") + FleetPlan::kVisitors + "\n";
+  for (const std::string& topic : all.presences) {
+    text += "topic read " + topic + "\n";
+  }
+  text += "topic read " + GroupCommands(plan.site, "+") + "\n";
+  const FleetTopics page = TopicsOf(plan.site, std::string(group::kPage) + "%c", "+");
+  for (const std::string& topic : page.heard) {
+    text +=
+        (topic.find("%c") == std::string::npos ? "topic read " : "pattern read ") + topic + "\n";
+  }
+  text += "pattern read " + page.commands.front() + "\n";
+  for (const std::string& topic :
+       {page.state, page.presence, page.to_all, page.to_one, ToPages(page.to_one)}) {
+    text += "pattern write " + topic + "\n";
+  }
+  return text;
+}
+
 // A device may write its own state, presence and statistics, and read its own commands and those of
 // its group. Members of a group write to each other under their own names, and hear who of them is
 // gone. The staff may write what devices wrote, to delete that of devices that are no more.
 std::string Rights(const FleetPlan& plan) {
   const std::string all = "topic readwrite lararium/" + plan.site + "/device/+/";
+  const FleetTopics pages = TopicsOf(plan.site, std::string(group::kPage) + "+", "");
   std::string text = std::string("user ") + FleetPlan::kStaff + "\n" + all + "state\n" + all +
-                     "presence\n" + all + "statistics\ntopic write " +
-                     DeviceCommands(plan.site, "+") + "\ntopic write " +
-                     GroupCommands(plan.site, "+") + "\n";
+                     "presence\n" + all + "statistics\ntopic readwrite " + pages.state +
+                     "\ntopic readwrite " + pages.presence + "\ntopic write " +
+                     DeviceCommands(plan.site, "+") + "\ntopic write " + pages.commands.front() +
+                     "\ntopic write " + GroupCommands(plan.site, "+") + "\n";
   for (const FleetDevice& device : plan.devices) {
     const FleetTopics topics = TopicsOf(plan.site, device.name, device.group);
     text += "\nuser " + device.name + "\ntopic write " + topics.state + "\ntopic write " +
@@ -217,15 +246,20 @@ std::string Rights(const FleetPlan& plan) {
     if (device.group.empty()) {
       continue;
     }
-    text += "topic write " + topics.to_all + "\ntopic read " + topics.from_all + "\ntopic write " +
-            topics.to_one + "\ntopic read " + topics.from_one + "\n";
+    for (const std::string& topic : {topics.to_all, topics.to_one, ToPages(topics.to_one)}) {
+      text += "topic write " + topic + "\n";
+    }
+    for (const std::string& topic : topics.heard) {
+      text += "topic read " + topic + "\n";
+    }
+    text += "topic read " + pages.presence + "\n";
     for (const FleetDevice& other : plan.devices) {
       if (other.group == device.group && other.name != device.name) {
         text += "topic read " + TopicsOf(plan.site, other.name, "").presence + "\n";
       }
     }
   }
-  return text;
+  return text + RightsOfPages(plan);
 }
 
 Status WriteDevice(const fs::path& folder,
@@ -302,6 +336,11 @@ Result<size_t> SetUpFleet(const FleetSetupOptions& options) {
   LARARIUM_ASSIGN_OR_RETURN(const std::string staff,
                             LoadOrMakePassword(options.folder / "staff.password"));
   LARARIUM_ASSIGN_OR_RETURN(std::string passwords, PasswordLine(FleetPlan::kStaff, staff));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string visitors,
+                            LoadOrMakePassword(options.folder / "visitors.password"));
+  LARARIUM_ASSIGN_OR_RETURN(const std::string visitors_line,
+                            PasswordLine(FleetPlan::kVisitors, visitors));
+  passwords += visitors_line;
   for (const FleetDevice& device : plan.devices) {
     const fs::path folder = devices / device.name;
     LARARIUM_RETURN_IF_ERROR(WriteDevice(folder, plan, device, authority));

@@ -25,7 +25,8 @@ struct FleetDevice {
 // The fleet as fleet.json of its folder has it (docs/file-formats.md).
 struct FleetPlan {
   static constexpr size_t kMostDevices = 1000;
-  static constexpr char kStaff[] = "staff";  // The account of fleet pages.
+  static constexpr char kStaff[] = "staff";        // The account of fleet pages.
+  static constexpr char kVisitors[] = "visitors";  // The account of visitors' pages.
 
   std::string host;  // IP address or name of the broker, as devices reach it.
   std::string site;

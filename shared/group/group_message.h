@@ -165,6 +165,10 @@ struct GroupClockNews {
 using GroupMessage = std::
     variant<GroupBeat, GroupLogPart, GroupEvents, GroupAsk, GroupWish, GroupOwn, GroupClockNews>;
 
+// The names of visitors' pages begin with this; no device's name does.
+inline constexpr std::string_view kPage = "page/";
+inline bool IsPage(std::string_view name) { return name.starts_with(kPage); }
+
 // Limits of a message.
 inline constexpr size_t kMostGroupBytes = 60'000;
 inline constexpr size_t kMostGroupEntries = 2000;  // Limit of one message.

@@ -56,9 +56,13 @@ TEST_F(FleetSetupTest, MembersOfAGroupWriteUnderTheirOwnNamesAndHearOnlyTheirGro
   ASSERT_TRUE(SetUpFleet(options).ok());
   EXPECT_THAT(Read("broker/rights"),
               HasSubstr("topic write lararium/pompeii/group/red/all/tablet-01\n"
-                        "topic read lararium/pompeii/group/red/all/+\n"
                         "topic write lararium/pompeii/group/red/to/+/tablet-01\n"
+                        "topic write lararium/pompeii/group/red/to/page/+/tablet-01\n"
+                        "topic read lararium/pompeii/group/red/all/+\n"
                         "topic read lararium/pompeii/group/red/to/tablet-01/+\n"
+                        "topic read lararium/pompeii/group/red/all/page/+\n"
+                        "topic read lararium/pompeii/group/red/to/tablet-01/page/+\n"
+                        "topic read lararium/pompeii/device/page/+/presence\n"
                         "topic read lararium/pompeii/device/tablet-03/presence\n\n"));
   EXPECT_TRUE(LoadDevice(folder_ / "devices/tablet-03/device.json")->fleet->guide);
   FleetSetupOptions change = Change();
@@ -73,6 +77,27 @@ TEST_F(FleetSetupTest, MembersOfAGroupWriteUnderTheirOwnNamesAndHearOnlyTheirGro
   EXPECT_THAT(SetUpFleet(many).status().message(), HasSubstr("more than 32 devices"));
   change.guides = {"tablet-09"};
   EXPECT_THAT(SetUpFleet(change).status().message(), HasSubstr("no device \"tablet-09\""));
+}
+
+TEST_F(FleetSetupTest, PagesOfVisitorsWriteUnderTheirClientsNamesOnly) {
+  ASSERT_TRUE(SetUpFleet(New()).ok());
+  const std::string rights = Read("broker/rights");
+  EXPECT_THAT(rights, HasSubstr("user visitors\n"
+                                "topic read lararium/pompeii/device/+/presence\n"
+                                "topic read lararium/pompeii/device/page/+/presence\n"
+                                "topic read lararium/pompeii/group/+/do\n"
+                                "topic read lararium/pompeii/group/+/all/+\n"
+                                "pattern read lararium/pompeii/group/+/to/page/%c/+\n"
+                                "topic read lararium/pompeii/group/+/all/page/+\n"
+                                "pattern read lararium/pompeii/group/+/to/page/%c/page/+\n"
+                                "pattern read lararium/pompeii/device/page/%c/do\n"
+                                "pattern write lararium/pompeii/device/page/%c/state\n"
+                                "pattern write lararium/pompeii/device/page/%c/presence\n"
+                                "pattern write lararium/pompeii/group/+/all/page/%c\n"
+                                "pattern write lararium/pompeii/group/+/to/+/page/%c\n"
+                                "pattern write lararium/pompeii/group/+/to/page/+/page/%c\n"));
+  EXPECT_THAT(Read("broker/passwords"), HasSubstr("visitors:"));
+  EXPECT_EQ(Read("visitors.password").size(), 21u);
 }
 
 TEST_F(FleetSetupTest, TheFolderOfADeviceIsAllThatItsPlayerNeeds) {
@@ -138,6 +163,10 @@ TEST_F(FleetSetupTest, WhatCannotBeDoneChangesNothingAndSaysWhy) {
   FleetSetupOptions options = New();
   options.devices = {"staff"};
   EXPECT_THAT(refusal(options), HasSubstr("\"staff\""));
+  for (const char* taken : {"visitors", "page"}) {
+    options.devices = {taken};
+    EXPECT_THAT(refusal(options), HasSubstr("is taken"));
+  }
   options.devices = {"../x"};
   EXPECT_THAT(refusal(options), HasSubstr("not a valid name"));
   options.devices = {"a:"};

@@ -2,6 +2,7 @@
 
 #include <emscripten/emscripten.h>
 
+#include "shared/core/json.h"
 #include "web/page/page_show.h"
 #include "web/tracker/error_text.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 std::unique_ptr<PageShow> show;
 std::string names;  // The result of lararium_names().
+std::string state;  // The result of lararium_state().
 
 const char* TakeNames(const lararium::Result<std::vector<std::string>>& found) {
   names.clear();
@@ -120,6 +122,16 @@ EMSCRIPTEN_KEEPALIVE void lararium_choose(bool descriptions, bool reduced_motion
 EMSCRIPTEN_KEEPALIVE void lararium_press_key(const char* key) { show->input().PressKey(key); }
 
 EMSCRIPTEN_KEEPALIVE void lararium_restart() { show->input().RestartAt(0.0); }
+
+EMSCRIPTEN_KEEPALIVE void lararium_hold(bool holds) { show->Hold(holds); }
+
+EMSCRIPTEN_KEEPALIVE void lararium_go_to(const char* marker) { show->GoTo(marker); }
+
+// Returns PageShow::DescribeState() as JSON.
+EMSCRIPTEN_KEEPALIVE const char* lararium_state() {
+  state = lararium::DumpJson(show->DescribeState());
+  return state.c_str();
+}
 
 EMSCRIPTEN_KEEPALIVE void lararium_forget_pose() { show->input().ForgetPose(); }
 

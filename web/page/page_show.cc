@@ -172,6 +172,45 @@ void PageShow::Begin(std::unique_ptr<show::Show> show) {
   }
   texts_ = show::TextsOf(show_->content());
   told_texts_.clear();
+  markers_ = group::MarkersOf(show_->content().drama);
+  show_->input().Hold(holds_);
+}
+
+Json PageShow::DescribeState() const {
+  constexpr size_t kMostMarkers = 64;
+  const std::optional<geometry::Rigid3>& camera = staged_.camera.camera_from_stage;
+  Json markers = Json::array();
+  for (size_t i = 0; i < std::min(markers_.size(), kMostMarkers); ++i) {
+    markers.push_back(markers_[i].name);
+  }
+  Json position;
+  if (camera) {
+    const Eigen::Vector3d centre = camera->Center();
+    position = {centre.x(), centre.y(), centre.z()};
+  }
+  return {{"version", LARARIUM_VERSION},
+          {"title", bundle_.manifest().title},
+          {"show", bundle::ShowVersion(bundle_.manifest())},
+          {"place", show_->content().places[staged_.camera.place].stage.name},
+          {"position", position},
+          {"seconds", time()},
+          {"length", length() > 0.0 ? Json(length()) : Json()},
+          {"picture", {{"quality", quality_.level()}}},
+          {"held", holds_},
+          {"markers", markers}};
+}
+
+void PageShow::Hold(bool holds) {
+  holds_ = holds;
+  show_->input().Hold(holds);
+}
+
+void PageShow::GoTo(std::string_view marker) {
+  const auto found = std::find_if(markers_.begin(), markers_.end(),
+                                  [&](const auto& one) { return one.name == marker; });
+  if (found != markers_.end()) {
+    show_->input().RestartAt(static_cast<double>(found->tick) / drama::Drama::kTicksPerSecond);
+  }
 }
 
 Status PageShow::LoadGuide(const show::LanguageChoice& languages) {

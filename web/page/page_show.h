@@ -18,6 +18,7 @@
 #include "shared/core/json_fwd.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
+#include "shared/group/group_feed.h"
 #include "shared/human/texture_pool.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/render_target.h"
@@ -83,6 +84,14 @@ class PageShow {
   double length() const { return show_->drama().settings().length; }
   const std::string& language() const { return show_->content().language; }
   show::VisitorInput& input() { return show_->input(); }
+
+  // What a fleet is told of the show, some of the fields of a player's state
+  // (docs/file-formats.md).
+  Json DescribeState() const;
+  // The staff holds the drama or lets it go on, or goes to one of its moments. An unknown marker is
+  // ignored.
+  void Hold(bool holds);
+  void GoTo(std::string_view marker);
 
   // The pixels to be filled in for the next luminance() and Draw().
   uint8_t* NewImage(PixelFormat format, int width, int height);
@@ -164,6 +173,8 @@ class PageShow {
   show::CaptionTexts texts_;
   std::vector<render::Caption> captions_;
   std::string told_texts_;
+  std::vector<group::GroupOwn::Marker> markers_;
+  bool holds_ = false;  // The staff holds the drama.
   std::unique_ptr<vision::PoseSource> smoothed_;
   GivenPoses* given_ = nullptr;  // Owned by smoothed_.
   show::QualityController quality_;

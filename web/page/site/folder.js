@@ -47,9 +47,9 @@ export class Folder {
       [fetchBytes('show/manifest.json'), fetchBytes('show/manifest.sig').catch(unsigned), fetchBytes('museum.pub').catch(unsigned)]))
       .map(async (blob) => new Uint8Array(await blob.arrayBuffer())));
     try {
-      const {title, spoken, captions, descriptions = [], sounds = [], members} = JSON.parse(new TextDecoder().decode(folder.text));
+      const {title, spoken, captions, descriptions = [], sounds = [], members, fleet} = JSON.parse(new TextDecoder().decode(folder.text));
       folder.about = {title, spoken: spoken.map(({name}) => name), captions, descriptions: descriptions.length > 0,
-        sounds: sounds.length + spoken.length > 0};
+        sounds: sounds.length + spoken.length > 0, fleet};
       folder.members = new Map(members.map((member) => [member.name, member]));
     } catch (error) {
       throw altered(error);

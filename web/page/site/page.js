@@ -110,6 +110,12 @@ function applyChoices() {
   sound.setVolume(values.volume);
 }
 
+// The staff changes something; then the menu shows it.
+function changeFromOutside(values) {
+  change(values);
+  writeTexts();
+}
+
 // The page's own texts are in the captions' language, where it is known.
 function change(values) {
   const page = values.captions && values.captions !== OFF ? firstKnown([values.captions]) : '';
@@ -204,11 +210,25 @@ const load = once(async () => {
   await place.ready;
   place.ontracked = drawTracked;
   place.onerror = (error) => stop(() => showProblem(error));
-  visitable = {show, place, folder};
+  visitable = {show, place, folder, fleet: await joinFleet(show)};
   applyChoices();
   canvas.dataset.shows = 'guide';
   return visitable;
 });
+
+// The fleet of a museum, if the folder names one. The show plays without it, too.
+async function joinFleet(show) {
+  if (about.fleet === undefined) {
+    return undefined;
+  }
+  try {
+    const {Fleet} = await import('./fleet.js');
+    return new Fleet(about.fleet, {about, show, choices, sound, change: changeFromOutside, restart, findAnew});
+  } catch (error) {
+    console.warn(error);
+    return undefined;
+  }
+}
 
 function showRest(share) {
   if (card.hidden) {
@@ -337,6 +357,7 @@ function play(mine, next) {
   } else if (visit === mine) {
     element('walk').hidden = mine.stream !== undefined;
     setPlaying(true);
+    mine.fleet?.begin().catch((error) => console.warn(error));
     next();
   }
 }
@@ -397,6 +418,7 @@ function stop(show) {
     video.srcObject = null;
   }
   sound.suspend();
+  stopped?.fleet?.end();
   show();
 }
 
@@ -467,7 +489,8 @@ function drawPicture({width, height}, draw, next) {
 // Draws the very image that was tracked.
 function drawTracked({number, tracked, seen}) {
   if (visit !== undefined && number === image.number) {
-    const {show} = visit;
+    const {show, fleet} = visit;
+    fleet?.saw(tracked);
     drawPicture(image, (left) => show.draw(tracked, seen, image.seconds, image.lateMs, left), awaitFrame);
   }
 }

@@ -121,8 +121,23 @@ export class Show {
   }
 
   restart() {
+    this.hold(false);
     this.module._lararium_restart();
     this.time = 0;
+  }
+
+  // The staff holds the drama, or goes to one of its markers.
+  hold(holds) {
+    this.module._lararium_hold(holds);
+  }
+
+  goTo(marker) {
+    this.module.ccall('lararium_go_to', null, ['string'], [marker]);
+  }
+
+  // What a fleet is told of the show (PageShow::DescribeState()).
+  state() {
+    return {...JSON.parse(this.module.UTF8ToString(this.module._lararium_state())), memory_mib: this.module.HEAPU8.length / 2 ** 20};
   }
 
   forgetPose() {

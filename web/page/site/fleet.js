@@ -1,0 +1,207 @@
+// The page as a device of a museum's fleet (docs/file-formats.md#topics-of-a-fleet), over MQTT by WebSocket. Nothing that the
+// visitor sees waits for it, and no failure of it is shown.
+const ONLINE = '{"online": true}';
+const OFFLINE = '{"online": false}';
+const FORGET = {messageExpiryInterval: 60};  // The broker forgets a page that is gone after so many seconds.
+const PUBLISH_MS = 1000;
+const MINUTE_MS = 60000;
+const LOST_MS = 1000;  // A loss that is shorter does not count.
+const COMMAND_BYTES = 1024;
+const COMMANDS_A_SECOND = 16;
+const SIZES = ['normal', 'large', 'largest'];
+const CONTRASTS = ['normal', 'high'];
+
+// A random name, which a browser keeps for a day, so that nothing relates the visits of two days.
+function pageName() {
+  const day = new Date().toDateString();
+  const kept = (() => {
+    try {
+      return JSON.parse(localStorage.getItem('lararium fleet'));
+    } catch {
+      return null;  // The browser may forbid storage.
+    }
+  })();
+  if (kept?.day === day && /^[0-9a-f]{16}$/.test(kept.name)) {
+    return kept.name;
+  }
+  const name = Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) => byte.toString(16).padStart(2, '0')).join('');
+  try {
+    localStorage.setItem('lararium fleet', JSON.stringify({day, name}));
+  } catch {
+    // Without storage the name holds for this visit.
+  }
+  return name;
+}
+
+async function loadMqtt() {
+  await new Promise((resolve, reject) => {
+    const script = document.createElement('script');
+    Object.assign(script, {src: new URL('mqtt.min.js', import.meta.url), onload: resolve, onerror: () => reject(new Error('mqtt.min.js does not arrive'))});
+    document.head.append(script);
+  });
+  return globalThis.mqtt;
+}
+
+// How well the camera was tracked, for the fields `tracking` and `picture` of the state.
+class Tally {
+  began = performance.now();
+  frames = [];  // Of the last minute: [milliseconds, tracked].
+  count = 0;
+  tracked = 0;
+  losses = 0;
+  seen = this.began;  // When there was a pose last.
+  last = {state: 'searching', reason: 'none', confidence: 0};
+
+  add(last) {
+    const now = performance.now();
+    const tracked = last.pose !== null;
+    this.losses += tracked && this.tracked > 0 && now - this.seen > LOST_MS ? 1 : 0;
+    this.seen = tracked ? now : this.seen;
+    this.last = last;
+    ++this.count;
+    this.tracked += tracked ? 1 : 0;
+    this.frames.push([now, tracked]);
+    while (this.frames[0][0] < now - MINUTE_MS) {
+      this.frames.shift();
+    }
+  }
+
+  describe() {
+    const now = performance.now();
+    const share = (part, whole) => whole === 0 ? 0 : part / whole;
+    const recent = this.frames.filter(([at]) => at > now - 2000).length;
+    const {state, reason, confidence} = this.last;
+    return {
+      frames_per_second: recent / 2,
+      up_seconds: (now - this.began) / 1000,
+      tracking: {state, reason, confidence, lost_seconds: state === 'tracking' ? 0 : (now - this.seen) / 1000,
+        tracked: share(this.tracked, this.count), tracked_minute: share(this.frames.filter(([, tracked]) => tracked).length, this.frames.length),
+        losses: this.losses},
+    };
+  }
+}
+
+// What the staff may want of a page, as functions of the field `value`; undefined: this page cannot do it.
+function commandsOf({about, show, choices, change, restart, findAnew}) {
+  const loudness = (step) => change({volume: Math.min(1, Math.max(0, Math.round(10 * choices.values.volume + step) / 10))});
+  const offered = (values, key) => (value) => values.includes(value) && change({[key]: value});
+  const index = (names, key) => (value) => names.includes(value) && change({[key]: names.indexOf(value)});
+  const flag = (key) => (value) => typeof value === 'boolean' && change({[key]: value});
+  return {
+    restart, find_anew: findAnew, louder: () => loudness(1), quieter: () => loudness(-1),
+    volume: (value) => value >= 0 && value <= 1 && change({volume: value}),
+    language: offered(about.spoken, 'spoken'), captions: offered([...about.captions, 'off'], 'captions'),
+    caption_size: index(SIZES, 'size'), caption_contrast: index(CONTRASTS, 'contrast'),
+    descriptions: about.descriptions ? flag('descriptions') : undefined, reduced_motion: flag('reducedMotion'),
+    hold: () => show.hold(true), resume: () => show.hold(false), go_to: (value) => typeof value === 'string' && show.goTo(value),
+  };
+}
+
+export class Fleet {
+  // options: {address, group, password}. page: {about, show, choices, sound, change, restart, findAnew}.
+  constructor({address, group = '', password}, page) {
+    Object.assign(this, {address, group, password, page});
+    this.name = pageName();
+    const base = `lararium/${new URL(address.replace('wss:', 'https:')).pathname.slice(1)}`;
+    const own = `${base}/device/page/${this.name}`;
+    this.topics = {state: `${own}/state`, presence: `${own}/presence`,
+      commands: [`${own}/do`, ...(group === '' ? [] : [`${base}/group/${group}/do`])]};
+    this.commands = commandsOf(page);
+    this.tally = new Tally();
+    this.second = {began: 0, count: 0};
+  }
+
+  // The visit begins, or goes on.
+  async begin() {
+    this.playing = true;
+    this.mqtt ??= await loadMqtt();
+    if (!this.playing || this.client !== undefined) {
+      return;
+    }
+    const client = this.mqtt.connect(this.address, {
+      protocolVersion: 5, clientId: this.name, username: 'visitors', password: this.password, clean: true, keepalive: 10,
+      connectTimeout: 10000, reconnectPeriod: 3000, queueQoSZero: false, timerVariant: 'native',
+      will: {topic: this.topics.presence, payload: OFFLINE, qos: 1, retain: true, properties: FORGET},
+    });
+    this.client = client;
+    client.on('connect', () => {
+      client.subscribe(this.topics.commands, {qos: 2});
+      client.publish(this.topics.presence, ONLINE, {qos: 1, retain: true});
+      this.publish();
+    });
+    client.on('message', (topic, payload, {retain}) => this.take(topic, payload, retain));
+    client.on('error', (error) => console.debug(error.message));
+    this.timer = setInterval(() => this.publish(), PUBLISH_MS);
+  }
+
+  // The visit is over, or interrupted.
+  end() {
+    this.playing = false;
+    clearInterval(this.timer);
+    const {client} = this;
+    this.client = undefined;
+    if (client?.connected) {
+      client.publish(this.topics.presence, OFFLINE, {qos: 1, retain: true, properties: FORGET}, () => client.end());
+    } else {
+      client?.end(true);
+    }
+  }
+
+  // What the tracker said of an image.
+  saw(tracked) {
+    this.tally.add(tracked);
+  }
+
+  publish() {
+    if (this.client?.connected) {
+      this.client.publish(this.topics.state, JSON.stringify(this.state()), {qos: 0, retain: true, properties: FORGET});
+    }
+  }
+
+  // The state of a player (docs/file-formats.md#state-of-a-player).
+  state() {
+    const {about, show, choices: {values}, sound} = this.page;
+    const {picture, ...known} = show.state();
+    const {frames_per_second, ...tally} = this.tally.describe();
+    return {
+      schema: 1, answers: true, silent_seconds: 0, name: `page/${this.name}`, group: this.group, time: Math.floor(Date.now() / 1000),
+      player: {
+        ...known, ...tally, picture: {...picture, frames_per_second}, kiosk: false, visitor: null,
+        power: {celsius: null, battery: null, charging: null},
+        sound: {volume: values.volume, audible: sound.context?.state === 'running'},
+        language: values.spoken, languages: about.spoken, captions: values.captions, caption_languages: about.captions,
+        caption_size: SIZES[values.size], caption_contrast: CONTRASTS[values.contrast],
+        descriptions: about.descriptions ? values.descriptions : null, reduced_motion: values.reducedMotion, restarts: 0, warnings: [],
+      },
+    };
+  }
+
+  take(topic, payload, retain) {
+    if (!this.playing || retain) {
+      return;
+    }
+    if (this.topics.commands.includes(topic) && payload.length <= COMMAND_BYTES) {
+      this.obey(payload);
+    }
+  }
+
+  // Anything may have been published as a command.
+  obey(payload) {
+    const now = performance.now();
+    if (now - this.second.began > 1000) {
+      this.second = {began: now, count: 0};
+    }
+    if (++this.second.count > COMMANDS_A_SECOND) {
+      return;
+    }
+    try {
+      const {do: what, value} = JSON.parse(new TextDecoder().decode(payload));
+      if (Object.hasOwn(this.commands, what)) {
+        this.commands[what]?.(value);
+        this.publish();
+      }
+    } catch (error) {
+      console.debug(error.message);
+    }
+  }
+}
