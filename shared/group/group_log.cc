@@ -1,8 +1,9 @@
 #include "shared/group/group_log.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
@@ -21,7 +22,9 @@ uint64_t Mix(uint64_t hash, uint64_t word) {
 }
 
 uint64_t HashOf(uint64_t before, const GroupEntry& entry, const std::string& text) {
-  const auto words = std::bit_cast<std::array<uint64_t, 2>>(entry);
+  std::array<uint64_t, 2> words = {};
+  static_assert(sizeof(words) == sizeof(entry));
+  std::memcpy(words.data(), &entry, sizeof(entry));
   uint64_t hash = Mix(Mix(before, words[0]), words[1]);
   for (const char c : text) {
     hash = Mix(hash, static_cast<unsigned char>(c));

@@ -25,7 +25,8 @@ constexpr int64_t kSurplus = kSecond;  // Entries that the leader still has not 
 constexpr int64_t kOthersClaim = kSecond;
 constexpr int kExchanges = 2;  // The group's time is known well enough after these.
 constexpr size_t kMostMarks = 16;
-constexpr int kTellDiffering = 10;  // After a split, some states differ until all have one log.
+constexpr size_t kMostPageEvents = 16;  // Events of a page in a second.
+constexpr int kTellDiffering = 10;      // After a split, some states differ until all have one log.
 constexpr size_t kMostPoses = GroupLog::kMostEntries - 4096;  // Keys have room behind them.
 
 uint64_t Mixed(uint64_t boot, uint64_t number) {
@@ -40,21 +41,23 @@ GroupMember::GroupMember(GroupMemberOptions options)
     : options_(std::move(options)), events_(options_.boot) {}
 
 bool GroupMember::Rank::IsBetterThan(const Rank& other) const {
-  return std::tie(other.guide, other.followers, since, name) <
-         std::tie(guide, followers, other.since, other.name);
+  return std::tie(page, other.guide, other.followers, since, name) <
+         std::tie(other.page, guide, followers, other.since, other.name);
 }
 
 // The guide's device leads rather than others, but of two groups a lone guide's does not count:
 // that device has just been switched on.
 GroupMember::Rank GroupMember::OwnRank() const {
   const int followers = leads_ ? Followers() : 0;
-  return {options_.guide && ready_ && (followers > 0 || !leads_), followers, since_, options_.name};
+  return {IsPage(options_.name), options_.guide && ready_ && (followers > 0 || !leads_), followers,
+          since_, options_.name};
 }
 
 GroupMember::Rank GroupMember::RankOf(const std::string& name, const Peer& peer) {
   const GroupBeat& beat = peer.beat;
-  return {beat.guide && beat.ready && (beat.followers > 0 || !beat.leads), beat.followers,
-          beat.since, name};
+  const bool page = IsPage(name);
+  return {page, !page && beat.guide && beat.ready && (beat.followers > 0 || !beat.leads),
+          beat.followers, beat.since, name};
 }
 
 bool GroupMember::IsAlive(const Peer& peer) const {
@@ -104,7 +107,9 @@ void GroupMember::Receive(const std::string& from, const GroupMessage& message, 
   if (const auto* log = std::get_if<GroupLogPart>(&message)) {
     TakeLog(from, *log, now);
   } else if (const auto* events = std::get_if<GroupEvents>(&message)) {
-    if (events->boot == peer->second.beat.boot) {
+    const size_t count = events->events.entries.size();
+    if (events->boot == peer->second.beat.boot &&
+        (!IsPage(from) || MayAct(peer->second, count, now))) {
       Order(from, *events, now);
     }
   } else if (const auto* ask = std::get_if<GroupAsk>(&message)) {
@@ -112,6 +117,15 @@ void GroupMember::Receive(const std::string& from, const GroupMessage& message, 
   } else if (const auto* wish = std::get_if<GroupWish>(&message)) {
     TakeWish(from, *wish, now);
   }
+}
+
+bool GroupMember::MayAct(Peer& page, size_t events, int64_t now) {
+  if (now - page.second_began > kSecond) {
+    page.second_began = now;
+    page.in_second = 0;
+  }
+  page.in_second += events;
+  return page.in_second <= kMostPageEvents;
 }
 
 void GroupMember::SetGone(const std::string& name) {
@@ -122,14 +136,14 @@ void GroupMember::SetGone(const std::string& name) {
 
 void GroupMember::TakeBeat(const std::string& from, const GroupBeat& beat, int64_t now) {
   if (beat.show != own_->show) {
-    if (!std::exchange(other_show_told_, true)) {
+    if (!IsPage(from) && !std::exchange(other_show_told_, true)) {
       notes_.push_back("\"" + from +
                        "\" plays another show or another version of it than this "
                        "device; they do not play together");
     }
     return;
   }
-  if (!peers_.contains(from) && peers_.size() + 1 >= kMostGroupMembers) {
+  if (!peers_.contains(from) && !HasRoomFor(from)) {
     return;
   }
   Peer& peer = peers_[from];
@@ -149,6 +163,14 @@ void GroupMember::TakeBeat(const std::string& from, const GroupBeat& beat, int64
   if (from == leader_) {
     TakeLeadersBeat(peer, now);
   }
+}
+
+bool GroupMember::HasRoomFor(const std::string& name) const {
+  const bool page = IsPage(name);
+  const auto others = std::count_if(peers_.begin(), peers_.end(),
+                                    [&](const auto& one) { return IsPage(one.first) == page; });
+  const size_t own = IsPage(options_.name) == page ? 1 : 0;
+  return static_cast<size_t>(others) + own < (page ? kMostGroupPages : kMostGroupMembers);
 }
 
 void GroupMember::TakeLeadersBeat(const Peer& leader, int64_t now) {
@@ -227,6 +249,9 @@ void GroupMember::TakeWish(const std::string& from, const GroupWish& wish, int64
 }
 
 void GroupMember::CompareMarks(const std::string& name, Peer& peer) {
+  if (IsPage(name) || IsPage(options_.name)) {
+    return;  // Browsers compute in other last digits than processors do.
+  }
   const GroupMark& theirs = peer.beat.mark;
   const auto own = std::find_if(marks_.begin(), marks_.end(),
                                 [&](const GroupMark& mark) { return mark.tick == theirs.tick; });
@@ -315,7 +340,7 @@ void GroupMember::Step(int64_t now) {
 void GroupMember::Elect(int64_t now) {
   std::optional<Rank> best = leads_ ? std::optional(OwnRank()) : std::nullopt;
   for (const auto& [name, peer] : peers_) {
-    if (IsAlive(peer) && peer.beat.leads) {
+    if (MayLead(name) && IsAlive(peer) && peer.beat.leads) {
       Rank rank = RankOf(name, peer);
       best = !best || rank.IsBetterThan(*best) ? std::move(rank) : *best;
     }
@@ -335,7 +360,7 @@ void GroupMember::ElectWithoutLeader(int64_t now) {
   leaderless_since_ = leaderless_since_ == 0 ? now : leaderless_since_;
   const Rank own = OwnRank();
   const bool other_claims = std::any_of(peers_.begin(), peers_.end(), [&](const auto& one) {
-    return IsAlive(one.second) && one.second.beat.ready &&
+    return MayLead(one.first) && IsAlive(one.second) && one.second.beat.ready &&
            (!ready_ || RankOf(one.first, one.second).IsBetterThan(own));
   });
   const bool waits = other_claims && now - leaderless_since_ < kOthersClaim;
@@ -418,10 +443,11 @@ void GroupMember::Order(const std::string& name, const GroupEvents& events, int6
 }
 
 void GroupMember::Fulfil(const std::string& from, const GroupWish& wish, int64_t now) {
-  if (!leads_) {
+  using What = GroupWish::What;
+  const bool allowed = from == options_.name || !IsPage(from) || wish.what == What::kRestartAlone;
+  if (!leads_ || !allowed) {
     return;
   }
-  using What = GroupWish::What;
   if (wish.what == What::kHold || wish.what == What::kResume) {
     Hold(wish.what == What::kHold, now);
     return;

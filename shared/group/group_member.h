@@ -88,9 +88,12 @@ class GroupMember {
     int64_t wished = 0;          // GroupWish::sent of its last wish.
     int differs = 0;             // Marks that differed from the own ones.
     uint64_t marked = 0;         // Hash of its last mark that was compared.
+    int64_t second_began = 0;    // Events are counted since then, if it is a page.
+    size_t in_second = 0;
   };
   // How good a leader is, or would be.
   struct Rank {
+    bool page = false;
     bool guide = false;
     int followers = 0;
     int64_t since = 0;
@@ -101,6 +104,12 @@ class GroupMember {
   Rank OwnRank() const;
   static Rank RankOf(const std::string& name, const Peer& peer);
   bool IsAlive(const Peer& peer) const;
+  // A museum's device never follows a page, whose account is public.
+  bool MayLead(const std::string& name) const { return !IsPage(name) || IsPage(options_.name); }
+  // Whether one more device or page can be a member.
+  bool HasRoomFor(const std::string& name) const;
+  // Counts events of a page. False: it sends too many.
+  static bool MayAct(Peer& page, size_t events, int64_t now);
   int Followers() const;
 
   void Elect(int64_t now);

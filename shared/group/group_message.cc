@@ -17,7 +17,7 @@ using flatbuffers::FlatBufferBuilder;
 
 constexpr char kGroupWhere[] = "message of the group";
 constexpr FlatbufferKind kGroupKind = {"group", 1, "update the players of the group"};
-constexpr size_t kMostNameBytes = 64;
+constexpr size_t kMostNameBytes = 64 + kPage.size();
 constexpr size_t kMostShowBytes = 128;
 constexpr size_t kMostPlaces = 64;
 constexpr int64_t kMostTick = int64_t{24} * 3600 * 120;
@@ -99,7 +99,7 @@ bool IsValid(const GroupBeat& beat) {
          beat.leads == !beat.pieces.empty() && beat.pieces.size() <= 2 &&
          beat.epoch < std::numeric_limits<uint64_t>::max() / 2 && IsTick(beat.mark.tick) &&
          IsText(beat.leader, kMostNameBytes, ' ') && IsText(beat.show, kMostShowBytes, ' ') &&
-         beat.echoes.size() <= kMostGroupMembers &&
+         beat.echoes.size() <= kMostGroupMembers + kMostGroupPages &&
          std::all_of(beat.pieces.begin(), beat.pieces.end(),
                      [](const GroupPiece& p) { return IsTime(p.since) && IsTick(p.tick); }) &&
          std::all_of(beat.echoes.begin(), beat.echoes.end(), [](const GroupBeat::Echo& echo) {

@@ -524,6 +524,9 @@ Result<NeededMembers> FindNeededMembers(const bundle::ShowManifest& manifest,
             FindSpoken(SaidIn(manifest, describes), line, languages.Of(describes).spoken)) {
       needed.language.push_back(spoken->second.visemes);
       needed.voices.push_back(spoken->second.sound);
+      for (const auto& [language, members] : line.spoken) {
+        needed.language.push_back(choice.in_step ? members.visemes : "");
+      }
     }
   }
   for (const bundle::SoundEntry& sound : manifest.sounds) {

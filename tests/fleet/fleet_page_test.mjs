@@ -7,8 +7,7 @@ import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {request} from 'node:https';
-import {connect, createServer} from 'node:net';
-import {skipWithout} from '../web/needs.mjs';
+import {freePort, opened, skipWithout, sleep} from '../web/needs.mjs';
 import {Screens, withBrowser} from '../web/visitor.mjs';
 
 const [player, page, program, work, devicesProgram, axe] = process.argv.slice(2);
@@ -22,13 +21,6 @@ const names = Array.from({length: COUNT}, (_, i) => `tablet-${String(i + 1).padS
 // hangs.
 const SILENT = names[COUNT - 2];
 const HANGING = names[COUNT - 1];
-
-const freePort = () => new Promise((resolve) => {
-  const server = createServer().listen(0, '127.0.0.1', () => {
-    const {port} = server.address();
-    server.close(() => resolve(port));
-  });
-});
 
 rmSync(work, {recursive: true, force: true});
 mkdirSync(work, {recursive: true});
@@ -46,18 +38,6 @@ function start(file, ...options) {
   child.stdout.setEncoding('utf8').on('data', (text) => { child.text += text; });
   return child;
 }
-// Waits until a port is open.
-async function opened(port) {
-  const tried = () => new Promise((resolve) => {
-    const socket = connect(port, '127.0.0.1', () => resolve(true)).on('error', () => resolve(false));
-    socket.on('connect', () => socket.destroy());
-  });
-  for (let i = 0; i < 300 && !await tried(); ++i) {
-    await sleep(0.1);
-  }
-}
-const sleep = (seconds) => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
-
 function check(good, text) {
   console.log(`${good ? 'ok  ' : 'MISS'} ${text}`);
   assert.ok(good, text);
@@ -232,6 +212,15 @@ async function visit(browser, broker, devices, hanging) {
   }
   check(await browser.evaluate(`document.getElementById('report-sum').textContent`) === `${number(visitsOn([2], COUNT - 1))} visits on ${COUNT - 1} devices`,
     'malformed statistics are one warning and disturb no others');
+
+  // A visitor's page is there while it plays.
+  const ofPage = (what, text) => execFileSync('mosquitto_pub', ['-h', '127.0.0.1', '-p', port, '--cafile', `${fleet}/authority.crt`, '-u', 'visitors',
+    '-P', readFileSync(`${fleet}/visitors.password`, 'utf8').trim(), '-i', 'abc', '-r', '-t', `lararium/pompeii/device/page/abc/${what}`, '-m', text]);
+  ofPage('presence', '{"online": true}');
+  await browser.until(`${shown}.includes('page/abc')`);
+  ofPage('presence', '{"online": false}');
+  await browser.until(`!${shown}.includes('page/abc')`);
+  check(true, "a visitor's page is shown until it goes");
 
   publish('presence', '{"online": false}');
   await browser.until(`${cell(HANGING, 3)} === 'gone'`);

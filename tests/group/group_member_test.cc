@@ -280,5 +280,84 @@ TEST(Group, OfOtherShowsAreApart) {
   EXPECT_THAT(notes[0], HasSubstr("\"tablet-1\" plays another show"));
 }
 
+TEST(Group, APageLeadsOnlyWhereNoDeviceIs) {
+  SimulatedGroup group(kGood, 11);
+  group.AddPage();
+  group.AddPage();
+  group.Play(8.0);
+  EXPECT_EQ(Leaders(group), 1);
+  EXPECT_LE(group.Spread(), 0.02) << "pages among themselves";
+  // A device begins the drama, although pages have played it for longer.
+  group.Add();
+  group.Play(6.0);
+  EXPECT_TRUE(group.device(2).member().leads());
+  EXPECT_EQ(Leaders(group), 1);
+  EXPECT_LE(group.Spread(), 0.02);
+  EXPECT_LT(group.device(0).seconds(), 7.0);
+  group.device(0).keys = "a";
+  group.Play(4.0);
+  EXPECT_EQ(group.Compare().different, 0u) << "what a page's visitor does counts everywhere";
+  EXPECT_EQ(group.device(2).member().log().devices().size(), 3u);
+  group.Kill(2, true);
+  group.Play(4.0);
+  EXPECT_EQ(Leaders(group), 1) << "a page takes over";
+  EXPECT_GT(group.device(0).seconds(), 10.0);
+}
+
+TEST(Group, APageMovesTheDramaOfNoDevice) {
+  SimulatedGroup group(kGood, 12);
+  group.Add();
+  group.AddPage();
+  group.Play(6.0);
+  ASSERT_TRUE(group.device(1).member().ready());
+  for (const GroupWish::What what :
+       {GroupWish::What::kHold, GroupWish::What::kGoTo, GroupWish::What::kRestart}) {
+    group.device(1).relay->member().Want(
+        what, "noon", false,
+        group.device(1).clock_offset + static_cast<int64_t>(1e6 * group.now()));
+    group.Play(2.0);
+  }
+  EXPECT_NEAR(group.device(0).seconds(), 10.4, 0.3);
+  EXPECT_FALSE(group.device(0).member().schedule().held());
+}
+
+TEST(Group, AFloodOfPagesLeavesRoomForDevices) {
+  SimulatedGroup group(kGood, 13);
+  for (size_t i = 0; i < 20; ++i) {
+    group.AddPage();
+  }
+  group.Play(4.0);
+  group.Add();
+  group.Add();
+  group.Play(8.0);
+  EXPECT_LE(group.device(20).member().members(), 2 + kMostGroupPages);
+  EXPECT_TRUE(group.device(21).member().ready());
+  EXPECT_NE(group.device(20).member().leads(), group.device(21).member().leads());
+}
+
+TEST(Group, EventsOfAPageAreLimited) {
+  SimulatedGroup group(kGood, 14);
+  group.Add();
+  group.AddPage();
+  group.Play(6.0);
+  const size_t before = group.device(0).log_size();
+  GroupEvents events;
+  for (uint16_t serial = 1000; serial < 1009; ++serial) {
+    events.events.entries.push_back({.serial = serial, .kind = GroupEntry::Kind::kKey});
+    events.events.texts.emplace_back("a");
+  }
+  GroupMember& leader = group.device(0).relay->member();
+  ASSERT_TRUE(leader.leads());
+  events.boot = group.device(1).boot;
+  const int64_t now = group.device(0).clock_offset + static_cast<int64_t>(1e6 * group.now());
+  for (int i = 0; i < 5; ++i) {
+    for (GroupEntry& entry : events.events.entries) {
+      entry.serial = static_cast<uint16_t>(entry.serial + 20);
+    }
+    leader.Receive(group.device(1).name, events, now);
+  }
+  EXPECT_EQ(leader.log().size(), before + 9) << "the first of five messages";
+}
+
 }  // namespace
 }  // namespace lararium::group

@@ -74,7 +74,7 @@ TEST(GroupMessage, WithImpossibleValuesIsRefused) {
   beat.leader = "a\nb";
   refused(beat);
   beat = LeadersBeat();
-  beat.echoes.resize(kMostGroupMembers + 1);
+  beat.echoes.resize(kMostGroupMembers + kMostGroupPages + 1);
   refused(beat);
   refused(GroupLogPart{1, 2, {}, {{{.kind = GroupEntry::Kind::kKey}}, {}}});
   refused(GroupLogPart{1, 2, {}, {{}, {"text"}}});

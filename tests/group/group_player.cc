@@ -1,11 +1,10 @@
 #include "tests/group/group_player.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "shared/core/check.h"
 #include "shared/stage/state_hash.h"
 #include "tests/stage/test_human.h"
 
@@ -56,10 +55,10 @@ drama::Visitor WanderingVisitor(uint64_t seed, double seconds) {
 GroupPlayer::GroupPlayer(std::function<double()> steady)
     : steady_(std::move(steady)), feed_(steady_) {
   for (const char* name : {"keeper", "guest"}) {
-    EXPECT_TRUE(stage_.Add(name, MakeTestHuman()).ok());
+    CHECK(stage_.Add(name, MakeTestHuman()).ok());
   }
   auto drama = drama::Drama::Create(kScript, "drama.lua", stage_, {}, *log_);
-  EXPECT_TRUE(drama.ok()) << drama.message();
+  CHECK(drama.ok());
   drama_ = *std::move(drama);
   feed_.SetShow("show", group::MarkersOf(kScript));
   seat_ = std::make_unique<show::GroupSeat>(feed_.group(), *drama_);

@@ -21,21 +21,21 @@ int64_t SimulatedGroup::OwnTime(const Device& device) const {
   return device.clock_offset + std::llround(static_cast<double>(now_) * (1.0 + device.clock_drift));
 }
 
-SimulatedGroup::Device& SimulatedGroup::Add(bool guide) {
+SimulatedGroup::Device& SimulatedGroup::Add(const std::string& kind, bool guide) {
   devices_.push_back(std::make_unique<Device>());
   Device& device = *devices_.back();
   const size_t index = devices_.size() - 1;
-  device.name = "tablet-" + std::to_string(index);
+  device.name = kind + std::to_string(index);
   device.clock_drift = random_.Uniform(-50e-6, 50e-6);
   device.clock_offset = static_cast<int64_t>(1e9 * random_.Uniform(1.0, 100.0));
   device.visitor = index + 1;
   device.player = std::make_unique<GroupPlayer>(
       [this, &device] { return 1e-6 * static_cast<double>(OwnTime(device)); });
-  const uint64_t boot = uint64_t{random_.Next()} << 32 | random_.Next();
-  device.relay = std::make_unique<group::GroupRelay>(
-      group::GroupMemberOptions{.name = device.name, .guide = guide, .boot = boot, .wall = [this] {
-                                  return int64_t{1'800'000'000'000'000} + now_;
-                                }});
+  device.boot = uint64_t{random_.Next()} << 32 | random_.Next();
+  device.relay = std::make_unique<group::GroupRelay>(group::GroupMemberOptions{
+      .name = device.name, .guide = guide, .boot = device.boot, .wall = [this] {
+        return int64_t{1'800'000'000'000'000} + now_;
+      }});
   return device;
 }
 

@@ -33,8 +33,9 @@ class SimulatedGroup {
     bool connected = true;
     double clock_drift = 0.0;  // The device's clock is faster by this share.
     int64_t clock_offset = 0;  // Microseconds.
-    uint64_t visitor = 0;      // Seed of WanderingVisitor(); 0: the device has no visitor.
-    std::string keys;          // Are pressed at the next frame.
+    uint64_t boot = 0;
+    uint64_t visitor = 0;  // Seed of WanderingVisitor(); 0: the device has no visitor.
+    std::string keys;      // Are pressed at the next frame.
     std::unique_ptr<GroupPlayer> player;
     std::unique_ptr<group::GroupRelay> relay;
     int64_t busy_until[2] = {0, 0};  // Times at which the ways to and from the broker are free.
@@ -47,7 +48,8 @@ class SimulatedGroup {
   SimulatedGroup(Network network, uint64_t seed);
 
   // Switches a device on, now. Devices are numbered in this order.
-  Device& Add(bool guide = false);
+  Device& Add(bool guide = false) { return Add("tablet-", guide); }
+  Device& AddPage() { return Add(std::string(group::kPage), false); }
   // Ends a device. told: the broker notices at once.
   void Kill(size_t device, bool told);
   // Without the broker, nothing gets through.
@@ -81,6 +83,7 @@ class SimulatedGroup {
     std::string bytes;  // Empty: the broker says that `from` is gone.
   };
 
+  Device& Add(const std::string& kind, bool guide);
   int64_t OwnTime(const Device& device) const;
   void Step();
   void Frame(Device& device, size_t index);

@@ -332,6 +332,10 @@ TEST_F(ArrivingShowTest, IsLoadedFromWhatItNeedsInItsLanguages) {
   EXPECT_THAT(pieces_of({}), ElementsAre("la.json", "only_la.json", "d_it.json"));
   EXPECT_THAT(pieces_of({"en", "en"}), ElementsAre("en.json", "only_la.json", "d_en.json"));
   EXPECT_THAT(pieces_of({"en", "off"}), ElementsAre("en.json", "only_la.json", "d_it.json"));
+  EXPECT_THAT(pieces_of({"en", "en", true}),
+              ::testing::UnorderedElementsAre("en.json", "la.json", "only_la.json", "d_en.json",
+                                              "d_it.json"))
+      << "of all languages, as a group needs them";
   EXPECT_THAT(FindNeededMembers(Empty().manifest(), {"de", ""}, "show").message(),
               HasSubstr("choose one of: la, en"));
 }

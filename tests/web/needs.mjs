@@ -2,6 +2,7 @@
 import {execFileSync} from 'node:child_process';
 import {createReadStream, existsSync, rmSync} from 'node:fs';
 import {createServer} from 'node:http';
+import {connect, createServer as createNetServer} from 'node:net';
 import {extname} from 'node:path';
 
 // Ends the test as skipped (status 77) if a file is absent. needed: [file, how to get it].
@@ -17,17 +18,37 @@ export function skipWithout(...needed) {
 const TYPES = {'.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm'};
 
 // Writes a project's folder for browsers, signed with a new key, and returns what the program says of it.
-export function exportFolder(editor, project, page, folder) {
+export function exportFolder(editor, project, page, folder, ...options) {
   const key = `${folder}-museum`;
   [folder, `${key}.key`, `${key}.pub`].forEach((old) => rmSync(old, {recursive: true, force: true}));
   execFileSync(editor, ['key', key], {stdio: 'ignore'});
-  return updateFolder(editor, project, page, folder, key);
+  return updateFolder(editor, project, page, folder, key, ...options);
 }
 
 // Writes it again, signed with the key of `folder`, or of another one.
-export function updateFolder(editor, project, page, folder, key = `${folder}-museum`) {
+export function updateFolder(editor, project, page, folder, key = `${folder}-museum`, ...options) {
   return JSON.parse(execFileSync(
-    editor, ['export', project, '--web', folder, '--page', page, '--sign', `${key}.key`, '--json'], {encoding: 'utf8'}));
+    editor, ['export', project, '--web', folder, '--page', page, '--sign', `${key}.key`, '--json', ...options], {encoding: 'utf8'}));
+}
+
+export const freePort = () => new Promise((resolve) => {
+  const server = createNetServer().listen(0, '127.0.0.1', () => {
+    const {port} = server.address();
+    server.close(() => resolve(port));
+  });
+});
+
+export const sleep = (seconds) => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
+
+// Waits until a port is open.
+export async function opened(port) {
+  const tried = () => new Promise((resolve) => {
+    const socket = connect(port, '127.0.0.1', () => resolve(true)).on('error', () => resolve(false));
+    socket.on('connect', () => socket.destroy());
+  });
+  for (let i = 0; i < 300 && !await tried(); ++i) {
+    await sleep(0.1);
+  }
 }
 
 // The file of a folder that a path names.

@@ -14,7 +14,9 @@ namespace {
 
 std::unique_ptr<PageShow> show;
 std::string names;  // The result of lararium_names().
-std::string state;  // The result of lararium_state().
+std::string state;  // The result of lararium_state() or lararium_group_state().
+lararium::web::PageGroup* page_group = nullptr;  // The one of `show`.
+std::vector<lararium::group::GroupMember::Outgoing> outgoing;
 
 const char* TakeNames(const lararium::Result<std::vector<std::string>>& found) {
   names.clear();
@@ -122,6 +124,46 @@ EMSCRIPTEN_KEEPALIVE void lararium_choose(bool descriptions, bool reduced_motion
 EMSCRIPTEN_KEEPALIVE void lararium_press_key(const char* key) { show->input().PressKey(key); }
 
 EMSCRIPTEN_KEEPALIVE void lararium_restart() { show->input().RestartAt(0.0); }
+
+// The functions of the group may be called after lararium_join_group() has returned true.
+EMSCRIPTEN_KEEPALIVE bool lararium_join_group(const char* name, uint32_t boot, uint32_t more_boot) {
+  page_group = show->JoinGroup(name, uint64_t{more_boot} << 32 | boot);
+  return page_group != nullptr;
+}
+
+EMSCRIPTEN_KEEPALIVE void lararium_take_message(const char* from, const char* bytes, size_t size) {
+  page_group->Take(from, {bytes, size});
+}
+
+EMSCRIPTEN_KEEPALIVE void lararium_set_gone(const char* name) { page_group->SetGone(name); }
+
+// what: GroupWish::What
+EMSCRIPTEN_KEEPALIVE void lararium_want(int what, const char* marker, bool to_all) {
+  page_group->Want(static_cast<lararium::group::GroupWish::What>(what), marker, to_all);
+}
+
+// Returns the number of messages to be sent.
+EMSCRIPTEN_KEEPALIVE size_t lararium_step_group() {
+  page_group->Step();
+  outgoing = page_group->TakeOutgoing();
+  return outgoing.size();
+}
+
+// Writes address and size of a message's bytes, and whether it has to arrive. Returns the name of
+// the member that gets it; "": all do.
+EMSCRIPTEN_KEEPALIVE const char* lararium_outgoing(size_t index, uint32_t* message) {
+  const auto& [to, bytes, reliable] = outgoing[index];
+  message[0] = reinterpret_cast<uintptr_t>(bytes.data());
+  message[1] = bytes.size();
+  message[2] = reliable ? 1 : 0;
+  return to.c_str();
+}
+
+// Returns PageGroup::State() as JSON.
+EMSCRIPTEN_KEEPALIVE const char* lararium_group_state() {
+  state = lararium::DumpJson(page_group->State());
+  return state.c_str();
+}
 
 EMSCRIPTEN_KEEPALIVE void lararium_hold(bool holds) { show->Hold(holds); }
 

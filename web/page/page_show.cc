@@ -25,6 +25,13 @@ constexpr char kWhere[] = "show";  // The folder of the show, in errors.
 // The page asks the camera for this rate.
 constexpr double kFramesPerSecond = 30.0;
 
+template <typename Time>
+int64_t MicrosecondsOf(Time time) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
+}
+
+double SteadySeconds() { return 1e-6 * static_cast<double>(MicrosecondsOf(Clock::now())); }
+
 size_t CoarsestLevel() { return render::QualityLadder().size() - 1; }
 
 // numbers: see PageShow::kTrackedNumbers.
@@ -82,8 +89,9 @@ Result<std::unique_ptr<PageShow>> PageShow::Open(std::string_view manifest,
 
 Result<std::vector<std::string>> PageShow::FindMissing(
     Stage stage, const show::LanguageChoice& languages) const {
-  LARARIUM_ASSIGN_OR_RETURN(const show::NeededMembers needed,
-                            show::FindNeededMembers(bundle_.manifest(), languages, kWhere));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const show::NeededMembers needed,
+      show::FindNeededMembers(bundle_.manifest(), WithGroup(languages), kWhere));
   std::vector<std::string> missing;
   const auto add = [&](const std::vector<std::string>& members) {
     std::copy_if(members.begin(), members.end(), std::back_inserter(missing),
@@ -156,10 +164,41 @@ Result<std::span<const std::byte>> PageShow::map(size_t index) const {
   return bundle_.member(bundle_.manifest().places[index].scene);
 }
 
-Result<std::unique_ptr<show::Show>> PageShow::Make(show::ShowContent content) {
+PageGroup* PageShow::JoinGroup(const std::string& name, uint64_t boot) {
+  const std::optional<bundle::FleetEntry>& fleet = bundle_.manifest().fleet;
+  if (!fleet || fleet->group.empty()) {
+    return nullptr;
+  }
+  fleet_.group.reset();
+  fleet_.feed.emplace(SteadySeconds);
+  fleet_.group.emplace(
+      group::GroupMemberOptions{
+          .name = std::string(group::kPage) + name,
+          .boot = boot,
+          .wall = [] { return MicrosecondsOf(std::chrono::system_clock::now()); }},
+      *fleet_.feed, [] { return MicrosecondsOf(Clock::now()); });
+  return &*fleet_.group;
+}
+
+show::LanguageChoice PageShow::WithGroup(show::LanguageChoice languages) const {
+  const std::optional<bundle::FleetEntry>& fleet = bundle_.manifest().fleet;
+  languages.in_step = fleet && !fleet->group.empty();
+  return languages;
+}
+
+Result<std::unique_ptr<show::Show>> PageShow::Make(show::ShowContent content, bool together) {
   drama::DramaOptions options;
-  options.past = drama::Past::kForgotten;
-  return show::Show::Create(std::move(content), options, *log_);
+  // In a group, late news change the past.
+  options.past = together ? drama::Past::kKept : drama::Past::kForgotten;
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> made,
+                            show::Show::Create(std::move(content), options, *log_));
+  if (together) {
+    fleet_.feed->SetShow(bundle::DramaVersion(bundle_.manifest()) + " " + LARARIUM_VERSION + " " +
+                             std::to_string(options.seed),
+                         group::MarkersOf(made->content().drama));
+    made->Join(fleet_.feed->group());
+  }
+  return made;
 }
 
 void PageShow::Begin(std::unique_ptr<show::Show> show) {
@@ -172,16 +211,17 @@ void PageShow::Begin(std::unique_ptr<show::Show> show) {
   }
   texts_ = show::TextsOf(show_->content());
   told_texts_.clear();
-  markers_ = group::MarkersOf(show_->content().drama);
-  show_->input().Hold(holds_);
+  fleet_.markers = group::MarkersOf(show_->content().drama);
+  show_->input().Hold(fleet_.holds);
 }
 
 Json PageShow::DescribeState() const {
   constexpr size_t kMostMarkers = 64;
   const std::optional<geometry::Rigid3>& camera = staged_.camera.camera_from_stage;
+  // In a group, the state of the group has them.
   Json markers = Json::array();
-  for (size_t i = 0; i < std::min(markers_.size(), kMostMarkers); ++i) {
-    markers.push_back(markers_[i].name);
+  for (size_t i = 0; !fleet_.group && i < std::min(fleet_.markers.size(), kMostMarkers); ++i) {
+    markers.push_back(fleet_.markers[i].name);
   }
   Json position;
   if (camera) {
@@ -196,33 +236,34 @@ Json PageShow::DescribeState() const {
           {"seconds", time()},
           {"length", length() > 0.0 ? Json(length()) : Json()},
           {"picture", {{"quality", quality_.level()}}},
-          {"held", holds_},
+          {"held", fleet_.group ? Json() : Json(fleet_.holds)},
           {"markers", markers}};
 }
 
 void PageShow::Hold(bool holds) {
-  holds_ = holds;
+  fleet_.holds = holds;
   show_->input().Hold(holds);
 }
 
 void PageShow::GoTo(std::string_view marker) {
-  const auto found = std::find_if(markers_.begin(), markers_.end(),
+  const auto found = std::find_if(fleet_.markers.begin(), fleet_.markers.end(),
                                   [&](const auto& one) { return one.name == marker; });
-  if (found != markers_.end()) {
+  if (found != fleet_.markers.end()) {
     show_->input().RestartAt(static_cast<double>(found->tick) / drama::Drama::kTicksPerSecond);
   }
 }
 
 Status PageShow::LoadGuide(const show::LanguageChoice& languages) {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content, show::LoadGuideContent(bundle_, languages));
-  return Start(std::move(content));
+  return Start(std::move(content), false);
 }
 
 Status PageShow::Load(const show::LanguageChoice& languages) {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
-                            show::LoadShowContent(bundle_, {}, languages));
-  LARARIUM_ASSIGN_OR_RETURN(const show::NeededMembers needed,
-                            show::FindNeededMembers(bundle_.manifest(), languages, kWhere));
+                            show::LoadShowContent(bundle_, {}, WithGroup(languages)));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const show::NeededMembers needed,
+      show::FindNeededMembers(bundle_.manifest(), WithGroup(languages), kWhere));
   std::set<std::string_view> kept(needed.language.begin(), needed.language.end());
   kept.insert(needed.voices.begin(), needed.voices.end());
   person_missing_.clear();
@@ -244,7 +285,7 @@ Status PageShow::Load(const show::LanguageChoice& languages) {
       bundle_.Remove(member.name);
     }
   }
-  return Start(std::move(content));
+  return Start(std::move(content), fleet_.group.has_value());
 }
 
 Status PageShow::LoadPeople() {
@@ -275,12 +316,12 @@ Status PageShow::LoadThings() {
 
 Status PageShow::LoadVoices(const show::LanguageChoice& languages) {
   LARARIUM_ASSIGN_OR_RETURN(const show::ShowContent content,
-                            show::LoadInLanguages(bundle_, languages, show_->content()));
+                            show::LoadInLanguages(bundle_, WithGroup(languages), show_->content()));
   sound_.reset();
   return show_->SetSounds(content, *log_);
 }
 
-Status PageShow::Start(show::ShowContent content) {
+Status PageShow::Start(show::ShowContent content, bool together) {
   // The page writes the texts itself, so that they have the browser's letters, directions and
   // sizes.
   content.caption_font.reset();
@@ -295,7 +336,7 @@ Status PageShow::Start(show::ShowContent content) {
       vision::Smooth(std::move(given), show::Maps(content.places), vision::Smoothing::kSoft);
   LARARIUM_ASSIGN_OR_RETURN(
       renderer_, show::ShowRenderer::Create(content, render::QualityLadder()[quality_.level()]));
-  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content), together));
   Begin(std::move(show));
   begun_.reset();
   FindViews();
@@ -304,9 +345,10 @@ Status PageShow::Start(show::ShowContent content) {
 
 Status PageShow::SetLanguages(const show::LanguageChoice& languages) {
   LARARIUM_ASSIGN_OR_RETURN(show::ShowContent content,
-                            show::LoadInLanguages(bundle_, languages, show_->content()));
+                            show::LoadInLanguages(bundle_, WithGroup(languages), show_->content()));
   content.caption_font.reset();
-  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content)));
+  LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show,
+                            Make(std::move(content), fleet_.group.has_value()));
   LARARIUM_RETURN_IF_ERROR(show->ResumeFrom(*show_));
   Begin(std::move(show));
   return Status();
@@ -385,6 +427,9 @@ Status PageShow::Present(vision::TrackedFrame tracked,
   show_->input().SetHour(moment.hour);
   show_->StageFrame(std::move(tracked), frame_.capture_time, staged_);
   staged_.camera.opacity *= moment.shown;
+  if (fleet_.feed) {
+    fleet_.feed->SetVisited(staged_.camera.camera_from_stage.has_value());
+  }
   if (sound_) {
     sound_->Show(staged_.sound);
   }

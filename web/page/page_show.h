@@ -18,7 +18,6 @@
 #include "shared/core/json_fwd.h"
 #include "shared/core/log.h"
 #include "shared/core/status.h"
-#include "shared/group/group_feed.h"
 #include "shared/human/texture_pool.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/render_target.h"
@@ -29,6 +28,7 @@
 #include "shared/show/show_renderer.h"
 #include "shared/vision/gain_estimator.h"
 #include "shared/vision/tracked_frame.h"
+#include "web/page/page_group.h"
 #include "web/page/page_sound.h"
 
 namespace lararium::web {
@@ -63,6 +63,10 @@ class PageShow {
   // The maps for the tracker, .larscene files, before Load().
   size_t map_count() const { return bundle_.manifest().places.size(); }
   Result<std::span<const std::byte>> map(size_t index) const;
+
+  // Lets the drama be that of a group, if the manifest names one, which is then returned. boot: a
+  // random number. Call it before Load().
+  PageGroup* JoinGroup(const std::string& name, uint64_t boot);
 
   // Prepares drawing of the guide to the places. Call the functions below only after it.
   Status LoadGuide(const show::LanguageChoice& languages);
@@ -136,8 +140,19 @@ class PageShow {
     size_t keyframe = 0;  // Index into SceneDatabase::keyframes.
   };
 
+  // What this page is in a fleet.
+  struct Fleet {
+    std::vector<group::GroupOwn::Marker> markers;
+    bool holds = false;                    // The staff holds the drama.
+    std::optional<group::GroupFeed> feed;  // nullopt: the show plays alone.
+    std::optional<PageGroup> group;
+  };
+
   explicit PageShow(bundle::Bundle bundle);
-  Status Start(show::ShowContent content);
+  // together: with the group.
+  Status Start(show::ShowContent content, bool together);
+  // In a group, lines take the time of their longest language.
+  show::LanguageChoice WithGroup(show::LanguageChoice languages) const;
   // Index of the person of Stage::kPerson; nullopt: all have arrived.
   std::optional<size_t> NextPerson() const;
   double SinceBegun(double seconds);
@@ -154,7 +169,7 @@ class PageShow {
   Status SetSize(int width, int height);
   void ChooseQuality(double seconds, double work_ms);
   // Makes the show of a content; its options are those of every show of the page.
-  Result<std::unique_ptr<show::Show>> Make(show::ShowContent content);
+  Result<std::unique_ptr<show::Show>> Make(show::ShowContent content, bool together);
   void Begin(std::unique_ptr<show::Show> show);
   Json DescribeTexts();
 
@@ -166,6 +181,7 @@ class PageShow {
   std::shared_ptr<Log> log_;
   std::optional<render::OffscreenContext> context_;
   std::optional<render::RenderTarget> target_;
+  Fleet fleet_;
   std::unique_ptr<show::Show> show_;
   std::optional<double> begun_;       // Time of the first frame since Start().
   std::unique_ptr<PageSound> sound_;  // nullptr: the show is silent.
@@ -173,8 +189,6 @@ class PageShow {
   show::CaptionTexts texts_;
   std::vector<render::Caption> captions_;
   std::string told_texts_;
-  std::vector<group::GroupOwn::Marker> markers_;
-  bool holds_ = false;  // The staff holds the drama.
   std::unique_ptr<vision::PoseSource> smoothed_;
   GivenPoses* given_ = nullptr;  // Owned by smoothed_.
   show::QualityController quality_;

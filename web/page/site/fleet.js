@@ -1,9 +1,13 @@
 // The page as a device of a museum's fleet (docs/file-formats.md#topics-of-a-fleet), over MQTT by WebSocket. Nothing that the
 // visitor sees waits for it, and no failure of it is shown.
+import {WISHES} from './show.js';
+
 const ONLINE = '{"online": true}';
 const OFFLINE = '{"online": false}';
 const FORGET = {messageExpiryInterval: 60};  // The broker forgets a page that is gone after so many seconds.
+const TAKEN_OVER = 0x8e;  // Another window has this name now.
 const PUBLISH_MS = 1000;
+const STEP_MS = 20;
 const MINUTE_MS = 60000;
 const LOST_MS = 1000;  // A loss that is shorter does not count.
 const COMMAND_BYTES = 1024;
@@ -107,6 +111,14 @@ export class Fleet {
     this.topics = {state: `${own}/state`, presence: `${own}/presence`,
       commands: [`${own}/do`, ...(group === '' ? [] : [`${base}/group/${group}/do`])]};
     this.commands = commandsOf(page);
+    this.together = page.show.joinGroup(this.name);
+    const together = `${base}/group/${group}`;
+    this.topics.group = !this.together ? undefined : {
+      all: `${together}/all/page/${this.name}`,
+      to: (other) => `${together}/to/${other}/page/${this.name}`,
+      heard: ['+', 'page/+'].flatMap((others) => [
+        `${together}/all/${others}`, `${together}/to/page/${this.name}/${others}`, `${base}/device/${others}/presence`]),
+    };
     this.tally = new Tally();
     this.second = {began: 0, count: 0};
   }
@@ -114,6 +126,8 @@ export class Fleet {
   // The visit begins, or goes on.
   async begin() {
     this.playing = true;
+    clearInterval(this.stepping);
+    this.stepping = this.together ? setInterval(() => this.step(), STEP_MS) : undefined;
     this.mqtt ??= await loadMqtt();
     if (!this.playing || this.client !== undefined) {
       return;
@@ -126,10 +140,14 @@ export class Fleet {
     this.client = client;
     client.on('connect', () => {
       client.subscribe(this.topics.commands, {qos: 2});
+      if (this.together) {
+        client.subscribe(this.topics.group.heard, {qos: 1});
+      }
       client.publish(this.topics.presence, ONLINE, {qos: 1, retain: true});
       this.publish();
     });
     client.on('message', (topic, payload, {retain}) => this.take(topic, payload, retain));
+    client.on('disconnect', ({reasonCode}) => reasonCode === TAKEN_OVER && client.end(true));
     client.on('error', (error) => console.debug(error.message));
     this.timer = setInterval(() => this.publish(), PUBLISH_MS);
   }
@@ -138,10 +156,12 @@ export class Fleet {
   end() {
     this.playing = false;
     clearInterval(this.timer);
+    clearInterval(this.stepping);
     const {client} = this;
     this.client = undefined;
     if (client?.connected) {
-      client.publish(this.topics.presence, OFFLINE, {qos: 1, retain: true, properties: FORGET}, () => client.end());
+      client.publish(this.topics.presence, OFFLINE, {qos: 1, retain: true, properties: FORGET});
+      client.end();  // The message goes first.
     } else {
       client?.end(true);
     }
@@ -150,6 +170,15 @@ export class Fleet {
   // What the tracker said of an image.
   saw(tracked) {
     this.tally.add(tracked);
+  }
+
+  // Exchanges messages between the show and the other members. Without a connection the show plays on alone.
+  step() {
+    for (const {to, bytes, reliable} of this.page.show.stepGroup()) {
+      if (this.client?.connected) {  // Members repeat what is lost.
+        this.client.publish(to === '' ? this.topics.group.all : this.topics.group.to(to), bytes, {qos: reliable ? 1 : 0});
+      }
+    }
   }
 
   publish() {
@@ -165,6 +194,7 @@ export class Fleet {
     const {frames_per_second, ...tally} = this.tally.describe();
     return {
       schema: 1, answers: true, silent_seconds: 0, name: `page/${this.name}`, group: this.group, time: Math.floor(Date.now() / 1000),
+      ...(this.together ? {drama: show.groupState()} : {}),
       player: {
         ...known, ...tally, picture: {...picture, frames_per_second}, kiosk: false, visitor: null,
         power: {celsius: null, battery: null, charging: null},
@@ -180,23 +210,41 @@ export class Fleet {
     if (!this.playing || retain) {
       return;
     }
-    if (this.topics.commands.includes(topic) && payload.length <= COMMAND_BYTES) {
-      this.obey(payload);
+    if (this.topics.commands.includes(topic)) {
+      this.obey(payload, topic !== this.topics.commands[0]);
+    } else if (this.together) {
+      this.hear(topic, payload);
+    }
+  }
+
+  // The end of a topic is the name of the member that wrote it, for which the broker vouches.
+  hear(topic, payload) {
+    const isPresence = topic.endsWith('/presence');
+    const name = /\/((?:page\/)?[\w-]{1,64})$/.exec(isPresence ? topic.slice(0, -'/presence'.length) : topic)?.[1];
+    if (name === undefined) {
+      return;
+    }
+    if (!isPresence) {
+      this.page.show.takeMessage(name, payload);
+    } else if (new TextDecoder().decode(payload) === OFFLINE) {
+      this.page.show.setGone(name);
     }
   }
 
   // Anything may have been published as a command.
-  obey(payload) {
+  obey(payload, toAll) {
     const now = performance.now();
     if (now - this.second.began > 1000) {
       this.second = {began: now, count: 0};
     }
-    if (++this.second.count > COMMANDS_A_SECOND) {
+    if (++this.second.count > COMMANDS_A_SECOND || payload.length > COMMAND_BYTES) {
       return;
     }
     try {
       const {do: what, value} = JSON.parse(new TextDecoder().decode(payload));
-      if (Object.hasOwn(this.commands, what)) {
+      if (this.together && WISHES.includes(what)) {
+        this.page.show.want(what, what === 'go_to' ? String(value) : '', toAll);
+      } else if (Object.hasOwn(this.commands, what)) {
         this.commands[what]?.(value);
         this.publish();
       }

@@ -7,6 +7,9 @@ const FORMATS = ['I420', 'NV12', 'RGBA'];
 // What begins with members that have arrived (PageShow::Stage).
 export const [GUIDE, DRAMA, PERSON, THINGS, VOICES, SHOW, LANGUAGES] = [0, 1, 2, 3, 4, 5, 6];
 
+// What the staff may want of a group's drama (GroupWish::What).
+export const WISHES = ['hold', 'resume', 'go_to', 'restart'];
+
 function hourNow() {
   const now = new Date();
   return now.getHours() + now.getMinutes() / 60;
@@ -124,6 +127,40 @@ export class Show {
     this.hold(false);
     this.module._lararium_restart();
     this.time = 0;
+  }
+
+  // Plays the drama of the folder's group from load() on. Returns whether there is one. name: of this page.
+  joinGroup(name) {
+    const boot = crypto.getRandomValues(new Uint32Array(2));
+    return this.module.ccall('lararium_join_group', 'boolean', ['string', 'number', 'number'], [name, ...boot]);
+  }
+
+  // A message of another member.
+  takeMessage(from, bytes) {
+    this.module.ccall('lararium_take_message', null, ['string', 'array', 'number'], [from, bytes, bytes.length]);
+  }
+
+  setGone(name) {
+    this.module.ccall('lararium_set_gone', null, ['string'], [name]);
+  }
+
+  // what: one of WISHES. toAll: all members have got it.
+  want(what, marker, toAll) {
+    this.module.ccall('lararium_want', null, ['number', 'string', 'boolean'], [WISHES.indexOf(what), marker, toAll]);
+  }
+
+  // Does what is due in the group. Returns the messages to be sent: {to, bytes, reliable}; to: '' stands for all members.
+  stepGroup() {
+    return Array.from({length: this.module._lararium_step_group()}, (_, i) => {
+      const to = this.module.UTF8ToString(this.module._lararium_outgoing(i, this.numbers));
+      const [at, size, reliable] = this.module.HEAPU32.subarray(this.numbers / 4, this.numbers / 4 + 3);
+      return {to, bytes: this.module.HEAPU8.slice(at, at + size), reliable: reliable !== 0};
+    });
+  }
+
+  // The field `drama` of a device's state.
+  groupState() {
+    return JSON.parse(this.module.UTF8ToString(this.module._lararium_group_state()));
   }
 
   // The staff holds the drama, or goes to one of its markers.
