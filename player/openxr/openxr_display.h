@@ -9,9 +9,9 @@
 #include <string>
 
 #include "player/openxr/openxr_headset.h"
-#include "player/openxr/stage_anchor.h"
 #include "shared/render/gl/render_target.h"
 #include "shared/show/show_renderer.h"
+#include "shared/show/stage_anchor.h"
 
 namespace lararium::player {
 
@@ -47,7 +47,7 @@ class OpenXrDisplay {
 
   Headset headset_;
   std::unique_ptr<OpenXrHeadset> openxr_;
-  StageAnchor anchor_;  // used if the runtime shows the real world
+  show::StageAnchor anchor_;  // used if the runtime shows the real world
 };
 
 }  // namespace lararium::player

@@ -12,6 +12,12 @@ geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& cam
   return camera_from_stage;
 }
 
+geometry::Rigid3 CameraFromMap(const Place& place, const geometry::Rigid3& camera_from_stage) {
+  geometry::Rigid3 without_nudge = camera_from_stage;
+  without_nudge.translation += place.camera_nudge;
+  return geometry::CameraFromB(without_nudge, place.map_from_stage.Inverse());
+}
+
 namespace {
 
 std::vector<const Occluder*> InTheWay(const Place& place) {

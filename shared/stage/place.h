@@ -41,6 +41,8 @@ struct Place {
 
 // Pose from which the stage is drawn: rigid, metric and with the nudge applied.
 geometry::Rigid3 CameraFromStage(const Place& place, const geometry::Rigid3& camera_from_map);
+// The pose in the map for which CameraFromStage() returns camera_from_stage.
+geometry::Rigid3 CameraFromMap(const Place& place, const geometry::Rigid3& camera_from_stage);
 
 // Whether both places have the same occluders that block walking.
 bool BlockWalkingAlike(const Place& a, const Place& b);

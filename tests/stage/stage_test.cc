@@ -206,6 +206,19 @@ TEST(Place, TheNudgeMovesTheCameraAlongItsAxes) {
   EXPECT_TRUE((nudged.Center() - before).isApprox(0.1 * forward, 1e-9));
 }
 
+TEST(Place, ThePoseInTheMapIsTheOneThatGivesThePoseOnTheStage) {
+  Place place;
+  place.map_from_stage = {0.5, Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX())),
+                          Eigen::Vector3d(1.0, 2.0, 3.0)};
+  place.camera_nudge = {0.1, 0.2, 0.3};
+  const geometry::Rigid3 camera_from_map = {
+      Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY())),
+      Eigen::Vector3d(-0.4, 0.5, 2.0)};
+  const geometry::Rigid3 found = CameraFromMap(place, CameraFromStage(place, camera_from_map));
+  EXPECT_TRUE(found.translation.isApprox(camera_from_map.translation, 1e-12));
+  EXPECT_LT(found.rotation.angularDistance(camera_from_map.rotation), 1e-7);
+}
+
 TEST(Place, ThePoseIsMetric) {
   Place place;
   place.map_from_stage.scale = 0.5;  // Map units per metre.

@@ -4,11 +4,14 @@
 
 #include "shared/core/json.h"
 #include "web/page/page_show.h"
+#include "web/page/room_view.h"
 #include "web/tracker/error_text.h"
 
 using lararium::web::ErrorText;
 using lararium::web::PageShow;
 using lararium::web::PixelFormat;
+using lararium::web::RoomFromEye;
+using lararium::web::RoomView;
 
 namespace {
 
@@ -207,6 +210,30 @@ EMSCRIPTEN_KEEPALIVE const uint8_t* lararium_view_picture(size_t index) {
 EMSCRIPTEN_KEEPALIVE const char* lararium_draw_view(
     size_t index, double seconds, float hour, double late_ms, float shown) {
   return ErrorText(show->DrawView(index, {seconds, hour, late_ms, shown}));
+}
+
+EMSCRIPTEN_KEEPALIVE void lararium_enter_room(bool sees) { show->EnterRoom(sees); }
+
+// viewer: the first seven numbers of RoomView::kNumbers.
+EMSCRIPTEN_KEEPALIVE void lararium_find_stage(const double* tracked,
+                                              const double* viewer,
+                                              double seconds) {
+  show->FindStage({tracked, PageShow::kTrackedNumbers}, RoomFromEye({viewer, 7}), seconds);
+}
+
+// numbers: RoomView::kNumbers for each view.
+EMSCRIPTEN_KEEPALIVE const char* lararium_draw_in_room(const double* numbers,
+                                                       size_t view_count,
+                                                       uint32_t framebuffer,
+                                                       double seconds,
+                                                       float hour,
+                                                       double late_ms,
+                                                       float shown) {
+  std::vector<RoomView> views;
+  for (size_t i = 0; i < view_count; ++i) {
+    views.push_back(RoomView::FromNumbers({numbers + i * RoomView::kNumbers, RoomView::kNumbers}));
+  }
+  return ErrorText(show->DrawInRoom(views, framebuffer, {seconds, hour, late_ms, shown}));
 }
 
 EMSCRIPTEN_KEEPALIVE double lararium_time() { return show->time(); }

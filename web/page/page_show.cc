@@ -14,6 +14,7 @@
 #include "shared/core/json.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/quality.h"
+#include "shared/stage/place.h"
 #include "shared/vision/pose_smoother.h"
 
 namespace lararium::web {
@@ -407,8 +408,10 @@ Status PageShow::SetSize(int width, int height) {
   return Status();
 }
 
-void PageShow::ChooseQuality(double seconds, double work_ms) {
-  if (staged_.camera.camera_from_stage && quality_.AddFrame(seconds, work_ms)) {
+void PageShow::ChooseQuality(Clock::time_point start, const Moment& moment) {
+  const std::chrono::duration<double, std::milli> work = Clock::now() - start;
+  if (staged_.camera.camera_from_stage &&
+      quality_.AddFrame(moment.seconds, std::max(work.count(), moment.late_ms))) {
     const render::Quality& quality = render::QualityLadder()[quality_.level()];
     renderer_->SetQuality(quality);
     show_->detail().SetQuality(quality);
@@ -420,10 +423,7 @@ double PageShow::SinceBegun(double seconds) {
   return seconds - *begun_;
 }
 
-Status PageShow::Present(vision::TrackedFrame tracked,
-                         const Moment& moment,
-                         Clock::time_point start) {
-  LARARIUM_RETURN_IF_ERROR(SetSize(frame_.bgr.cols, frame_.bgr.rows));
+void PageShow::StageImage(vision::TrackedFrame tracked, const Moment& moment) {
   show_->input().SetHour(moment.hour);
   show_->StageFrame(std::move(tracked), frame_.capture_time, staged_);
   staged_.camera.opacity *= moment.shown;
@@ -433,10 +433,16 @@ Status PageShow::Present(vision::TrackedFrame tracked,
   if (sound_) {
     sound_->Show(staged_.sound);
   }
+}
+
+Status PageShow::Present(vision::TrackedFrame tracked,
+                         const Moment& moment,
+                         Clock::time_point start) {
+  LARARIUM_RETURN_IF_ERROR(SetSize(frame_.bgr.cols, frame_.bgr.rows));
+  StageImage(std::move(tracked), moment);
   LARARIUM_RETURN_IF_ERROR(renderer_->Draw(staged_, *target_));
   target_->Present(target_->width(), target_->height());
-  const std::chrono::duration<double, std::milli> work = Clock::now() - start;
-  ChooseQuality(moment.seconds, std::max(work.count(), moment.late_ms));
+  ChooseQuality(start, moment);
   return Status();
 }
 
@@ -498,6 +504,57 @@ Status PageShow::DrawView(size_t index, const Moment& moment) {
     show_->input().ForgetPose();
   }
   return Present(std::move(tracked), moment, start);
+}
+
+void PageShow::EnterRoom(bool sees) {
+  anchor_ = sees ? show::StageAnchor() : show::StageAnchor(show::StageAnchor::kForever);
+  show_->input().ForgetPose();
+}
+
+void PageShow::FindStage(std::span<const double> tracked,
+                         const geometry::Rigid3& room_from_viewer,
+                         double seconds) {
+  const vision::TrackedFrame seen = ParseTracked(tracked);
+  if (seen.camera_from_map) {
+    anchored_ = seen.map;
+    const stage::Place& place = show_->content().places[anchored_].stage;
+    anchor_.Observe(room_from_viewer * stage::CameraFromStage(place, *seen.camera_from_map),
+                    seconds);
+  }
+}
+
+Status PageShow::DrawInRoom(std::span<const RoomView> views,
+                            uint32_t framebuffer,
+                            const Moment& moment) {
+  if (!anchor_.room_from_stage() || views.empty()) {
+    return Status();
+  }
+  const Clock::time_point start = Clock::now();
+  frame_.bgr.release();
+  ++frame_.index;
+  frame_.capture_time = SinceBegun(moment.seconds);
+  const auto eye_from_stage = [this](const RoomView& view) {
+    return view.room_from_eye.Inverse() * *anchor_.room_from_stage();
+  };
+  vision::TrackedFrame tracked;
+  tracked.frame = frame_;
+  tracked.state = vision::TrackState::kTracking;
+  tracked.followed = true;
+  tracked.map = anchored_;
+  tracked.camera = views.front().camera;
+  tracked.camera_from_map =
+      stage::CameraFromMap(show_->content().places[anchored_].stage, eye_from_stage(views.front()));
+  tracked.gain = gain_;
+  StageImage(std::move(tracked), moment);
+  const float opacity = anchor_.Opacity(moment.seconds) * staged_.camera.opacity;
+  for (const RoomView& view : views) {
+    LARARIUM_RETURN_IF_ERROR(SetSize(view.camera.width, view.camera.height));
+    LARARIUM_RETURN_IF_ERROR(
+        renderer_->DrawSeeThrough(staged_, {view.camera, eye_from_stage(view), opacity}, *target_));
+    target_->CopyTo(framebuffer, view.corner[0], view.corner[1]);
+  }
+  ChooseQuality(start, moment);
+  return Status();
 }
 
 Json PageShow::DescribeTexts() {

@@ -26,10 +26,12 @@
 #include "shared/show/quality_controller.h"
 #include "shared/show/show.h"
 #include "shared/show/show_renderer.h"
+#include "shared/show/stage_anchor.h"
 #include "shared/vision/gain_estimator.h"
 #include "shared/vision/tracked_frame.h"
 #include "web/page/page_group.h"
 #include "web/page/page_sound.h"
+#include "web/page/room_view.h"
 
 namespace lararium::web {
 
@@ -123,6 +125,18 @@ class PageShow {
   // Steps the drama and draws it as it is seen from there.
   Status DrawView(size_t index, const Moment& moment);
 
+  // From now on DrawInRoom() can draw people in a room that the device tracks. sees: whether images
+  // of its camera will be measured.
+  void EnterRoom(bool sees);
+  // Measures where the stage is in the room. tracked: an image with a pose or without (see
+  // kTrackedNumbers), which was taken while the viewer was there. seconds: as Moment's.
+  void FindStage(std::span<const double> tracked,
+                 const geometry::Rigid3& room_from_viewer,
+                 double seconds);
+  // Steps the drama and draws people for each view into a framebuffer that the device shows over
+  // the real surroundings. Before the first measurement nothing is drawn.
+  Status DrawInRoom(std::span<const RoomView> views, uint32_t framebuffer, const Moment& moment);
+
   // Time of the drama in the last picture, seconds.
   double time() const { return staged_.time; }
   // The texts to show over the last picture: {"captions": [{"speaker", "colour", "side", "text"}],
@@ -160,6 +174,8 @@ class PageShow {
   const vision::Keyframe& KeyframeOf(const View& view) const {
     return show_->content().places[view.place].map->keyframes[view.keyframe];
   }
+  // Steps the drama and its sound to the image in frame_.
+  void StageImage(vision::TrackedFrame tracked, const Moment& moment);
   // Stages and draws an image that is in frame_ already. start: when work on it began.
   Status Present(vision::TrackedFrame tracked,
                  const Moment& moment,
@@ -167,7 +183,8 @@ class PageShow {
   // Brightness of the image over the map's photometric reference.
   std::array<float, 3> EstimateGain(uint32_t map);
   Status SetSize(int width, int height);
-  void ChooseQuality(double seconds, double work_ms);
+  // start: when work on the picture began.
+  void ChooseQuality(std::chrono::steady_clock::time_point start, const Moment& moment);
   // Makes the show of a content; its options are those of every show of the page.
   Result<std::unique_ptr<show::Show>> Make(show::ShowContent content, bool together);
   void Begin(std::unique_ptr<show::Show> show);
@@ -196,6 +213,8 @@ class PageShow {
   std::array<float, 3> gain_ = {1.0f, 1.0f, 1.0f};
   std::vector<View> views_;
   std::optional<size_t> view_;  // The view of the last picture; nullopt: it was the camera's.
+  show::StageAnchor anchor_;
+  uint32_t anchored_ = 0;  // The place where anchor_ was measured last.
   std::vector<double> seen_numbers_;
   std::vector<vision::SeenPoint> seen_;
   PixelFormat format_ = PixelFormat::kRgba;

@@ -76,4 +76,14 @@ void RenderTarget::Present(int framebuffer_width, int framebuffer_height) const 
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+void RenderTarget::CopyTo(uint32_t framebuffer, int x, int y) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glDisable(GL_SCISSOR_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glBlitFramebuffer(0, height_, width_, 0, x, y, x + width_, y + height_, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
 }  // namespace lararium::render

@@ -32,6 +32,10 @@ class RenderTarget {
   // proportions differ.
   void Present(int framebuffer_width, int framebuffer_height) const;
 
+  // Copies the picture with its alpha into a framebuffer, whose lower left pixel of the copy is
+  // (x, y). The framebuffer may not have several samples for each pixel.
+  void CopyTo(uint32_t framebuffer, int x, int y) const;
+
  private:
   RenderTarget() = default;
 

@@ -7,6 +7,7 @@ import {keep} from './keep.js';
 import {keyOf} from './keys.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
 import {Place} from './place.js';
+import {canShowRoom, Room} from './room.js';
 import {DRAMA, GUIDE, LANGUAGES, PERSON, Show, SHOW, THINGS, VOICES} from './show.js';
 import {Sound} from './sound.js';
 import {firstKnown, KNOWN, menuText, sentence, setLanguage} from './texts.js';
@@ -300,11 +301,12 @@ let visitable;
 
 // --- Playing
 
-// What plays now: show, place, and the camera's stream, which a walk does not have. undefined: nothing plays.
+// What plays now: show, place, and the camera's stream, or the room that the device shows; a walk has neither. undefined:
+// nothing plays.
 let visit;
 // What goes on after an interruption: start or startWalk.
 let begin = start;
-// The image that is being tracked: {number, seconds, lateMs}.
+// The image that is being tracked: {number, seconds, lateMs}, or {number, viewer} in a room.
 let image = {number: 0};
 // Seconds of the show's frames, which go on where they were when the camera starts again.
 let seconds = 0;
@@ -355,7 +357,7 @@ function play(mine, next) {
   if (document.hidden) {
     pause();
   } else if (visit === mine) {
-    element('walk').hidden = mine.stream !== undefined;
+    element('walk').hidden = mine.stream !== undefined || mine.room !== undefined;
     setPlaying(true);
     mine.fleet?.begin().catch((error) => console.warn(error));
     next();
@@ -386,12 +388,20 @@ async function startWalk() {
   }
 }
 
+// Seconds of the show at a time of the display, in milliseconds.
+function timeOf(mine, now) {
+  mine.begun ??= now / 1000 - (seconds === 0 ? 0 : seconds + FRAME_SECONDS);
+  return Math.max(seconds, now / 1000 - mine.begun);
+}
+
+// Milliseconds since the last picture, if the page missed one; otherwise 0.
+const lateness = (passed) => passed > 2 * FRAME_SECONDS ? 1000 * passed : 0;
+
 function drawWalk(mine, now) {
   if (mine !== visit) {
     return;
   }
-  mine.begun ??= now / 1000 - (seconds === 0 ? 0 : seconds + FRAME_SECONDS);
-  const time = Math.max(seconds, now / 1000 - mine.begun);
+  const time = timeOf(mine, now);
   const passed = time - seconds;
   if (seconds > 0 && passed < 0.9 * FRAME_SECONDS) {
     requestAnimationFrame((next) => drawWalk(mine, next));  // The display is faster than the show.
@@ -400,8 +410,56 @@ function drawWalk(mine, now) {
   seconds = time;
   const {show} = mine;
   const view = element('view').valueAsNumber;
-  drawPicture(show.viewSize(view), (left) => show.drawView(view, seconds, passed > 2 * FRAME_SECONDS ? 1000 * passed : 0, left),
+  drawPicture(show.viewSize(view), (left) => show.drawView(view, seconds, lateness(passed), left),
     () => requestAnimationFrame((next) => drawWalk(mine, next)));
+}
+
+// Goes on in the room that the device itself shows, from where the camera has found the place.
+async function enterRoom() {
+  const {found, ...loaded} = visit;
+  stop(() => {});  // The device needs the camera itself.
+  try {
+    const room = await Room.open(loaded.show, element('over'));
+    const mine = {...loaded, stream: undefined, room, found, begun: undefined};
+    visit = mine;
+    beginSound();
+    loaded.show.enterRoom(room.sees);
+    room.onend = pause;
+    play(mine, () => awaitRoom(mine));
+  } catch (error) {
+    console.warn(error);
+    start();
+  }
+}
+
+function awaitRoom(mine) {
+  mine.room.awaitFrame((now, view) => {
+    if (mine === visit) {
+      drawRoom(mine, now, view);
+    }
+  });
+}
+
+function drawRoom(mine, now, view) {
+  if (view === undefined) {
+    awaitRoom(mine);
+    return;
+  }
+  const {show, room, place} = mine;
+  const before = seconds;
+  seconds = timeOf(mine, now);
+  if (mine.found !== undefined) {
+    show.findStage(mine.found, view.viewer, seconds);
+    mine.found = undefined;
+  }
+  const pixels = mine.tracks ? undefined : room.takeImage(now);
+  if (pixels !== undefined) {
+    mine.tracks = true;
+    image = {number: image.number + 1, viewer: view.viewer};
+    place.track(image.number, show.setImage(pixels), seconds);
+  }
+  drawPicture(canvas, (left) => show.drawInRoom(view.views, view.framebuffer, seconds, lateness(seconds - before), left),
+    () => awaitRoom(mine));
 }
 
 // Lets the camera go, and shows what has happened.
@@ -417,6 +475,11 @@ function stop(show) {
     });
     video.srcObject = null;
   }
+  if (stopped?.room !== undefined) {
+    stopped.room.close();
+    stopped.show.forgetPose();
+  }
+  element('enter_room').hidden = true;
   sound.suspend();
   stopped?.fleet?.end();
   show();
@@ -486,11 +549,19 @@ function drawPicture({width, height}, draw, next) {
   }
 }
 
-// Draws the very image that was tracked.
+// Draws the very image that was tracked; in a room, it only tells where the stage is.
 function drawTracked({number, tracked, seen}) {
-  if (visit !== undefined && number === image.number) {
-    const {show, fleet} = visit;
-    fleet?.saw(tracked);
+  if (visit === undefined || number !== image.number) {
+    return;
+  }
+  const {show, fleet} = visit;
+  fleet?.saw(tracked);
+  if (visit.room !== undefined) {
+    visit.tracks = false;
+    show.findStage(tracked, image.viewer, seconds);
+  } else {
+    visit.found = tracked.pose === null ? undefined : tracked;
+    element('enter_room').hidden = !roomIsPossible || visit.found === undefined;
     drawPicture(image, (left) => show.draw(tracked, seen, image.seconds, image.lateMs, left), awaitFrame);
   }
 }
@@ -508,12 +579,17 @@ document.addEventListener('keydown', (event) => {
 });
 canvas.addEventListener('webglcontextlost', () => stop(() => showProblem(new Error(sentence('drawing_lost')))));
 element('without_camera').onclick = startWalk;
+element('enter_room').onclick = enterRoom;
 element('open_menu').onclick = openMenu;
 element('close_menu').onclick = closeMenu;
 element('language').onchange = ({target}) => {
   change({captions: target.value});
   showTitle();
 };
+let roomIsPossible = false;
+canShowRoom().then((possible) => {
+  roomIsPossible = possible;
+});
 writeTexts();
 applyChoices();
 showTitle();

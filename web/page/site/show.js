@@ -15,6 +15,11 @@ function hourNow() {
   return now.getHours() + now.getMinutes() / 60;
 }
 
+const MOST_VIEWS = 8;  // More views of a room than devices have.
+
+const poseNumbers = ({position, orientation}) =>
+  [position.x, position.y, position.z, orientation.x, orientation.y, orientation.z, orientation.w];
+
 export class Show {
   time = 0;
 
@@ -28,6 +33,7 @@ export class Show {
       },
     });
     show.numbers = show.module._malloc(21 * 8);  // The program reads PageShow::kTrackedNumbers of them.
+    show.roomNumbers = show.module._malloc(MOST_VIEWS * 27 * 8);  // The program reads RoomView::kNumbers for each view.
     show.call('lararium_open', text, signature, key);
     return show;
   }
@@ -189,13 +195,18 @@ export class Show {
     return {data: this.module.HEAPU8.slice(at, at + width * height), width, height};
   }
 
-  // Draws the image that was set last. tracked, seen: what Tracker.track() and seen() said about it.
-  // shown: visibility of people, 0 to 1.
-  draw(tracked, seen, seconds, lateMs, shown) {
+  // Writes what Tracker.track() said, as the program reads it at this.numbers.
+  writeTracked(tracked) {
     const {width, height, fx, fy, cx, cy, k1, k2, p1, p2} = tracked.camera;
     const {map, rotation, translation} = tracked.pose ?? {map: 0, rotation: [0, 0, 0, 1], translation: [0, 0, 0]};
     this.module.HEAPF64.set([STATES.indexOf(tracked.state), REASONS.indexOf(tracked.reason), Number(tracked.followed), map,
       ...rotation, ...translation, width, height, fx, fy, cx, cy, k1, k2, p1, p2], this.numbers / 8);
+  }
+
+  // Draws the image that was set last. tracked, seen: what Tracker.track() and seen() said about it.
+  // shown: visibility of people, 0 to 1.
+  draw(tracked, seen, seconds, lateMs, shown) {
+    this.writeTracked(tracked);
     const points = this.module._lararium_new_seen(seen.length / 3);
     this.module.HEAPF64.set(seen, points / 8);
     this.check(this.module._lararium_draw(this.numbers, seconds, hourNow(), lateMs, shown));
@@ -206,6 +217,44 @@ export class Show {
   drawView(index, seconds, lateMs, shown) {
     this.check(this.module._lararium_draw_view(index, seconds, hourNow(), lateMs, shown));
     this.time = this.module._lararium_time();
+  }
+
+  // From now on people can be drawn in a room that the device tracks (PageShow::EnterRoom()). sees: whether findStage() will
+  // be called with images of the device's camera.
+  enterRoom(sees) {
+    this.module._lararium_enter_room(sees);
+  }
+
+  // Measures where the stage is. tracked: an image's, taken at the viewer's pose {position, orientation} of WebXR.
+  findStage(tracked, viewer, seconds) {
+    this.writeTracked(tracked);
+    this.module.HEAPF64.set(poseNumbers(viewer), this.roomNumbers / 8);
+    this.module._lararium_find_stage(this.numbers, this.roomNumbers, seconds);
+  }
+
+  // Draws people for views {transform, projectionMatrix, viewport} of WebXR into a framebuffer.
+  drawInRoom(views, framebuffer, seconds, lateMs, shown) {
+    const numbers = views.flatMap(({transform, projectionMatrix, viewport: {x, y, width, height}}) =>
+      [...poseNumbers(transform), ...projectionMatrix, x, y, width, height]);
+    this.module.HEAPF64.set(numbers, this.roomNumbers / 8);
+    this.check(this.module._lararium_draw_in_room(
+      this.roomNumbers, views.length, this.nameFramebuffer(framebuffer), seconds, hourNow(), lateMs, shown));
+    this.time = this.module._lararium_time();
+  }
+
+  // The context in which the show is drawn.
+  get context() {
+    return this.module.GL.currentContext.GLctx;
+  }
+
+  // The program's number for a framebuffer that a session of WebXR has made; 0 for the canvas.
+  nameFramebuffer(framebuffer) {
+    if (framebuffer !== null && framebuffer.name === undefined) {
+      const {GL} = this.module;
+      framebuffer.name = GL.getNewId(GL.framebuffers);
+      GL.framebuffers[framebuffer.name] = framebuffer;
+    }
+    return framebuffer?.name ?? 0;
   }
 
   // The luminance of the keyframe that drawView() shows, row by row.

@@ -1,20 +1,18 @@
-#include "player/openxr/stage_anchor.h"
+#include "shared/show/stage_anchor.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lararium::player {
+namespace lararium::show {
 namespace {
 
 // Time constant of the smoothing in seconds: after this time, 1/e of a difference is left.
-constexpr double kSettling = 0.4;
+constexpr double kAnchorSettling = 0.4;
 // Larger differences are real motions of the stage, not errors of measurement.
-constexpr double kFar = 0.15;     // metres
-constexpr double kTurned = 0.09;  // radians
+constexpr double kLeapMetres = 0.15;
+constexpr double kLeapRadians = 0.09;
 constexpr int kLeapsBelieved = 3;
-// People are shown for kHeld seconds after the last measurement, and then fade out.
-constexpr double kHeld = 10.0;  // seconds
-constexpr double kFade = 1.0;
+constexpr double kAnchorFade = 1.0;  // seconds in which people fade out
 
 }  // namespace
 
@@ -26,13 +24,13 @@ void StageAnchor::Observe(const geometry::Rigid3& room_from_stage, double second
     return;
   }
   geometry::Rigid3& held = *room_from_stage_;
-  const bool leaps = (room_from_stage.translation - held.translation).norm() > kFar ||
-                     held.rotation.angularDistance(room_from_stage.rotation) > kTurned;
+  const bool leaps = (room_from_stage.translation - held.translation).norm() > kLeapMetres ||
+                     held.rotation.angularDistance(room_from_stage.rotation) > kLeapRadians;
   leaps_ = leaps ? leaps_ + 1 : 0;
   if (leaps && leaps_ < kLeapsBelieved) {
     return;
   }
-  const double share = leaps ? 1.0 : 1.0 - std::exp(-passed / kSettling);
+  const double share = leaps ? 1.0 : 1.0 - std::exp(-passed / kAnchorSettling);
   held.rotation = held.rotation.slerp(share, room_from_stage.rotation);
   held.translation += share * (room_from_stage.translation - held.translation);
   leaps_ = leaps ? 0 : leaps_;
@@ -43,7 +41,7 @@ float StageAnchor::Opacity(double seconds) const {
     return 0.0f;
   }
   const double since = seconds - observed_;
-  return static_cast<float>(std::clamp(1.0 - (since - kHeld) / kFade, 0.0, 1.0));
+  return static_cast<float>(std::clamp(1.0 - (since - held_) / kAnchorFade, 0.0, 1.0));
 }
 
-}  // namespace lararium::player
+}  // namespace lararium::show
