@@ -57,12 +57,13 @@ export const fileIn = (folder, path) => path.includes('..') ? undefined : `${fol
 // Serves files without special headers until close(). fileOf(path): the file or its bytes, or undefined, or a promise.
 export async function serve(fileOf, port = 0) {
   const server = createServer(async (request, response) => {
-    const file = await fileOf(new URL(request.url, 'http://localhost').pathname);
+    const path = new URL(request.url, 'http://localhost').pathname;
+    const file = await fileOf(path);
     if (file === undefined || (typeof file === 'string' && !existsSync(file))) {
       response.writeHead(404).end();
       return;
     }
-    const type = TYPES[typeof file === 'string' ? extname(file) : ''] ?? 'application/octet-stream';
+    const type = TYPES[extname(typeof file === 'string' ? file : path)] ?? 'application/octet-stream';
     response.writeHead(200, {'content-type': type});
     if (typeof file === 'string') {
       createReadStream(file).pipe(response);

@@ -206,8 +206,9 @@ async function test() {
     describeMemory(loaded.show);
     doing.textContent = 'Done. Copy the report, and send it to the people who look after the show.';
   } catch (error) {
-    say('ended early', error.message);
-    doing.textContent = `The test ended early: ${error.message}`;
+    const reason = error?.message ?? String(error);
+    say('ended early', reason);
+    doing.textContent = `The test ended early: ${reason}`;
   }
   copy.disabled = false;
   go.textContent = 'Load the page again';
