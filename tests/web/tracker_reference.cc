@@ -52,17 +52,38 @@ Json Described(const TrackedFrame& tracked,
   return json;
 }
 
-// find: each frame is located without a prior, after the first one.
+// Two triangles through three points of the map and their middle, which hide points of the map.
+OccluderMesh SomethingInTheWay(const SceneDatabase& map) {
+  OccluderMesh mesh;
+  const size_t count = map.points.size();
+  for (const size_t point : {size_t{0}, count / 3, 2 * count / 3, count / 2}) {
+    mesh.positions.push_back(map.points[point]);
+  }
+  mesh.indices = {0, 1, 2, 2, 1, 3};
+  return mesh;
+}
+
+Json Described(const OccluderMesh& mesh) {
+  Json json = {{"positions", Json::array()}, {"indices", mesh.indices}};
+  for (const Eigen::Vector3f& position : mesh.positions) {
+    json["positions"].insert(json["positions"].end(), {position.x(), position.y(), position.z()});
+  }
+  return json;
+}
+
+// find: each frame is located without a prior, after the first one. occluders: of the map.
 Result<Json> Track(const Map& map,
                    std::span<const geometry::Frame> frames,
                    bool known_camera,
-                   bool find) {
+                   bool find,
+                   std::span<const OccluderMesh> occluders = {}) {
   const geometry::CameraModel camera =
       map->camera.GuessForImages(frames[0].grey.cols, frames[0].grey.rows);
   TrackerOptions options;
   options.threads = 1;
   options.known_camera = known_camera;
   LARARIUM_ASSIGN_OR_RETURN(const auto poses, CreateTracker({map}, camera, options));
+  poses->SetOccluders(0, occluders);
   Json tracked = Json::array();
   for (const geometry::Frame& frame : frames) {
     if (find) {
@@ -112,6 +133,10 @@ Status WriteReference(const std::filesystem::path& scene,
     }
   }
   LARARIUM_ASSIGN_OR_RETURN(reference["unknown"], Track(map, frames, false, false));
+  const OccluderMesh occluder = SomethingInTheWay(*map);
+  reference["occluder"] = Described(occluder);
+  LARARIUM_ASSIGN_OR_RETURN(reference["hidden"],
+                            Track(map, frames, true, false, std::span(&occluder, 1)));
   const size_t found = std::min<size_t>(frames.size(), 20);
   LARARIUM_ASSIGN_OR_RETURN(reference["found"],
                             Track(map, std::span(frames).first(found), true, true));

@@ -39,6 +39,9 @@ async function trackAll(options, expected, each = () => {}) {
   const tracker = await Tracker.create({maps, ...options});
   let worst = 0;
   const times = {first: [], followed: [], natively: []};  // [frames]
+  if (options.occluder !== undefined) {
+    tracker.addOccluder(options.occluder);
+  }
   expected.forEach((native_frame, i) => {
     each(tracker, i);
     const [tracked, ms] = time(() => tracker.track(image(i), native.seconds[i]));
@@ -47,7 +50,7 @@ async function trackAll(options, expected, each = () => {}) {
     if (tracked.followed) {
       times.natively.push(native_frame.milliseconds);
     }
-    if (i === 0 && options.intrinsics !== undefined) {
+    if (i === 0 && options.intrinsics !== undefined && options.occluder === undefined) {
       assert.deepEqual(tracked, warmed);
     }
     if (tracked.pose) {
@@ -77,7 +80,10 @@ for (let again = 0; again < 2; ++again) {  // Other work of the machine makes ti
 }
 const unknown = await trackAll({}, native.unknown);
 const found = await trackAll({intrinsics: native.camera}, native.found, (tracker) => tracker.relocalize());
-for (const [name, {worst}] of Object.entries({known, unknown, found})) {
+const occluder = {positions: Float32Array.from(native.occluder.positions), indices: Uint32Array.from(native.occluder.indices)};
+const hidden = await trackAll({intrinsics: native.camera, occluder}, native.hidden);
+assert.notDeepEqual(native.hidden.map((frame) => frame.inliers), native.known.map((frame) => frame.inliers));
+for (const [name, {worst}] of Object.entries({known, unknown, found, hidden})) {
   console.log(`${worst <= MOST_PX ? 'ok  ' : 'MISS'} ${name}: largest distance from native ${worst} px (bar ${MOST_PX})`);
 }
 console.log(`     very first pose ${tenths(firstMs)} ms after ${tenths(warmUpMs)} ms of warming up, warm ${tenths(quantile(found.times.first, 0.5))} ms, ` +
@@ -88,7 +94,7 @@ console.log(`     very first pose ${tenths(firstMs)} ms after ${tenths(warmUpMs)
     `native ${tenths(quantile(times.natively, 0.5))} / ${tenths(quantile(times.natively, 0.95))} ms (p50 / p95), ` +
     `ratio ${(quantile(times.followed, 0.5) / quantile(times.natively, 0.5)).toFixed(2)}; memory ${memory} MiB`);
 }
-assert.ok(known.worst <= MOST_PX && unknown.worst <= MOST_PX && found.worst <= MOST_PX);
+assert.ok([known, unknown, found, hidden].every(({worst}) => worst <= MOST_PX));
 
 // A second worker's search: as two instances, whose messages are cloned as postMessage does.
 const tracker = await Tracker.create({maps, intrinsics: native.camera, postSearches: true});
@@ -134,4 +140,6 @@ await assert.rejects(Tracker.create({maps: [new Uint8Array(100)]}), /map: .+; /)
 const empty = await Tracker.create({maps: []});
 assert.throws(() => empty.track(image(0), 0), /add a map before the first image/);
 assert.throws(() => tracker.track({data: pixels.subarray(0, 99), width, height}, 0), RangeError);
+assert.throws(() => tracker.addOccluder({...occluder, indices: Uint32Array.of(0, 1, 4)}), /occluder: .+; give three indices/);
+assert.throws(() => tracker.addOccluder({...occluder, map: 1}), /occluder: /);
 console.log('ok   errors and matrices');

@@ -16,7 +16,8 @@ using lararium::web::RoomView;
 namespace {
 
 std::unique_ptr<PageShow> show;
-std::string names;  // The result of lararium_names().
+std::string names;                                      // The result of lararium_names().
+std::vector<lararium::vision::OccluderMesh> occluders;  // Found by lararium_find_occluders().
 std::string state;  // The result of lararium_state() or lararium_group_state().
 lararium::web::PageGroup* page_group = nullptr;  // The one of `show`.
 std::vector<lararium::group::GroupMember::Outgoing> outgoing;
@@ -90,6 +91,22 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_map(size_t index, uint32_t* address_an
   address_and_size[0] = reinterpret_cast<uintptr_t>(map->data());
   address_and_size[1] = map->size();
   return nullptr;
+}
+
+// Returns how many occluders a place has.
+EMSCRIPTEN_KEEPALIVE size_t lararium_find_occluders(size_t place) {
+  occluders = show->occluders(place);
+  return occluders.size();
+}
+
+// Writes address and number of the positions, and address and number of the indices, of an occluder
+// of the last place that was asked for.
+EMSCRIPTEN_KEEPALIVE void lararium_occluder(size_t index, uint32_t* found) {
+  const lararium::vision::OccluderMesh& mesh = occluders[index];
+  found[0] = reinterpret_cast<uintptr_t>(mesh.positions.data());
+  found[1] = mesh.positions.size();
+  found[2] = reinterpret_cast<uintptr_t>(mesh.indices.data());
+  found[3] = mesh.indices.size();
 }
 
 EMSCRIPTEN_KEEPALIVE const char* lararium_load_guide(const char* spoken, const char* captions) {

@@ -70,6 +70,11 @@ class PageShow {
   // random number. Call it before Load().
   PageGroup* JoinGroup(const std::string& name, uint64_t boot);
 
+  // The occluders of a place in its map's frame, for the tracker; empty before Load().
+  std::vector<vision::OccluderMesh> occluders(size_t place) const {
+    return show::OccludersInMap(show_->content().places[place].stage);
+  }
+
   // Prepares drawing of the guide to the places. Call the functions below only after it.
   Status LoadGuide(const show::LanguageChoice& languages);
   // Begins the show with what has arrived, and releases members that are no longer needed.

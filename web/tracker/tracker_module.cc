@@ -29,6 +29,17 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_set_intrinsics(
   return ErrorText(session->SetIntrinsics({numbers, count}, width, height));
 }
 
+// positions: x, y, z of each.
+EMSCRIPTEN_KEEPALIVE const char* lararium_add_occluder(TrackerSession* session,
+                                                       size_t map,
+                                                       const Eigen::Vector3f* positions,
+                                                       size_t position_count,
+                                                       const uint32_t* indices,
+                                                       size_t index_count) {
+  return ErrorText(session->AddOccluder(
+      map, {{positions, positions + position_count}, {indices, indices + index_count}}));
+}
+
 EMSCRIPTEN_KEEPALIVE const char* lararium_warm_up(TrackerSession* session) {
   return ErrorText(session->WarmUp());
 }

@@ -1,5 +1,8 @@
 #include "web/tracker/tracker_session.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "shared/geometry/similar_camera.h"
 #include "shared/vision/follow_map.h"
 
@@ -44,6 +47,23 @@ std::vector<double> NumbersOf(const vision::TrackedFrame& tracked) {
 Status TrackerSession::AddMap(std::span<const std::byte> larscene) {
   LARARIUM_ASSIGN_OR_RETURN(vision::SceneDatabase map, vision::ParseSceneDatabase(larscene, "map"));
   maps_.push_back(std::make_shared<const vision::SceneDatabase>(std::move(map)));
+  occluders_.emplace_back();
+  return Status();
+}
+
+Status TrackerSession::AddOccluder(size_t map, vision::OccluderMesh mesh) {
+  const auto in_range = [&mesh](uint32_t index) { return index < mesh.positions.size(); };
+  const auto finite = [](const Eigen::Vector3f& position) { return position.allFinite(); };
+  if (map >= maps_.size() || mesh.indices.size() % 3 != 0 ||
+      !std::all_of(mesh.indices.begin(), mesh.indices.end(), in_range) ||
+      !std::all_of(mesh.positions.begin(), mesh.positions.end(), finite)) {
+    return Status::Error("occluder", "is not a mesh of triangles in one of the maps",
+                         "give three indices of finite positions for each triangle");
+  }
+  occluders_[map].push_back(std::move(mesh));
+  if (poses_) {
+    poses_->SetOccluders(static_cast<uint32_t>(map), occluders_[map]);
+  }
   return Status();
 }
 
@@ -114,6 +134,9 @@ Status TrackerSession::Start() {
   LARARIUM_ASSIGN_OR_RETURN(poses_,
                             vision::CreateTracker(prepared_, camera, options, std::move(search)));
   search_ = borrowed;
+  for (size_t map = 0; map < maps_.size(); ++map) {
+    poses_->SetOccluders(static_cast<uint32_t>(map), occluders_[map]);
+  }
   return Status();
 }
 

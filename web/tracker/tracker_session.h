@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shared/core/status.h"
+#include "shared/vision/occluders.h"
 #include "shared/vision/relocalizer.h"
 #include "shared/vision/tracker.h"
 #include "web/tracker/posted_search.h"
@@ -27,6 +28,10 @@ class TrackerSession {
   // Sets the intrinsics of the images, see CameraModel::FromNumbers. Without them the tracker
   // estimates the lens, beginning with the one of the first map that fits, as the player does.
   Status SetIntrinsics(std::span<const double> numbers, int width, int height);
+
+  // Adds a real object that hides points of a map, between two images. Fails if it is none of the
+  // maps' or if the triangles are not those of its positions.
+  Status AddOccluder(size_t map, vision::OccluderMesh mesh);
 
   // Prepares the maps and locates some of their images, so that the browser compiles the program
   // for speed before an image comes from the camera. Call it after all maps were added; poses do
@@ -60,6 +65,7 @@ class TrackerSession {
   const bool posted_;
   std::vector<std::shared_ptr<const vision::SceneDatabase>> maps_;
   std::vector<std::shared_ptr<const vision::TrackedMap>> prepared_;  // [maps_], or empty.
+  std::vector<std::vector<vision::OccluderMesh>> occluders_;         // [maps_]
   std::optional<geometry::CameraModel> camera_;
   cv::Mat grey_;
   int64_t index_ = 0;

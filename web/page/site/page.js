@@ -242,12 +242,13 @@ function showRest(share) {
 
 // Begins the drama, while the camera already looks for the place. People follow.
 const loadDrama = once(async () => {
-  const {show, folder} = await load();
+  const {show, place, folder} = await load();
   const languages = choices.languagesFor(about);
   const onbytes = counting(folder.bytesOf(show, SHOW, languages), showRest);
   await folder.supply(show, DRAMA, languages, onbytes);
   await nextTask();
   show.load(DRAMA, languages);
+  place.setOccluders(show.occluders());
   applyChoices();
   openSound(show);
   canvas.dataset.people = 0;

@@ -30,6 +30,11 @@ export class Place {
     this.tracker.postMessage({number, image, seconds}, [image.data.buffer]);
   }
 
+  // occluders: Show.occluders().
+  setOccluders(occluders) {
+    this.tracker.postMessage({occluders});
+  }
+
   relocalize() {
     this.tracker.postMessage({relocalize: true});
   }

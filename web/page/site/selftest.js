@@ -59,6 +59,7 @@ async function load() {
   await nextTask();
   show.load(SHOW, LANGUAGES);
   await place.ready;
+  place.setOccluders(show.occluders());
   say('reading the show', `${(since(reading) / 1000).toFixed(1)} s`);
   return {show, place};
 }

@@ -83,6 +83,17 @@ export class Show {
     });
   }
 
+  // Copies of the occluders of its places, for the tracker, after load(DRAMA) or load(SHOW).
+  occluders() {
+    return Array.from({length: this.module._lararium_map_count()}, (_, map) =>
+      Array.from({length: this.module._lararium_find_occluders(map)}, (_, i) => {
+        this.module._lararium_occluder(i, this.numbers);
+        const [positions, positionCount, indices, indexCount] = this.module.HEAPU32.subarray(this.numbers / 4, this.numbers / 4 + 4);
+        return {map, positions: this.module.HEAPF32.slice(positions / 4, positions / 4 + 3 * positionCount),
+          indices: this.module.HEAPU32.slice(indices / 4, indices / 4 + indexCount)};
+      })).flat();
+  }
+
   // Begins the guide or the show with what has arrived. languages: {spoken, captions}; '' is the author's choice.
   load(stage, languages) {
     this.callWithLanguages(stage === GUIDE ? 'lararium_load_guide' : 'lararium_load', languages);

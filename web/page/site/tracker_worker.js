@@ -1,11 +1,12 @@
 // Follows the camera. Takes {maps, program, search} first, where search is the port to search_worker.js, and says {ready}; then
 // takes {number, image, seconds} and says {number, tracked, seen}. {relocalize} makes it find the place again without what
-// it knows. Says {error} if something fails.
+// it knows; {occluders} hide points of the maps from then on. Says {error} if something fails.
 import {Tracker} from './lararium-tracker/lararium-tracker.js';
 
 let maps;
 let program;
 let search;
+let occluders = [];
 let tracker;
 let size = '';
 let generation = 0;
@@ -13,6 +14,7 @@ let generation = 0;
 async function create() {
   tracker?.close();
   tracker = await Tracker.create({maps, program, postSearches: true});
+  occluders.forEach((occluder) => tracker.addOccluder(occluder));
   ++generation;
 }
 
@@ -29,6 +31,11 @@ async function obey(message) {
       }
     };
     return {ready: true};
+  }
+  if (message.occluders) {
+    ({occluders} = message);
+    occluders.forEach((occluder) => tracker.addOccluder(occluder));
+    return {};
   }
   if (message.relocalize) {
     tracker.relocalize();

@@ -56,6 +56,16 @@ export interface Search {
   image: Luminance;
 }
 
+/** A real object that hides points of a map: triangles in the map's axes and unit, in either winding. */
+export interface Occluder {
+  /** Index into the tracker's maps; default: 0. */
+  map?: number;
+  /** x, y, z of each position. */
+  positions: Float32Array;
+  /** Three for each triangle. */
+  indices: Uint32Array;
+}
+
 export class Tracker {
   /**
    * maps: the content of .larscene files. intrinsics: those of the images; without them the tracker
@@ -66,6 +76,8 @@ export class Tracker {
   static create(options: {
     maps: Uint8Array[]; intrinsics?: Camera; postSearches?: boolean; program?: WebAssembly.Module;
   }): Promise<Tracker>;
+  /** Points behind it are not looked for, once images have confirmed it. Call it between two images. */
+  addOccluder(occluder: Occluder): void;
   /**
    * Locates images of the maps, so that the browser has compiled the program for speed when the first image
    * comes; that takes about half a second. Poses do not depend on it.

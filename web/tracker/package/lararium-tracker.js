@@ -86,6 +86,11 @@ export class Tracker extends Session {
     return tracker;
   }
 
+  addOccluder({map = 0, positions, indices}) {
+    this.withCopy(positions, (from) => this.withCopy(indices, (at) => this.check(this.module._lararium_add_occluder(
+      this.handle, map, from, positions.length / 3, at, indices.length))));
+  }
+
   warmUp() {
     this.check(this.module._lararium_warm_up(this.handle));
   }
