@@ -26,7 +26,7 @@ export class Chromium {
       this.waiting.delete(id);
       error === undefined ? resolve(result) : reject(new Error(error.message));
     } else if (method === 'Runtime.consoleAPICalled' || method === 'Runtime.exceptionThrown') {
-      this.console.push(JSON.stringify(params.args ?? params.exceptionDetails));
+      this.console.push(`${params.type ?? 'exception'} ${JSON.stringify(params.args ?? params.exceptionDetails)}`);
     }
   }
 
