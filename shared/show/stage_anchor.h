@@ -13,7 +13,7 @@ namespace lararium::show {
 
 class StageAnchor {
  public:
-  // Where no further image can be measured, the last measurement never becomes too old.
+  // The value of `held` for devices that no further image measures.
   static constexpr double kForever = std::numeric_limits<double>::infinity();
 
   // held: seconds for which people are shown after the last measurement, and then fade out,

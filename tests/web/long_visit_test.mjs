@@ -11,7 +11,8 @@ const [page, program, work, editor, project, video, minutes] = process.argv.slic
 skipWithout(
   [`${page}/module.wasm`, 'build the preset `web`'], [editor, 'build lararium-editor'], [project, 'run the test acceptance/maquette'],
   [video, 'set LARARIUM_DATA_DIR'], [program, 'install chromium'], ['/usr/bin/ffmpeg', 'install ffmpeg']);
-const MOST_GROWTH = 1.1;  // Of the memory of the browser's processes, from the first fifth of the visit to the last.
+// The memory of the browser's processes may grow by this factor from the first fifth of the visit to the last.
+const MOST_GROWTH = 1.1;
 const SENTENCES = ['', 'The camera has stopped', 'The show waits for you', 'That was it', 'The show is loading', 'The camera is not allowed'];
 
 mkdirSync(work, {recursive: true});
@@ -90,7 +91,7 @@ await withBrowser(program, work, cameraOptions(camera), async (browser) => {
   await press(browser);
   await browser.until(`document.getElementById('lararium').dataset.shows === 'show'`, 300);
   const start = Date.now();
-  const samples = [];  // {share of the visit, memory}
+  const samples = [];  // {share, memory}: share of the visit, MiB.
   const names = Object.keys(EVENTS);
   let happened = 0;
   while (Date.now() - start < 60000 * minutes || happened < names.length) {

@@ -104,7 +104,7 @@ function check(good, text) {
 
 const degrees = (angle) => (angle / DEGREE).toFixed(1);
 
-// What a picture shows that the device draws after a change of its pose.
+// Returns the directions of people in a picture that the device draws after a change of its pose.
 async function after(browser, change) {
   const before = await browser.evaluate(`(${change}, window.pictures ?? 0)`);
   await browser.until(`window.pictures >= ${before} + 2 && inRoom[0]?.count > 0`);

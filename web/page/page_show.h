@@ -130,7 +130,7 @@ class PageShow {
   // Steps the drama and draws it as it is seen from there.
   Status DrawView(size_t index, const Moment& moment);
 
-  // From now on DrawInRoom() can draw people in a room that the device tracks. sees: whether images
+  // Lets DrawInRoom() draw people in a room that the device tracks. sees: whether images
   // of its camera will be measured.
   void EnterRoom(bool sees);
   // Measures where the stage is in the room. tracked: an image with a pose or without (see

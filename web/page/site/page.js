@@ -302,7 +302,7 @@ let visitable;
 
 // --- Playing
 
-// What plays now: show, place, and the camera's stream, or the room that the device shows; a walk has neither. undefined:
+// The visit that plays now: show, place, and the camera's stream, or the room that the device shows; a walk has neither. undefined:
 // nothing plays.
 let visit;
 // What goes on after an interruption: start or startWalk.

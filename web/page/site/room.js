@@ -1,9 +1,9 @@
 // People in the room that the device itself shows and tracks (WebXR), in place of the camera's image.
 
-const IMAGE_SIDE = 640;  // The longer side of images for the tracker, in pixels.
-const IMAGE_MILLISECONDS = 100;  // Between two images; in between the device tracks itself.
+const IMAGE_SIDE = 640;          // The longer side of images for the tracker, in pixels.
+const IMAGE_MILLISECONDS = 100;  // Milliseconds from one image for the tracker to the next.
 
-// Whether the device can show people in the room.
+// Asks whether the device can show people in the room.
 export async function canShowRoom() {
   try {
     return await navigator.xr?.isSessionSupported('immersive-ar') ?? false;
@@ -40,7 +40,7 @@ export class Room {
     return room;
   }
 
-  // Whether the device hands out images of its camera, so that the place can be found again and again.
+  // True if the device hands out images of its camera, so that the place can be found again and again.
   get sees() {
     return this.binding !== undefined;
   }

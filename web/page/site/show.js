@@ -230,7 +230,7 @@ export class Show {
     this.time = this.module._lararium_time();
   }
 
-  // From now on people can be drawn in a room that the device tracks (PageShow::EnterRoom()). sees: whether findStage() will
+  // Lets people be drawn in a room that the device tracks (PageShow::EnterRoom()). sees: whether findStage() will
   // be called with images of the device's camera.
   enterRoom(sees) {
     this.module._lararium_enter_room(sees);
