@@ -1,6 +1,6 @@
-// libFuzzer harness: reading any bytes as a garment's file, or as a garment of a recipe,
-// terminates. The formulas of an accepted file can be computed, and an accepted recipe sets every
-// parameter to a finite number.
+// libFuzzer harness: reading any bytes as a formula, as a garment's file, or as a garment of a
+// recipe, terminates. The formulas of an accepted file can be computed, and an accepted recipe sets
+// every parameter to a finite number.
 
 #include <cmath>
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <memory>
 #include <string_view>
 
+#include "editor/import/wardrobe/formula.h"
 #include "editor/import/wardrobe/garment_design.h"
 #include "editor/import/wardrobe/garment_pattern.h"
 #include "shared/core/check.h"
@@ -17,6 +18,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace lararium;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto one = [](std::string_view) { return 1.0f; };
+  if (const auto formula = import::Formula::Parse(text, "fuzz"); formula.ok()) {
+    formula->Value(one);
+  }
   const auto json = ParseJson(text, "fuzz");
   if (!json.ok()) {
     return 0;
@@ -26,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (design.ok()) {
     CHECK(!design->pieces.empty());
     for (const auto& [name, formula] : design->sizes) {
-      formula.Value([](std::string_view) { return 1.0f; });
+      formula.Value(one);
     }
     const Json plain = Json::object();
     const Status read = ReadFields(JsonView(plain, "fuzz"), [&](Fields& fields) {

@@ -227,22 +227,28 @@ TEST(Formula, ComputesAsMathematicsDoes) {
   EXPECT_FLOAT_EQ(Computed("if(hip > knee and not (knee >= hip), max(1, 2), 3)"), 2.0f);
   EXPECT_FLOAT_EQ(Computed("1 < 2 or 1 / 0 < 2"), 1.0f);
   EXPECT_FLOAT_EQ(Computed("smooth(0, 1, 0.25) + clamp(7, 0, 1)"), 1.15625f);
+  EXPECT_FLOAT_EQ(Computed("notch + order * android"), 0.75f) << "names that begin as operators";
+  EXPECT_FLOAT_EQ(Computed("hip >= 0.9 and 1 or 0 and 0"), 1.0f) << "\"and\" binds first";
 }
 
 TEST(Formula, SaysWhatIsWrongAndAtWhichCharacter) {
   const std::pair<std::string, const char*> cases[] = {
       {"", "a number or a name is expected at character 1"},
-      {"1 +", "expected at character 4"},
-      {"2 hip", "nothing more is expected at character 3"},
-      {"max(1)", "\",\" is expected at character 6"},
-      {"max(1, 2", "\")\" is expected at character 9"},
-      {"tan(1)", "no function of this name at character 1"},
-      {"1e999", "nothing more is expected"},
-      {std::string(100, '9'), "out of range"},
+      {"1 +", "a number or a name is expected at character 4"},
+      {"2 hip", "\"hip\" is not expected at character 3"},
+      {"max(1)", "\"max\" wants more values at character 6"},
+      {"max(1, 2, 3)", "\"max\" wants fewer values"},
+      {"max(1, 2", "a \")\" is missing at character 9"},
+      {"tan(1)", "\"tan\" is not expected at character 1"},
+      {"1e999", "\"1e999\" is not expected"},
       {std::string(100, '('), "too many parentheses"},
-      {std::string(100, '-') + "1", "too many parentheses"},
+      {std::string(100, '-') + "1", "\"-\" is not expected"},
       {std::string(401, ' '), "longer than 400"},
-      {"hip; knee", "nothing more is expected at character 4"},
+      {"hip; knee", "nothing like this is expected at character 4"},
+      {"1, 2", "\",\" is not expected at character 2"},
+      {"hip = 3", "nothing like this is expected at character 5"},
+      {"hip < 1 ? 2 : 3", "nothing like this is expected at character 9"},
+      {"\"hip\"", "nothing like this is expected at character 1"},
   };
   for (const auto& [text, expected] : cases) {
     const auto formula = Formula::Parse(text, "here");
