@@ -52,11 +52,16 @@ void ParseSize(const std::string& text, PortraitOptions& portrait) {
 }
 
 void AddWardrobe(CLI::App* command, WardrobeOptions& wardrobe) {
-  command->add_option("--check", wardrobe.check, "Check this file garment.json")
+  command
+      ->add_option("--check", wardrobe.check,
+                   "Check this file garment.json; with --on also how it lies on a person")
       ->check(CLI::ExistingFile);
   command->add_option("--picture", wardrobe.picture, "Picture this garment of the library")
       ->check(CLI::IsMember(import::GarmentNames()));
-  command->add_option("--on", wardrobe.on, "Who wears it in the picture")
+  command
+      ->add_option(
+          "--on", wardrobe.on,
+          "Who wears it in the picture (usually server), or on whom a checked file is tried")
       ->check(CLI::IsMember(import::CastPresetNames()));
   command->add_option("--out", wardrobe.out, "The picture (.png, .jpg)");
 }

@@ -1,16 +1,19 @@
 #include "editor/jobs/wardrobe.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "editor/import/cast/cast_builder.h"
 #include "editor/import/cast/cast_presets.h"
-#include "editor/import/wardrobe/garment_design.h"
+#include "editor/import/wardrobe/garment.h"
 #include "editor/jobs/cast_library_fetch.h"
 #include "editor/jobs/portrait.h"
 #include "editor/jobs/studio.h"
 #include "shared/core/json.h"
+#include "shared/core/number_text.h"
 #include "shared/human/human.h"
 #include "shared/image/encode.h"
 
@@ -32,6 +35,10 @@ std::string Line(const import::GarmentDesign& design) {
          ". " + design.about + "\n";
 }
 
+std::string Percent(float share) {
+  return FormatNumber(std::round(1000.0 * static_cast<double>(share)) / 10.0) + " %";
+}
+
 Result<CommandResult> ListWardrobe() {
   CommandResult result;
   result.json = Json::array();
@@ -43,15 +50,58 @@ Result<CommandResult> ListWardrobe() {
   return result;
 }
 
-// Pictures the person of the preset with nothing else on.
-Result<CommandResult> PictureGarment(const WardrobeOptions& options, Progress& progress) {
+Result<import::CastLibrary> OpenCastLibrary() {
   const std::optional<std::filesystem::path> folder = FindCastLibrary();
   if (!folder) {
     return Status::Error("the cast library", "is not installed",
                          "fetch it with lararium-editor fetch-cast-library");
   }
-  LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary library, import::CastLibrary::Open(*folder));
-  LARARIUM_ASSIGN_OR_RETURN(import::CastRecipe recipe, import::LoadCastPreset(options.on));
+  return import::CastLibrary::Open(*folder);
+}
+
+Result<CommandResult> CheckGarment(const WardrobeOptions& options, Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const import::GarmentDesign design, import::ReadGarment(options.check));
+  CommandResult result{Line(design), Summary(design)};
+  if (options.on.empty()) {
+    return result;
+  }
+  LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary library, OpenCastLibrary());
+  LARARIUM_ASSIGN_OR_RETURN(const import::CastRecipe recipe, import::LoadCastPreset(options.on));
+  LARARIUM_ASSIGN_OR_RETURN(const import::FittedBody body, import::FitBody(library, recipe));
+  LARARIUM_ASSIGN_OR_RETURN(
+      const std::vector<import::PieceFit> fits,
+      import::TryOn(import::UsualPattern(std::make_shared<const import::GarmentDesign>(design)),
+                    body, progress));
+  for (const import::PieceFit& fit : fits) {
+    result.text += fit.piece + " on " + options.on + ": threads at " + Percent(fit.stretch) +
+                   " of the length that was cut, 99 in 100 below " + Percent(fit.stretch_99) +
+                   ", one at " + Percent(fit.stretch_most) + " (" + fit.stretched_at + "); area " +
+                   Percent(fit.area) + "; more than 1 cm in the body " + Percent(fit.inside) +
+                   (fit.inside_at.empty() ? "" : " (" + fit.inside_at + ")") + "; lost " +
+                   std::to_string(fit.lost) + " points\n";
+    result.json["fit"].push_back({{"piece", fit.piece},
+                                  {"stretch", fit.stretch},
+                                  {"stretch_99", fit.stretch_99},
+                                  {"stretch_most", fit.stretch_most},
+                                  {"stretched_at", fit.stretched_at},
+                                  {"area", fit.area},
+                                  {"inside", fit.inside},
+                                  {"inside_at", fit.inside_at},
+                                  {"lost", fit.lost}});
+  }
+  if (const Status status = import::CheckFit(fits, design); !status.ok()) {
+    result.text += status.message() + "\n";
+    result.json["problem"] = status.message();
+    result.failed = true;
+  }
+  return result;
+}
+
+// Pictures the person of the preset with nothing else on.
+Result<CommandResult> PictureGarment(const WardrobeOptions& options, Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary library, OpenCastLibrary());
+  LARARIUM_ASSIGN_OR_RETURN(import::CastRecipe recipe,
+                            import::LoadCastPreset(options.on.empty() ? "server" : options.on));
   recipe.garments = {{{"name", options.picture}}};
   LARARIUM_ASSIGN_OR_RETURN(human::Human human, import::BuildCast(library, recipe, progress));
   const StudioPose pose = CalmPose(human);
@@ -69,9 +119,7 @@ Result<CommandResult> PictureGarment(const WardrobeOptions& options, Progress& p
 
 Result<CommandResult> RunWardrobe(const WardrobeOptions& options, Progress& progress) {
   if (!options.check.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(const import::GarmentDesign design,
-                              import::ReadGarment(options.check));
-    return CommandResult{Line(design), Summary(design)};
+    return CheckGarment(options, progress);
   }
   return options.picture.empty() ? ListWardrobe() : PictureGarment(options, progress);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
-// The garments of the library: lists them, checks a file, and pictures one on a person.
+// The garments of the library: lists them, checks a file and how it lies on a person, and pictures
+// one on a person.
 
 #include <filesystem>
 #include <string>
@@ -14,7 +15,7 @@ namespace lararium::editor {
 struct WardrobeOptions {
   std::filesystem::path check = {};  // A file garment.json; empty: none.
   std::string picture = {};          // A garment of the library; empty: none.
-  std::string on = "server";         // The preset that wears it.
+  std::string on = {};               // The preset that wears it.
   std::filesystem::path out = {};    // The picture.
 };
 

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <string>
 
 #include "editor/import/cast/cast_builder.h"
 #include "editor/import/cast/cast_presets.h"
 #include "editor/import/wardrobe/draped.h"
 #include "editor/import/wardrobe/garment.h"
+#include "shared/core/json.h"
 #include "shared/human/cloth.h"
 #include "tests/support/test_files.h"
 
@@ -199,6 +201,22 @@ TEST_F(Garments, SkinNeverComesThroughATunic) {
       EXPECT_LT(Poke(body, tunic, tunic.hidden, PoseBody(body, turns)), 0.005f) << "aged " << age;
     }
   }
+}
+
+GarmentPattern PatternOf(const Json& file) {
+  auto design = ParseGarment(file.dump(), "garments/tried/garment.json");
+  EXPECT_TRUE(design.ok()) << design.message();
+  return UsualPattern(std::make_shared<const GarmentDesign>(*std::move(design)));
+}
+
+TEST_F(Garments, ATunicThatIsTooNarrowIsRefusedWithItsPiece) {
+  Json tunic = *LoadJson(GarmentFile("tunic"));
+  tunic["sizes"]["half_width"] = 0.13;
+  const std::vector<GarmentPattern> patterns = {PatternOf(tunic)};
+  const auto garments = CutGarments(patterns, Body(1.0f, 45.0f, 1.7f, 0.95f), NoProgress());
+  ASSERT_FALSE(garments.ok());
+  EXPECT_TRUE(garments.message().starts_with("garments/tried/garment.json: piece \"front\" is "))
+      << garments.message();
 }
 
 struct Dressed {

@@ -8,6 +8,7 @@
 
 #include "editor/import/wardrobe/body_field.h"
 #include "editor/import/wardrobe/drape.h"
+#include "editor/import/wardrobe/fit.h"
 #include "editor/import/wardrobe/formula.h"
 #include "editor/import/wardrobe/garment_design.h"
 #include "editor/import/wardrobe/garment_pattern.h"
@@ -316,6 +317,34 @@ TEST(GarmentDesign, ErrorsNameThePieceOrTheSeam) {
     ASSERT_FALSE(design.ok()) << change;
     EXPECT_TRUE(design.message().starts_with("garments/tunic/garment.json")) << design.message();
     EXPECT_NE(design.message().find(expected), std::string::npos) << design.message();
+  }
+}
+
+TEST(PieceFit, OneErrorNamesGarmentPieceFaultPlaceAndRemedy) {
+  GarmentDesign design;
+  design.file = "garments/coat/garment.json";
+  PieceFit good;
+  good.piece = "back";
+  good.stretched_at = "left thigh, seam \"left side\"";
+  good.inside_at = "waist";
+  EXPECT_TRUE(CheckFit(std::vector<PieceFit>{good, good}, design).ok());
+  const auto with = [&](auto change) {
+    PieceFit bad = good;
+    change(bad);
+    return CheckFit(std::vector<PieceFit>{good, bad}, design).message();
+  };
+  const std::string begin = "garments/coat/garment.json: piece \"back\" ";
+  const std::pair<std::string, const char*> cases[] = {
+      {with([](PieceFit& fit) { fit.lost = 3; }), "has left the body with 3 points"},
+      {with([](PieceFit& fit) { fit.stretch_most = 12.0f; }),
+       "is stretched to 1200 % at the left thigh, seam \"left side\""},
+      {with([](PieceFit& fit) { fit.stretch = std::nanf(""); }), "is stretched"},
+      {with([](PieceFit& fit) { fit.area = 0.1f; }), "is crumpled to 10 % of its area"},
+      {with([](PieceFit& fit) { fit.inside = 0.2f; }), "20 % of its points, deepest at the waist"},
+  };
+  for (const auto& [message, expected] : cases) {
+    EXPECT_TRUE(message.starts_with(begin)) << message;
+    EXPECT_NE(message.find(expected), std::string::npos) << message;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <unordered_map>
@@ -23,10 +24,6 @@ struct FlatEdge {
   bool across = false;  // Crosses the threads diagonally.
 };
 
-bool IsAcrossThreads(const glm::vec2& d) {
-  return std::min(std::abs(d.x), std::abs(d.y)) > 0.3f * std::max(std::abs(d.x), std::abs(d.y));
-}
-
 float Height(const Sheet& sheet, uint32_t apex, const std::array<uint32_t, 2>& ends) {
   const glm::vec2 edge = sheet.flat[ends[1]] - sheet.flat[ends[0]];
   const glm::vec2 arm = sheet.flat[apex] - sheet.flat[ends[0]];
@@ -40,6 +37,11 @@ uint64_t CellKey(int x, int y, int z) {
 }
 
 }  // namespace
+
+bool IsAcrossThreads(const glm::vec2& line) {
+  const glm::vec2 d = glm::abs(line);
+  return std::min(d.x, d.y) > 0.3f * std::max(d.x, d.y);
+}
 
 Draper::Draper(Sheet& sheet, const DrapeMaterial& material, const Progress& progress)
     : sheet_(sheet), material_(material), progress_(progress) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct DrapePin {
   glm::vec3 place = glm::vec3(0.0f);
   float strength = 1.0f;  // Share of the distance per iteration.
 };
+
+// Says whether a line on a panel crosses the threads diagonally, where cloth shears.
+bool IsAcrossThreads(const glm::vec2& line);
 
 class Draper {
  public:

@@ -59,7 +59,7 @@ double Compute(const std::string& text,
   return value;
 }
 
-std::string Problem(const mu::ParserError& error) {
+std::string FaultOf(const mu::ParserError& error) {
   const std::string token = error.GetToken().substr(0, 40);
   switch (error.GetCode()) {
     case mu::ecTOO_FEW_PARAMS:
@@ -120,7 +120,7 @@ Result<Formula> Formula::Parse(std::string_view text, const std::string& where) 
     Compute(formula.text_, formula.names_, std::vector<double>(formula.names_.size(), 1.0));
   } catch (const mu::ParserError& fault) {
     // The library counts from 0; a negative place stands for the end.
-    return error(Problem(fault), static_cast<size_t>(fault.GetPos()));
+    return error(FaultOf(fault), static_cast<size_t>(fault.GetPos()));
   }
   return formula;
 }

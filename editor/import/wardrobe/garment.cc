@@ -41,9 +41,12 @@ Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> pattern
                                          const FittedBody& body,
                                          const Progress& progress) {
   std::vector<DrapedGarment> worn;
+  const StandingField standing(body);
   for (const GarmentPattern& pattern : patterns) {
     LARARIUM_ASSIGN_OR_RETURN(DrapedGarment draped, Drape(pattern, body, worn, progress));
     LARARIUM_RETURN_IF_ERROR(Continue(progress));
+    LARARIUM_RETURN_IF_ERROR(
+        CheckFit(MeasureFit(draped, *pattern.design, body, standing), *pattern.design));
     worn.push_back(std::move(draped));
   }
   const std::vector<DrapedGarment> whole = worn;
@@ -57,6 +60,14 @@ Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> pattern
     garments.push_back(std::move(garment));
   }
   return garments;
+}
+
+Result<std::vector<PieceFit>> TryOn(const GarmentPattern& pattern,
+                                    const FittedBody& body,
+                                    const Progress& progress) {
+  LARARIUM_ASSIGN_OR_RETURN(const DrapedGarment draped, Drape(pattern, body, {}, progress));
+  LARARIUM_RETURN_IF_ERROR(Continue(progress));
+  return MeasureFit(draped, *pattern.design, body, StandingField(body));
 }
 
 }  // namespace lararium::import

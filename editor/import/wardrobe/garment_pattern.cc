@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "editor/import/wardrobe/dye.h"
+#include "shared/core/check.h"
+#include "shared/core/json.h"
 #include "shared/core/json_fields.h"
 
 namespace lararium::import {
@@ -85,6 +87,15 @@ void DescribeFields(Fields& fields,
     fields.Has(ignored);
   }
   fields.Integer(Optional("seed"), pattern.seed, 0, 1'000'000'000);
+}
+
+GarmentPattern UsualPattern(std::shared_ptr<const GarmentDesign> design) {
+  GarmentPattern pattern;
+  const Json nothing = Json::object();
+  const Status read = ReadFields(JsonView(nothing, design->file.string()),
+                                 [&](Fields& fields) { DescribeFields(fields, design, pattern); });
+  CHECK(read.ok());
+  return pattern;
 }
 
 }  // namespace lararium::import

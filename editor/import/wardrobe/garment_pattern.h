@@ -38,6 +38,9 @@ void DescribeFields(Fields& fields,
                     std::shared_ptr<const GarmentDesign> design,
                     GarmentPattern& pattern);
 
+// A garment of which a recipe sets nothing.
+GarmentPattern UsualPattern(std::shared_ptr<const GarmentDesign> design);
+
 // Describes one of the words of a parameter or a number in its range, for reading.
 void DescribeWordOrNumber(Fields& fields,
                           const FieldKey& key,
