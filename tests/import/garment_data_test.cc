@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "editor/import/cast/cast_builder.h"
 #include "editor/import/cast/cast_presets.h"
@@ -217,6 +218,32 @@ TEST_F(Garments, ATunicThatIsTooNarrowIsRefusedWithItsPiece) {
   ASSERT_FALSE(garments.ok());
   EXPECT_TRUE(garments.message().starts_with("garments/tried/garment.json: piece \"front\" is "))
       << garments.message();
+}
+
+TEST_F(Garments, TubesLieCloseToBothLegsAndArms) {
+  const FittedBody body = Body(0.0f, 30.0f, 1.6f, 0.5f);
+  const StandingField standing(body);
+  for (const auto& [about, top, hem] :
+       {std::tuple("legs", "hip - 0.05 * height", "0"),
+        std::tuple("arms", "shoulder_top - 0.03 * height", "wrist")}) {
+    Json file = *LoadJson(GarmentFile("sandals"));
+    file["pieces"] = Json::array(
+        {{{"name", "tubes"}, {"placed", "around"}, {"about", about}, {"top", top}, {"hem", hem}}});
+    const std::vector<GarmentPattern> patterns = {PatternOf(file)};
+    const auto garments = CutGarments(patterns, body, NoProgress());
+    ASSERT_TRUE(garments.ok()) << garments.message();
+    int far = 0;
+    std::array<int, 2> sides = {0, 0};
+    for (const glm::vec3& p :
+         Skinned((*garments)[0].mesh, PoseBody(body, StandingTurns(body, 1.0f)))) {
+      const float distance = standing.field.Sample(p).distance;
+      EXPECT_GT(distance, -0.01f) << about;
+      far += distance > 0.025f ? 1 : 0;
+      ++sides[p.x < 0.0f];
+    }
+    EXPECT_LT(far, (sides[0] + sides[1]) / 10) << about;
+    EXPECT_NEAR(sides[0], sides[1], 0.2 * sides[0]) << about;
+  }
 }
 
 struct Dressed {

@@ -1,7 +1,7 @@
 #pragma once
 
 // Drapes cloth that is gathered around the body at one height, and whose folds hang down from
-// there: aprons and skirts.
+// there (aprons and skirts), and tubes about both legs or arms (hose, stockings, sleeves).
 
 #include <span>
 
@@ -15,6 +15,7 @@ namespace lararium::import {
 
 // `worn` holds the garments below it.
 Result<DrapedGarment> DrapeAround(const GarmentPattern& pattern,
+                                  const Piece& piece,
                                   const FittedBody& body,
                                   std::span<const DrapedGarment> worn,
                                   const Progress& progress);

@@ -14,7 +14,7 @@ namespace lararium::import {
 namespace {
 
 constexpr float kDeepInBody = 0.01f;  // metres
-constexpr float kFarFromBody = 0.6f;    // metres
+constexpr float kFarFromBody = 0.6f;  // metres
 // Limits of PieceFit. Today's garments stay below them on all presets.
 constexpr float kMostMedian = 1.25f;
 constexpr float kMost99 = 2.6f;
@@ -53,11 +53,11 @@ std::string PartOf(const Sheet& sheet, const FittedBody& body, uint32_t particle
 }
 
 // The seam at a vertex; empty if it is not sewn.
-std::string SeamAt(const Sheet& sheet, const GarmentDesign& design, uint32_t vertex) {
+std::string SeamAt(const Sheet& sheet, std::span<const Seam> seams, uint32_t vertex) {
   const uint32_t particle = sheet.particle[vertex];
   for (size_t v = 0; v < sheet.flat.size(); ++v) {
     if (sheet.particle[v] == particle && sheet.panel[v] % kBand != sheet.panel[vertex] % kBand) {
-      for (const Seam& seam : design.seams) {
+      for (const Seam& seam : seams) {
         const bool left = seam.edge == Seam::Edge::kLeftTop || seam.edge == Seam::Edge::kLeftSide;
         const bool top = seam.edge == Seam::Edge::kLeftTop || seam.edge == Seam::Edge::kRightTop;
         if (left == (sheet.flat[vertex].x < 0.0f) && top == (sheet.flat[vertex].y < 0.05f)) {
@@ -87,18 +87,18 @@ StandingField::StandingField(const PosedBody& standing)
 }
 
 std::vector<PieceFit> MeasureFit(const DrapedGarment& draped,
-                                 const GarmentDesign& design,
+                                 std::span<const Piece> pieces,
+                                 std::span<const Seam> seams,
                                  const FittedBody& body,
                                  const StandingField& standing) {
   const Sheet& sheet = draped.sheet;
   std::vector<PieceFit> fits;
   const auto piece_of = [&](uint32_t vertex) {
-    return std::min<size_t>(sheet.panel[vertex] % kBand, design.pieces.size() - 1);
+    return std::min<size_t>(sheet.panel[vertex] % kBand, pieces.size() - 1);
   };
-  for (size_t piece = 0; !draped.coarse_triangles.empty() && piece < design.pieces.size();
-       ++piece) {
+  for (size_t piece = 0; !draped.coarse_triangles.empty() && piece < pieces.size(); ++piece) {
     PieceFit fit;
-    fit.piece = design.pieces[piece].name;
+    fit.piece = pieces[piece].name;
     std::vector<float> stretches;
     uint32_t tightest = 0;
     float now = 0.0f;
@@ -141,7 +141,7 @@ std::vector<PieceFit> MeasureFit(const DrapedGarment& draped,
     fit.stretch = stretches[stretches.size() / 2];
     fit.stretch_99 = stretches[stretches.size() * 99 / 100];
     fit.stretched_at =
-        PartOf(sheet, body, sheet.particle[tightest]) + SeamAt(sheet, design, tightest);
+        PartOf(sheet, body, sheet.particle[tightest]) + SeamAt(sheet, seams, tightest);
     float deepest = kDeepInBody;
     size_t count = 0;
     size_t inside = 0;

@@ -39,9 +39,11 @@ struct StandingField {
   glm::vec3 high;
 };
 
-// In the order of the pieces; without those that are not draped, such as sandals.
+// `pieces` are those of the panels of the draped cloth; the last one also has all further panels.
+// The result is in their order, without those that are not draped, such as sandals.
 std::vector<PieceFit> MeasureFit(const DrapedGarment& draped,
-                                 const GarmentDesign& design,
+                                 std::span<const Piece> pieces,
+                                 std::span<const Seam> seams,
                                  const FittedBody& body,
                                  const StandingField& standing);
 

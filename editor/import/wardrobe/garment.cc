@@ -1,5 +1,7 @@
 #include "editor/import/wardrobe/garment.h"
 
+#include <functional>
+#include <iterator>
 #include <utility>
 
 #include "editor/import/wardrobe/around.h"
@@ -12,27 +14,62 @@
 namespace lararium::import {
 namespace {
 
-Result<DrapedGarment> Drape(const GarmentPattern& pattern,
+// What is draped together: a piece before and one behind the body, or one piece. Each layer becomes
+// a garment of its own, over those before it.
+struct Layer {
+  const GarmentPattern* pattern = nullptr;
+  std::span<const Piece> pieces;
+};
+
+std::vector<Layer> LayersOf(const GarmentPattern& pattern) {
+  std::vector<Layer> layers;
+  for (std::span<const Piece> rest = pattern.design->pieces; !rest.empty();) {
+    const size_t count = rest[0].placed == Placement::kFront ? 2 : 1;
+    layers.push_back({&pattern, rest.first(count)});
+    rest = rest.subspan(count);
+  }
+  return layers;
+}
+
+Result<DrapedGarment> Drape(const Layer& layer,
                             const FittedBody& body,
                             std::span<const DrapedGarment> worn,
                             const Progress& progress) {
-  switch (pattern.design->pieces[0].placed) {
+  const GarmentPattern& pattern = *layer.pattern;
+  switch (layer.pieces[0].placed) {
     case Placement::kFront:
     case Placement::kBack:
-      return DrapeHung(pattern, body, worn, progress);
+      return DrapeHung(pattern, layer.pieces, body, worn, progress);
     case Placement::kAround:
-      return DrapeAround(pattern, body, worn, progress);
+      return DrapeAround(pattern, layer.pieces[0], body, worn, progress);
     case Placement::kMantle:
-      return DrapeMantle(pattern, body, worn, progress);
+      return DrapeMantle(pattern, layer.pieces[0], body, worn, progress);
     case Placement::kFoot:
       return CutSandals(pattern, body);
   }
   return Status::Error(pattern.design->file.string(), "has a piece of an unknown placement");
 }
 
-Status Continue(const Progress& progress) {
-  return progress.Cancelled() ? Status::Error("garments", "cancelled before they were cut")
-                              : Status();
+Status Cancelled() { return Status::Error("garments", "cancelled before they were cut"); }
+
+// Drapes layers in their order, and reports how each lies to `fit`, whose error ends this.
+Result<std::vector<DrapedGarment>> DrapeAll(
+    std::span<const Layer> layers,
+    const FittedBody& body,
+    const Progress& progress,
+    const std::function<Status(const Layer& layer, std::vector<PieceFit> fits)>& fit) {
+  std::vector<DrapedGarment> worn;
+  const StandingField standing(body);
+  for (const Layer& layer : layers) {
+    LARARIUM_ASSIGN_OR_RETURN(DrapedGarment draped, Drape(layer, body, worn, progress));
+    if (progress.Cancelled()) {
+      return Cancelled();
+    }
+    LARARIUM_RETURN_IF_ERROR(
+        fit(layer, MeasureFit(draped, layer.pieces, layer.pattern->design->seams, body, standing)));
+    worn.push_back(std::move(draped));
+  }
+  return worn;
 }
 
 }  // namespace
@@ -40,23 +77,27 @@ Status Continue(const Progress& progress) {
 Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> patterns,
                                          const FittedBody& body,
                                          const Progress& progress) {
-  std::vector<DrapedGarment> worn;
-  const StandingField standing(body);
+  std::vector<Layer> layers;
   for (const GarmentPattern& pattern : patterns) {
-    LARARIUM_ASSIGN_OR_RETURN(DrapedGarment draped, Drape(pattern, body, worn, progress));
-    LARARIUM_RETURN_IF_ERROR(Continue(progress));
-    LARARIUM_RETURN_IF_ERROR(
-        CheckFit(MeasureFit(draped, *pattern.design, body, standing), *pattern.design));
-    worn.push_back(std::move(draped));
+    const std::vector<Layer> more = LayersOf(pattern);
+    layers.insert(layers.end(), more.begin(), more.end());
   }
+  LARARIUM_ASSIGN_OR_RETURN(
+      std::vector<DrapedGarment> worn,
+      DrapeAll(layers, body, progress, [](const Layer& layer, std::vector<PieceFit> fits) {
+        return CheckFit(fits, *layer.pattern->design);
+      }));
   const std::vector<DrapedGarment> whole = worn;
   for (size_t i = 0; i + 1 < worn.size(); ++i) {
     LeaveOutCovered(std::span(worn).subspan(i + 1), body, worn[i]);
   }
   std::vector<Garment> garments;
   for (size_t i = 0; i < worn.size(); ++i) {
-    LARARIUM_RETURN_IF_ERROR(Continue(progress));
-    LARARIUM_ASSIGN_OR_RETURN(Garment garment, FinishGarment(worn[i], whole[i], patterns[i], body));
+    if (progress.Cancelled()) {
+      return Cancelled();
+    }
+    LARARIUM_ASSIGN_OR_RETURN(Garment garment,
+                              FinishGarment(worn[i], whole[i], *layers[i].pattern, body));
     garments.push_back(std::move(garment));
   }
   return garments;
@@ -65,9 +106,14 @@ Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> pattern
 Result<std::vector<PieceFit>> TryOn(const GarmentPattern& pattern,
                                     const FittedBody& body,
                                     const Progress& progress) {
-  LARARIUM_ASSIGN_OR_RETURN(const DrapedGarment draped, Drape(pattern, body, {}, progress));
-  LARARIUM_RETURN_IF_ERROR(Continue(progress));
-  return MeasureFit(draped, *pattern.design, body, StandingField(body));
+  std::vector<PieceFit> all;
+  const auto draped =
+      DrapeAll(LayersOf(pattern), body, progress, [&](const Layer&, std::vector<PieceFit> fits) {
+        std::move(fits.begin(), fits.end(), std::back_inserter(all));
+        return Status();
+      });
+  LARARIUM_RETURN_IF_ERROR(draped.status());
+  return all;
 }
 
 }  // namespace lararium::import

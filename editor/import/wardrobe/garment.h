@@ -15,9 +15,10 @@
 
 namespace lararium::import {
 
-// `patterns` is in the order in which garments are put on; each is over the previous ones.
-// Parts of inner garments that outer ones cover are left out. Deterministic. Takes about ten
-// seconds per garment; cancelling gives an error, and so does a piece that does not fit (CheckFit).
+// `patterns` is in the order in which garments are put on; each is over the previous ones. A
+// garment of several layers gives several results. Parts of inner garments that outer ones cover
+// are left out. Deterministic. Takes about ten seconds per garment; cancelling gives an error, and
+// so does a piece that does not fit (CheckFit).
 Result<std::vector<Garment>> CutGarments(std::span<const GarmentPattern> patterns,
                                          const FittedBody& body,
                                          const Progress& progress);

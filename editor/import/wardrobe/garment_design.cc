@@ -22,6 +22,7 @@ constexpr uint64_t kMaxFile = 1 << 20;  // Bytes.
 constexpr size_t kMaxText = 2000;
 constexpr std::array<std::string_view, 5> kPlacements = {"front", "back", "around", "mantle",
                                                          "foot"};
+constexpr std::array<std::string_view, 3> kAbouts = {"trunk", "legs", "arms"};
 constexpr std::array<std::string_view, 4> kEdges = {"left top", "right top", "left side",
                                                     "right side"};
 constexpr std::array<std::string_view, 3> kWeaves = {"wool", "linen", "leather"};
@@ -176,11 +177,15 @@ class DesignReader {
       case Placement::kAround:
         DescribeFormula(fields, "top", piece.top);
         DescribeFormula(fields, "hem", piece.hem);
-        DescribeFormula(fields, "from", piece.from);
-        DescribeFormula(fields, "to", piece.to);
-        DescribeFormula(fields, "corners", piece.corners);
-        DescribeFormula(fields, "fullness", piece.fullness);
-        DescribeFormula(fields, "folds", piece.folds);
+        fields.Choice(Optional("about"), piece.about, kAbouts, part_ + " cannot lie about '{}'",
+                      "write trunk, legs or arms");
+        DescribeFormula(fields, Optional("from"), piece.from);
+        DescribeFormula(fields, Optional("to"), piece.to);
+        DescribeFormula(fields, Optional("corners"), piece.corners);
+        DescribeFormula(fields, Optional("fullness"), piece.fullness);
+        DescribeFormula(fields, Optional("folds"), piece.folds);
+        DescribeFormula(fields, Optional("ease"), piece.ease);
+        DescribeFormula(fields, Optional("ease_hem"), piece.ease_hem);
         break;
       case Placement::kMantle:
         DescribeFormula(fields, "hem", piece.hem);
@@ -235,29 +240,35 @@ class DesignReader {
                      "'" + name + "' is no parameter with a colour", "add it to \"parameters\"");
   }
 
-  // A garment has these pieces: one before and one behind the body, or one of another placement.
+  // A piece in front is followed by the one behind, and seams join these two.
   void CheckPieces(Fields& fields) {
     const std::vector<Piece>& pieces = design_.pieces;
-    const bool hangs = pieces.size() == 2 && pieces[0].placed == Placement::kFront &&
-                       pieces[1].placed == Placement::kBack;
-    const bool single = pieces.size() == 1 && pieces[0].placed != Placement::kFront &&
-                        pieces[0].placed != Placement::kBack;
-    fields.RequireAt("pieces", hangs || single,
-                     "there must be one piece in front and one behind it, in this order, or one "
-                     "that is placed otherwise");
+    bool paired = !pieces.empty();
+    std::set<std::string_view> names;
+    std::set<std::pair<std::string_view, std::string_view>> joints;
+    for (size_t i = 0; i < pieces.size(); ++i) {
+      const bool begins = pieces[i].placed == Placement::kFront;
+      const bool ends = i + 1 < pieces.size() && pieces[i + 1].placed == Placement::kBack;
+      paired = paired && begins == ends && (i > 0 || pieces[i].placed != Placement::kBack);
+      if (begins && ends) {
+        joints.emplace(pieces[i].name, pieces[i + 1].name);
+        joints.emplace(pieces[i + 1].name, pieces[i].name);
+      }
+      fields.RequireAt("pieces", names.insert(pieces[i].name).second,
+                       "there are two pieces \"" + pieces[i].name + "\"");
+    }
+    fields.RequireAt(
+        "pieces", paired,
+        "there must be a piece, and one in front and one behind must follow each other "
+        "in this order");
     for (const Seam& seam : design_.seams) {
-      fields.RequireAt("seams", hangs && seam.pieces.size() == 2,
-                       "seam \"" + seam.name + "\" does not join two pieces",
-                       "name one in front and one behind");
       for (const std::string& name : seam.pieces) {
-        fields.RequireAt("seams",
-                         std::any_of(pieces.begin(), pieces.end(),
-                                     [&](const Piece& piece) { return piece.name == name; }),
+        fields.RequireAt("seams", names.contains(name),
                          "seam \"" + seam.name + "\" joins \"" + name + "\", which is no piece");
       }
-      fields.RequireAt("seams", seam.pieces.size() != 2 || seam.pieces[0] != seam.pieces[1],
-                       "seam \"" + seam.name + "\" joins a piece with itself",
-                       "name one in front and one behind");
+      fields.RequireAt(
+          "seams", seam.pieces.size() == 2 && joints.contains({seam.pieces[0], seam.pieces[1]}),
+          "seam \"" + seam.name + "\" does not join a piece in front with the one behind it");
     }
   }
 

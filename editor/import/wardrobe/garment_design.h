@@ -48,6 +48,13 @@ enum class Placement : uint8_t {
   kFoot,    // A sole and straps, for both feet (sandals.h).
 };
 
+// What cloth that is placed around lies about.
+enum class About : uint8_t {
+  kTrunk,
+  kLegs,  // A tube about each of both legs.
+  kArms,  // A tube about each of both arms.
+};
+
 // A piece of cloth. A placement has only some of the fields; the formulas of others are empty.
 struct Piece {
   struct Width {
@@ -57,6 +64,7 @@ struct Piece {
 
   std::string name;
   Placement placed = Placement::kFront;
+  About about = About::kTrunk;
   Formula hem;                // Metres above the floor.
   std::vector<Width> widths;  // Distances increase, and smooth steps lie between them.
   Formula neck;               // Half of the width of the neckline.
@@ -67,6 +75,8 @@ struct Piece {
   Formula corners;   // Metres by which the ends hang lower than the middle.
   Formula fullness;  // Width of the cloth over that of the body below it.
   Formula folds;     // Folds in a full turn of the body.
+  Formula ease;      // Metres between body and cloth, at the top.
+  Formula ease_hem;  // At the hem.
   Formula sinus;     // Unless 0, the upper part of a mantle is folded over, and hangs in a bow.
 };
 
@@ -137,7 +147,7 @@ struct GarmentDesign {
   std::optional<BandDesign> bands;
 
   const GarmentParameter* Find(std::string_view parameter) const;
-  // Null if no piece lies like this.
+  // The first piece that lies like this, or null.
   const Piece* Find(Placement placement) const;
 };
 

@@ -60,10 +60,12 @@ struct PieceCut {
 class HungDraper {
  public:
   HungDraper(const GarmentPattern& pattern,
+             std::span<const Piece> pieces,
              const FittedBody& body,
              std::span<const DrapedGarment> worn,
              const Progress& progress)
       : pattern_(pattern),
+        pieces_(pieces),
         progress_(progress),
         body_(body),
         bound_(PoseBody(body, {})),
@@ -110,7 +112,7 @@ class HungDraper {
     const GarmentDesign& design = *pattern_.design;
     float half_width = 0.0f;
     for (const uint8_t panel : {kFront, kBack}) {
-      const Piece& piece = design.pieces[panel];
+      const Piece& piece = pieces_[panel];
       const std::string what = "piece \"" + piece.name + "\": ";
       PieceCut& cut = cut_[panel];
       for (const Piece::Width& width : piece.widths) {
@@ -125,7 +127,11 @@ class HungDraper {
     shoulder_ = measures_.Of("shoulder");
     follows_arms_ = measures_.IsTrue(design.follows_arms, true);
     girdle_ = MeasureGirdle(pattern_, measures_);
+    girdle_.tied &= design.Find(Placement::kFront) == &pieces_[kFront];
     for (const Seam& seam : design.seams) {
+      if (!IsMine(seam)) {
+        continue;
+      }
       const bool side = seam.edge == Seam::Edge::kLeftSide || seam.edge == Seam::Edge::kRightSide;
       const float from = measures_.Value(seam.from, "seam \"" + seam.name + "\": from", 0.0f, 3.0f);
       arm_ = side ? from : arm_;
@@ -136,6 +142,10 @@ class HungDraper {
     // An even number of intervals, so that there is a middle column.
     columns_ = 2 * static_cast<size_t>(std::round(half_width / thread_)) + 1;
     rows_ = static_cast<size_t>(std::round(longest_ / thread_)) + 1;
+  }
+
+  bool IsMine(const Seam& seam) const {
+    return seam.pieces[0] == pieces_[kFront].name || seam.pieces[0] == pieces_[kBack].name;
   }
 
   // Position along the upper edge.
@@ -197,7 +207,7 @@ class HungDraper {
   void SewUp() {
     std::vector<std::array<uint32_t, 2>> pairs;
     for (const Seam& seam : pattern_.design->seams) {
-      if (measures_.IsTrue(seam.when, true)) {
+      if (IsMine(seam) && measures_.IsTrue(seam.when, true)) {
         SewSeam(seam, pairs);
       }
     }
@@ -522,7 +532,9 @@ class HungDraper {
     result.wraps = true;
     if (!follows_arms_) {
       result.cover_margin = 0.012f;
-      result.covers_trunk_below = JointPlace(body_, standing_, "r_shoulder").y - 0.8f * arm_;
+      if (cut_[kFront].hem_height < measures_.Of("knee")) {
+        result.covers_trunk_below = JointPlace(body_, standing_, "r_shoulder").y - 0.8f * arm_;
+      }
     }
     // A hem that reaches the floor hides everything below.
     result.loose_margin = std::clamp(0.4f * cut_[kFront].hem_height, 0.05f, 0.18f);
@@ -604,6 +616,7 @@ class HungDraper {
   }
 
   const GarmentPattern& pattern_;
+  std::span<const Piece> pieces_;
   const Progress& progress_;
   const FittedBody& body_;
   PosedBody bound_;
@@ -634,10 +647,11 @@ class HungDraper {
 }  // namespace
 
 Result<DrapedGarment> DrapeHung(const GarmentPattern& pattern,
+                                std::span<const Piece> pieces,
                                 const FittedBody& body,
                                 std::span<const DrapedGarment> worn,
                                 const Progress& progress) {
-  return HungDraper(pattern, body, worn, progress).Drape();
+  return HungDraper(pattern, pieces, body, worn, progress).Drape();
 }
 
 }  // namespace lararium::import

@@ -15,8 +15,9 @@
 
 namespace lararium::import {
 
-// `worn` holds the garments below it.
+// `pieces` are the one in front and the one behind. `worn` holds the garments below it.
 Result<DrapedGarment> DrapeHung(const GarmentPattern& pattern,
+                                std::span<const Piece> pieces,
                                 const FittedBody& body,
                                 std::span<const DrapedGarment> worn,
                                 const Progress& progress);

@@ -41,6 +41,7 @@ float HeightAt(std::span<const Knot> knots, float angle) {
 class MantleDraper {
  public:
   MantleDraper(const GarmentPattern& pattern,
+               const Piece& piece,
                const FittedBody& body,
                std::span<const DrapedGarment> worn,
                const Progress& progress)
@@ -53,7 +54,6 @@ class MantleDraper {
         measures_(pattern, body, standing_, 0.012f),
         scale_(body.height / 1.7f) {
     const auto y = [&](const char* joint) { return JointPlace(body_, standing_, joint).y; };
-    const Piece& piece = pattern.design->pieces[0];
     const std::string what = "piece \"" + piece.name + "\": ";
     hem_ = measures_.Value(piece.hem, what + "hem", 0.0f, 2.0f);
     sinus_ = measures_.IsTrue(piece.sinus, false);
@@ -240,7 +240,7 @@ class MantleDraper {
   }
 
   void Settle(const DrapeMaterial& material, int steps, float cell) {
-    const BodyField field = FieldOver(standing_, worn_, cell, 3.0f * cell);
+    const BodyField field = FieldOf(standing_, cell, 3.0f * cell, false, worn_);
     Draper draper(sheet_, material, progress_);
     draper.TakeLengths(1.01f);
     draper.gravity = 1.0f;
@@ -482,10 +482,11 @@ class MantleDraper {
 }  // namespace
 
 Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
+                                  const Piece& piece,
                                   const FittedBody& body,
                                   std::span<const DrapedGarment> worn,
                                   const Progress& progress) {
-  return MantleDraper(pattern, body, worn, progress).Drape();
+  return MantleDraper(pattern, piece, body, worn, progress).Drape();
 }
 
 }  // namespace lararium::import

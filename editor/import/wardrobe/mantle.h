@@ -19,6 +19,7 @@
 namespace lararium::import {
 
 Result<DrapedGarment> DrapeMantle(const GarmentPattern& pattern,
+                                  const Piece& piece,
                                   const FittedBody& body,
                                   std::span<const DrapedGarment> worn,
                                   const Progress& progress);

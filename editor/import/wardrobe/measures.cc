@@ -15,10 +15,13 @@ struct JointHeight {
   std::string_view measure;
   const char* joint;
 };
-constexpr JointHeight kHeights[] = {{"chest", "vt4"}, {"ribs", "vt10"}, {"waist", "vl1"},
-                                    {"loins", "vl5"}, {"hip", "r_hip"}, {"knee", "r_knee"}};
-constexpr std::array<std::string_view, 10> kMeasures = {
-    "chest", "ribs", "waist", "loins", "hip", "knee", "height", "girth", "shoulder", "upper_arm"};
+constexpr JointHeight kHeights[] = {
+    {"chest", "vt4"},     {"ribs", "vt10"},    {"waist", "vl1"},     {"loins", "vl5"},
+    {"hip", "r_hip"},     {"knee", "r_knee"},  {"ankle", "r_ankle"}, {"shoulder_top", "r_shoulder"},
+    {"elbow", "r_elbow"}, {"wrist", "r_wrist"}};
+constexpr std::array<std::string_view, 14> kMeasures = {
+    "chest",        "ribs",  "waist", "loins",  "hip",   "knee",     "ankle",
+    "shoulder_top", "elbow", "wrist", "height", "girth", "shoulder", "upper_arm"};
 
 }  // namespace
 
@@ -29,11 +32,12 @@ Measures::Measures(const GarmentPattern& pattern,
                    const PosedBody& laid,
                    float above)
     : pattern_(pattern) {
+  const PosedBody standing = PoseBody(body, StandingTurns(body, 1.0f));
   for (const JointHeight& height : kHeights) {
-    values_.emplace(height.measure, JointPlace(body, laid, height.joint).y);
+    const bool moves = height.measure == "elbow" || height.measure == "wrist";
+    values_.emplace(height.measure, JointPlace(body, moves ? standing : laid, height.joint).y);
   }
   const glm::vec3 shoulder = JointPlace(body, laid, "r_shoulder");
-  const PosedBody standing = PoseBody(body, StandingTurns(body, 1.0f));
   float girth = 0.0f;
   for (float y = Of("knee"); y < shoulder.y; y += 0.03f) {
     girth = std::max(girth, Girth(body, standing, y, 0.03f).Length());

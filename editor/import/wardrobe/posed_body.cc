@@ -121,29 +121,15 @@ std::vector<JointTurn> ArmsLowered(const FittedBody& body, float angle, float sh
   return turns;
 }
 
-BodyField FieldOf(const PosedBody& posed, float cell, float band, bool forearms) {
+BodyField FieldOf(const PosedBody& posed,
+                  float cell,
+                  float band,
+                  bool forearms,
+                  std::span<const Sheet* const> worn) {
   std::vector<glm::vec3> extent;
   std::vector<Triangle> triangles;
   for (const Triangle& t : posed.triangles) {
     if (forearms || !posed.forearm[t[0]]) {
-      triangles.push_back(t);
-      extent.push_back(posed.positions[t[0]]);
-    }
-  }
-  BodyField field(extent, cell, band);
-  field.Add(posed.positions, triangles);
-  field.Finish();
-  return field;
-}
-
-BodyField FieldOver(const PosedBody& posed,
-                    std::span<const Sheet* const> worn,
-                    float cell,
-                    float band) {
-  std::vector<glm::vec3> extent;
-  std::vector<Triangle> triangles;
-  for (const Triangle& t : posed.triangles) {
-    if (!posed.forearm[t[0]]) {
       triangles.push_back(t);
       extent.push_back(posed.positions[t[0]]);
     }
@@ -231,6 +217,15 @@ std::vector<float> ArmShare(const FittedBody& body) { return ShareOf(body, ArmJo
 
 std::vector<float> HeadShare(const FittedBody& body) {
   return ShareOf(body, Below(body.skeleton, {"vc7"}));
+}
+
+std::vector<bool> LimbOf(const FittedBody& body, std::string_view joint) {
+  std::vector<bool> limb = IsBody(body);
+  const std::vector<float> share = ShareOf(body, Below(body.skeleton, {joint}));
+  for (size_t v = 0; v < limb.size(); ++v) {
+    limb[v] = limb[v] && share[v] > 0.5f;
+  }
+  return limb;
 }
 
 std::vector<bool> IsBody(const FittedBody& body) {

@@ -37,14 +37,13 @@ size_t JointNumber(const FittedBody& body, std::string_view joint);
 // bent elbows. A share of 0 gives the bind pose, 1 the full rotation.
 std::vector<JointTurn> ArmsLowered(const FittedBody& body, float angle, float share);
 
-// Without forearms and hands, cloth cannot be caught on the wrong side of them.
-BodyField FieldOf(const PosedBody& posed, float cell, float band, bool forearms = true);
-
-// The field of the body together with the garments already worn.
-BodyField FieldOver(const PosedBody& posed,
-                    std::span<const Sheet* const> worn,
-                    float cell,
-                    float band);
+// The field of the body together with the garments already worn. Without forearms and hands, cloth
+// cannot be caught on the wrong side of them.
+BodyField FieldOf(const PosedBody& posed,
+                  float cell,
+                  float band,
+                  bool forearms = true,
+                  std::span<const Sheet* const> worn = {});
 
 // Distances of a convex hull from a middle axis, at `count` angles (those of Girth).
 std::vector<float> HullRadius(std::span<const glm::vec2> points, glm::vec2 middle, int count);
@@ -90,6 +89,9 @@ class Girth {
 // The share 0..1 of each base vertex that moves with an arm, or with head and neck.
 std::vector<float> ArmShare(const FittedBody& body);
 std::vector<float> HeadShare(const FittedBody& body);
+// Says for each base vertex whether it is a part of the body that moves most with this joint and
+// those below it, such as "l_hip" for the left leg.
+std::vector<bool> LimbOf(const FittedBody& body, std::string_view joint);
 // Says for each joint whether it is a shoulder or below one.
 std::vector<bool> ArmJoints(const FittedBody& body);
 // Says for each base vertex whether it belongs to the body; helpers do not.

@@ -22,6 +22,9 @@ struct Source {
 // `x` is the position in the bind pose, positive to the right of the person.
 bool HasPart(WeightSource source, float arm, bool forearm, float x) {
   switch (source) {
+    case WeightSource::kArms:
+      return arm > 0.4f;
+    case WeightSource::kLegs:
     case WeightSource::kTrunk:
     case WeightSource::kArmless:
       return arm < 0.2f;
@@ -60,15 +63,23 @@ std::vector<Source> SkirtSources(const FittedBody& body, const PosedBody& posed)
   return sources;
 }
 
-// Adds the weights of the sources near `place`. Returns the distance of the nearest.
+// Adds the weights of the sources near `place`. Returns the distance of the nearest. A place that
+// faces no source takes from all.
 float AddFrom(const FittedBody& body,
               const std::vector<Source>& sources,
               const glm::vec3& place,
+              bool own_side,
               float share,
               std::span<float> weights) {
+  bool facing = true;
+  const auto counts = [&](const Source& s) {
+    return (!facing || glm::dot(s.normal, place - s.position) >= 0.0f) &&
+           (!own_side || (s.position.x < 0.0f) == (place.x < 0.0f));
+  };
+  facing = std::any_of(sources.begin(), sources.end(), counts);
   float nearest = 1e9f;
   for (const Source& s : sources) {
-    if (glm::dot(s.normal, place - s.position) >= 0.0f) {
+    if (counts(s)) {
       nearest = std::min(nearest, glm::distance(s.position, place));
     }
   }
@@ -76,7 +87,7 @@ float AddFrom(const FittedBody& body,
   std::vector<std::pair<uint32_t, float>> near;
   for (const Source& s : sources) {
     const float beyond = glm::distance(s.position, place) - nearest;
-    if (beyond < 2.5f * kBlur && glm::dot(s.normal, place - s.position) >= 0.0f) {
+    if (beyond < 2.5f * kBlur && counts(s)) {
       near.emplace_back(s.vertex, std::exp(-0.5f * beyond * beyond / (kBlur * kBlur)));
       sum += near.back().second;
     }
@@ -107,14 +118,16 @@ std::vector<float> TakeWeights(const FittedBody& body,
     const glm::vec3& place = sheet.positions[p];
     const float top = hips + 0.1f * (hips - knees);
     const float bottom = hips - 0.2f * (hips - knees);
-    const bool skirted = source != WeightSource::kBody && source != WeightSource::kTrunk;
+    const bool skirted = source == WeightSource::kSkirted || source == WeightSource::kMantle ||
+                         source == WeightSource::kArmless;
     float below = skirted ? std::clamp((top - place.y) / (top - bottom), 0.0f, 1.0f) : 0.0f;
     below = skirt.empty() ? 0.0f : below;
     if (below < 1.0f) {
-      distances[p] = AddFrom(body, sources, place, 1.0f - below, sheet.WeightsOf(p));
+      distances[p] = AddFrom(body, sources, place, source == WeightSource::kLegs, 1.0f - below,
+                             sheet.WeightsOf(p));
     }
     if (below > 0.0f) {
-      AddFrom(body, skirt, place, (1.0f - kStill) * below, sheet.WeightsOf(p));
+      AddFrom(body, skirt, place, false, (1.0f - kStill) * below, sheet.WeightsOf(p));
       sheet.WeightsOf(p)[pelvis] += kStill * below;
       distances[p] = std::max(distances[p], 0.1f * below);
     }

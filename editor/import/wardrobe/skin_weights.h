@@ -16,8 +16,9 @@ namespace lararium::import {
 // below the hips, between the legs, takes the weights of the helper skirt and half of the
 // rotation of a leg. kTrunk: ignores the arms. kMantle: like kSkirted, but ignores the arms
 // except the left upper arm. kArmless: like kSkirted, but ignores the arms, because cloth
-// beside the hands does not follow them.
-enum class WeightSource : uint8_t { kBody, kSkirted, kTrunk, kMantle, kArmless };
+// beside the hands does not follow them. kArms: ignores all but the arms. kLegs: ignores the arms
+// and the other side of the body.
+enum class WeightSource : uint8_t { kBody, kSkirted, kTrunk, kMantle, kArmless, kArms, kLegs };
 // Returns the distance of each particle from the source of its weights, metres.
 std::vector<float> TakeWeights(const FittedBody& body,
                                const PosedBody& posed,
