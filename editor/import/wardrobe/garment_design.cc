@@ -190,6 +190,11 @@ class DesignReader {
       case Placement::kMantle:
         DescribeFormula(fields, "hem", piece.hem);
         DescribeFormula(fields, "sinus", piece.sinus);
+        fields.List("path", piece.path, 40, [this](Fields& object, Piece::Knot& knot) {
+          DescribeFormula(object, "at", knot.at);
+          DescribeFormula(object, "height", knot.height);
+        });
+        fields.RequireAt("path", piece.path.size() > 1, part_ + " needs two places of its path");
         break;
       case Placement::kFoot:
         break;

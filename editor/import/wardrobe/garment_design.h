@@ -61,6 +61,10 @@ struct Piece {
     Formula down;  // Metres below the upper edge.
     Formula half;  // Half of the width there, metres.
   };
+  struct Knot {
+    Formula at;      // Angle about the body, degrees.
+    Formula height;  // Metres above the floor.
+  };
 
   std::string name;
   Placement placed = Placement::kFront;
@@ -72,12 +76,13 @@ struct Piece {
   Formula top;   // Metres above the floor.
   Formula from;  // Angles about the body, degrees: 0 is behind, 90 right, 180 in front.
   Formula to;
-  Formula corners;   // Metres by which the ends hang lower than the middle.
-  Formula fullness;  // Width of the cloth over that of the body below it.
-  Formula folds;     // Folds in a full turn of the body.
-  Formula ease;      // Metres between body and cloth, at the top.
-  Formula ease_hem;  // At the hem.
-  Formula sinus;     // Unless 0, the upper part of a mantle is folded over, and hangs in a bow.
+  Formula corners;         // Metres by which the ends hang lower than the middle.
+  Formula fullness;        // Width of the cloth over that of the body below it.
+  Formula folds;           // Folds in a full turn of the body.
+  Formula ease;            // Metres between body and cloth, at the top.
+  Formula ease_hem;        // At the hem.
+  std::vector<Knot> path;  // Where the upper edge of a mantle runs, with smooth steps between.
+  Formula sinus;  // Unless 0, the upper part of a mantle is folded over, and hangs in a bow.
 };
 
 // Sews two pieces together along an edge of both.

@@ -17,7 +17,6 @@ namespace lararium::import {
 namespace {
 
 // Angles about the axis of the body, as in Girth: 0 is the back, then right, front and left.
-constexpr float kRight = 0.5f * kPiF;
 constexpr float kLeft = 1.5f * kPiF;
 
 constexpr float kUnsoiled = 10.0f;  // Metres from the hem.
@@ -53,7 +52,6 @@ class MantleDraper {
         outline_(body, standing_, worn_, true),
         measures_(pattern, body, standing_, 0.012f),
         scale_(body.height / 1.7f) {
-    const auto y = [&](const char* joint) { return JointPlace(body_, standing_, joint).y; };
     const std::string what = "piece \"" + piece.name + "\": ";
     hem_ = measures_.Value(piece.hem, what + "hem", 0.0f, 2.0f);
     sinus_ = measures_.IsTrue(piece.sinus, false);
@@ -61,19 +59,13 @@ class MantleDraper {
       border_ = measures_.IsTrue(pattern.design->bands->border, false);
     }
     colour_ = pattern.Colour(pattern.design->fabric.colour);
-    shoulder_ = ShoulderTop() + 0.012f;
-    knee_ = y("r_knee");
-    const float waist = y("vl1");
-    const float chest = y("vt4");
-    upper_ = {{-0.72f * kPiF, glm::mix(chest, shoulder_, 0.35f)},
-              {-0.5f * kPiF, shoulder_ - 0.012f},
-              {-0.2f * kPiF, glm::mix(chest, shoulder_, 0.75f)},
-              {0.15f * kPiF, glm::mix(chest, waist, 0.0f)},
-              {kRight, glm::mix(chest, waist, sinus_ ? 0.85f : 0.5f)},
-              {0.8f * kPiF, glm::mix(chest, waist, sinus_ ? 0.55f : 0.2f)},
-              {1.2f * kPiF, glm::mix(chest, shoulder_, 0.45f)},
-              {kLeft, shoulder_ + 0.008f},
-              {1.75f * kPiF, shoulder_ - 0.03f * scale_}};
+    knee_ = measures_.Of("knee");
+    for (const Piece::Knot& knot : piece.path) {
+      const float least = upper_.empty() ? -360.0f : upper_.back().angle * 180.0f / kPiF + 1.0f;
+      const float angle = measures_.Value(knot.at, what + "path: at", least, 720.0f);
+      upper_.push_back({angle * kPiF / 180.0f,
+                        measures_.Value(knot.height, what + "path: height", hem_ + 0.05f, 2.5f)});
+    }
   }
 
   Result<DrapedGarment> Drape() {
@@ -100,21 +92,6 @@ class MantleDraper {
   static constexpr float kLast = 1.78f * kPiF;
   static constexpr float kSinusFirst = 0.20f * kPiF;
   static constexpr float kSinusLast = kLeft + 0.10f;
-
-  // Height of the left shoulder, halfway to the neck.
-  float ShoulderTop() const {
-    const float side = 0.55f * JointPlace(body_, standing_, "l_shoulder").x;
-    const std::vector<float> head = HeadShare(body_);
-    const std::vector<bool> is_body = IsBody(body_);
-    float top = 0.0f;
-    for (size_t v = 0; v < standing_.positions.size(); ++v) {
-      const glm::vec3& p = standing_.positions[v];
-      if (is_body[v] && head[v] < 0.5f && std::abs(p.x - side) < 0.012f) {
-        top = std::max(top, p.y);
-      }
-    }
-    return top;
-  }
 
   // The first turn is below the second.
   float Layer(float angle) const {
@@ -471,7 +448,6 @@ class MantleDraper {
   glm::vec3 colour_ = glm::vec3(0.0f);
   float scale_;
   float hem_ = 0.3f;
-  float shoulder_ = 1.4f;
   float knee_ = 0.5f;
   std::vector<Knot> upper_;
   std::vector<Panel> panels_;

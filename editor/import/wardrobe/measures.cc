@@ -19,9 +19,24 @@ constexpr JointHeight kHeights[] = {
     {"chest", "vt4"},     {"ribs", "vt10"},    {"waist", "vl1"},     {"loins", "vl5"},
     {"hip", "r_hip"},     {"knee", "r_knee"},  {"ankle", "r_ankle"}, {"shoulder_top", "r_shoulder"},
     {"elbow", "r_elbow"}, {"wrist", "r_wrist"}};
-constexpr std::array<std::string_view, 14> kMeasures = {
-    "chest",        "ribs",  "waist", "loins",  "hip",   "knee",     "ankle",
-    "shoulder_top", "elbow", "wrist", "height", "girth", "shoulder", "upper_arm"};
+constexpr std::array<std::string_view, 15> kMeasures = {
+    "chest",          "ribs",  "waist", "loins",  "hip",   "knee",     "ankle",    "shoulder_top",
+    "shoulder_crest", "elbow", "wrist", "height", "girth", "shoulder", "upper_arm"};
+
+// Height of the left shoulder, halfway to the neck.
+float ShoulderCrest(const FittedBody& body, const PosedBody& standing) {
+  const float side = 0.55f * JointPlace(body, standing, "l_shoulder").x;
+  const std::vector<float> head = HeadShare(body);
+  const std::vector<bool> is_body = IsBody(body);
+  float top = 0.0f;
+  for (size_t v = 0; v < standing.positions.size(); ++v) {
+    const glm::vec3& p = standing.positions[v];
+    if (is_body[v] && head[v] < 0.5f && std::abs(p.x - side) < 0.012f) {
+      top = std::max(top, p.y);
+    }
+  }
+  return top;
+}
 
 }  // namespace
 
@@ -42,6 +57,7 @@ Measures::Measures(const GarmentPattern& pattern,
   for (float y = Of("knee"); y < shoulder.y; y += 0.03f) {
     girth = std::max(girth, Girth(body, standing, y, 0.03f).Length());
   }
+  values_.emplace("shoulder_crest", ShoulderCrest(body, standing));
   values_.emplace("height", body.height);
   values_.emplace("girth", girth);
   values_.emplace("shoulder", ShoulderLine(body, laid, above).LengthTo(shoulder.x));
