@@ -56,7 +56,11 @@ void AddWardrobe(CLI::App* command, WardrobeOptions& wardrobe) {
       ->add_option("--check", wardrobe.check,
                    "Check this file garment.json; with --on also how it lies on a person")
       ->check(CLI::ExistingFile);
-  command->add_option("--picture", wardrobe.picture, "Picture this garment of the library")
+  command
+      ->add_option("--picture", wardrobe.picture,
+                   "Picture this garment of the library; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->check(CLI::IsMember(import::GarmentNames()));
   command
       ->add_option(

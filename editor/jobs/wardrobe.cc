@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "editor/jobs/studio.h"
 #include "shared/core/json.h"
 #include "shared/core/number_text.h"
+#include "shared/core/units.h"
 #include "shared/human/human.h"
 #include "shared/image/encode.h"
 
@@ -97,21 +99,31 @@ Result<CommandResult> CheckGarment(const WardrobeOptions& options, Progress& pro
   return result;
 }
 
-// Pictures the person of the preset with nothing else on.
+// Pictures the person of the preset with nothing else on, from the front, the side and behind.
 Result<CommandResult> PictureGarment(const WardrobeOptions& options, Progress& progress) {
   LARARIUM_ASSIGN_OR_RETURN(const import::CastLibrary library, OpenCastLibrary());
   LARARIUM_ASSIGN_OR_RETURN(import::CastRecipe recipe,
                             import::LoadCastPreset(options.on.empty() ? "server" : options.on));
-  recipe.garments = {{{"name", options.picture}}};
+  recipe.garments.clear();
+  for (const std::string& name : options.picture) {
+    recipe.garments.push_back({{"name", name}});
+  }
   LARARIUM_ASSIGN_OR_RETURN(human::Human human, import::BuildCast(library, recipe, progress));
   const StudioPose pose = CalmPose(human);
   LARARIUM_ASSIGN_OR_RETURN(const std::unique_ptr<Studio> studio, Studio::Create());
   LARARIUM_RETURN_IF_ERROR(
       studio->Seat(std::make_shared<const human::Human>(std::move(human)), pose));
   const PortraitOptions portrait;
-  LARARIUM_ASSIGN_OR_RETURN(const StudioShot shot,
-                            studio->Shoot({}, cv::Size(portrait.width, portrait.height)));
-  LARARIUM_RETURN_IF_ERROR(image::WriteImage(options.out, shot.picture));
+  std::vector<cv::Mat> shots;
+  for (const float azimuth : {0.0f, 0.5f * kPiF, kPiF}) {
+    LARARIUM_ASSIGN_OR_RETURN(
+        const StudioShot shot,
+        studio->Shoot({.azimuth = azimuth}, cv::Size(portrait.width, portrait.height)));
+    shots.push_back(shot.picture);
+  }
+  cv::Mat picture;
+  cv::hconcat(shots, picture);
+  LARARIUM_RETURN_IF_ERROR(image::WriteImage(options.out, picture));
   return CommandResult{"wrote " + options.out.string() + "\n", {{"out", options.out.string()}}};
 }
 

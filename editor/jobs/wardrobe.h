@@ -1,10 +1,11 @@
 #pragma once
 
 // The garments of the library: lists them, checks a file and how it lies on a person, and pictures
-// one on a person.
+// some on a person.
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "editor/text/command_result.h"
 #include "shared/core/progress.h"
@@ -13,10 +14,10 @@
 namespace lararium::editor {
 
 struct WardrobeOptions {
-  std::filesystem::path check = {};  // A file garment.json; empty: none.
-  std::string picture = {};          // A garment of the library; empty: none.
-  std::string on = {};               // The preset that wears it.
-  std::filesystem::path out = {};    // The picture.
+  std::filesystem::path check = {};       // A file garment.json; empty: none.
+  std::vector<std::string> picture = {};  // Garments of the library, in the order of dressing.
+  std::string on = {};                    // The preset that wears it.
+  std::filesystem::path out = {};         // The picture.
 };
 
 // Lists the library if neither a file nor a garment is given.

@@ -317,9 +317,9 @@ TEST(EditorOptions, PortraitsShowPeopleStandingWalkingOrInAClip) {
 TEST(EditorOptions, AGarmentIsCheckedOrPicturedOnAPreset) {
   const auto listed = Parsed<WardrobeOptions>({"wardrobe"});
   EXPECT_TRUE(listed.check.empty() && listed.picture.empty());
-  const auto pictured =
-      Parsed<WardrobeOptions>({"wardrobe", "--picture", "tunic", "--on", "girl", "--out", "t.png"});
-  EXPECT_EQ(pictured.picture, "tunic");
+  const auto pictured = Parsed<WardrobeOptions>(
+      {"wardrobe", "--picture", "tunic", "--picture", "toga", "--on", "girl", "--out", "t.png"});
+  EXPECT_EQ(pictured.picture, (std::vector<std::string>{"tunic", "toga"}));
   EXPECT_EQ(pictured.on, "girl");
   EXPECT_THAT(Refusal({"wardrobe", "--picture", "tunic"}), HasSubstr("--out"));
   EXPECT_THAT(Refusal({"wardrobe", "--picture", "spacesuit", "--out", "t.png"}),
