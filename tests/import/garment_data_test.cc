@@ -220,6 +220,23 @@ TEST_F(Garments, ATunicThatIsTooNarrowIsRefusedWithItsPiece) {
       << garments.message();
 }
 
+// The pins of this one are further apart than its threads, and its neck is as wide as her
+// shoulders.
+TEST_F(Garments, AWideChitonStaysOnTheShoulders) {
+  Json chiton = *LoadJson(GarmentFile("chiton"));
+  chiton["sizes"]["half_width"] = "0.65 * girth";
+  for (Json& piece : chiton["pieces"]) {
+    piece["widths"] = Json::array({{{"down", 0}, {"half", "half_width"}}});
+  }
+  const GarmentPattern pattern = PatternOf(chiton);
+  const auto body = FitBody(*Library(), *LoadCastPreset("server"));
+  ASSERT_TRUE(body.ok()) << body.message();
+  const auto fits = TryOn(pattern, *body, NoProgress());
+  ASSERT_TRUE(fits.ok()) << fits.message();
+  const Status status = CheckFit(*fits, *pattern.design);
+  EXPECT_TRUE(status.ok()) << status.message();
+}
+
 TEST_F(Garments, TubesLieCloseToBothLegsAndArms) {
   const FittedBody body = Body(0.0f, 30.0f, 1.6f, 0.5f);
   const StandingField standing(body);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <optional>
+#include <utility>
 
 #include "editor/import/wardrobe/drape.h"
 #include "editor/import/wardrobe/folds.h"
@@ -63,10 +64,13 @@ class HungDraper {
              std::span<const Piece> pieces,
              const FittedBody& body,
              std::span<const DrapedGarment> worn,
-             const Progress& progress)
+             const Progress& progress,
+             bool hold = false)
       : pattern_(pattern),
         pieces_(pieces),
+        worn_(worn),
         progress_(progress),
+        hold_(hold),
         body_(body),
         bound_(PoseBody(body, {})),
         standing_(PoseBody(body, StandingTurns(body, 1.0f))),
@@ -90,6 +94,9 @@ class HungDraper {
         body_, bound_, follows_arms_ ? WeightSource::kSkirted : WeightSource::kArmless, sheet_);
     SmoothWeights(sheet_, 8, distances);
     LowerArms();
+    if (!hold_ && HasSlidOff()) {
+      return HungDraper(pattern_, pieces_, body_, worn_, progress_, true).Drape();
+    }
     DrapedGarment result;
     for (int round = 0; round < 2; ++round) {
       LevelHem();
@@ -214,34 +221,52 @@ class HungDraper {
     Sew(sheet_, pairs);
   }
 
+  // Pins are narrower than the threads are apart, so each part of a seam is sewn at its nearest
+  // thread at least. Cloth without them slips off the body.
   void SewSeam(const Seam& seam, std::vector<std::array<uint32_t, 2>>& pairs) const {
     const float from = measures_.Value(seam.from, "from", 0.0f, 3.0f);
     const bool right = seam.edge == Seam::Edge::kRightTop || seam.edge == Seam::Edge::kRightSide;
-    if (seam.edge == Seam::Edge::kLeftSide || seam.edge == Seam::Edge::kRightSide) {
+    const bool side = seam.edge == Seam::Edge::kLeftSide || seam.edge == Seam::Edge::kRightSide;
+    const float length = (side ? longest_ : cut_[kFront].HalfTop()) - from;
+    const float slack = seam.parts.empty() ? 0.0f : 0.5f * thread_;
+    std::vector<std::pair<float, std::array<uint32_t, 2>>> places;  // With the share of the seam.
+    const auto add = [&](float at, size_t column, size_t row) {
+      if (at >= from - slack) {
+        places.push_back(
+            {(at - from) / length, {Vertex(kFront, column, row), Vertex(kBack, column, row)}});
+      }
+    };
+    for (size_t row = 0; side && row < rows_; ++row) {
       const size_t column = right ? columns_ - 1 : 0;
-      for (size_t row = 0; row < rows_; ++row) {
-        const float down = sheet_.flat[Vertex(kFront, column, row)].y;
-        if (down >= from && IsSewn(seam, (down - from) / (longest_ - from))) {
-          pairs.push_back({Vertex(kFront, column, row), Vertex(kBack, column, row)});
+      add(sheet_.flat[Vertex(kFront, column, row)].y, column, row);
+    }
+    for (size_t column = 0; !side && column < columns_; ++column) {
+      const float out = Across(kFront, column);
+      if ((out > 0.0f) == right) {
+        add(std::abs(out), column, 0);
+      }
+    }
+    const auto sew = [&](float first, float last) {
+      const auto beside = [&](float along) {
+        return std::max({first - along, along - last, 0.0f});
+      };
+      float nearest = 1e9f;
+      for (const auto& [along, pair] : places) {
+        nearest = std::min(nearest, beside(along));
+      }
+      for (const auto& [along, pair] : places) {
+        if (beside(along) <= nearest) {
+          pairs.push_back(pair);
         }
       }
-      return;
+    };
+    for (const Seam::Part& part : seam.parts) {
+      sew(measures_.Value(part.from, "from", 0.0f, 1.0f),
+          measures_.Value(part.to, "to", 0.0f, 1.0f));
     }
-    for (size_t column = 0; column < columns_; ++column) {
-      const float out = Across(kFront, column);
-      const float along = (std::abs(out) - from) / (cut_[kFront].HalfTop() - from);
-      if ((out > 0.0f) == right && std::abs(out) >= from && IsSewn(seam, along)) {
-        pairs.push_back({Vertex(kFront, column, 0), Vertex(kBack, column, 0)});
-      }
+    if (seam.parts.empty()) {
+      sew(-1e9f, 1e9f);
     }
-  }
-
-  bool IsSewn(const Seam& seam, float along) const {
-    return seam.parts.empty() ||
-           std::any_of(seam.parts.begin(), seam.parts.end(), [&](const Seam::Part& part) {
-             return along >= measures_.Value(part.from, "from", 0.0f, 1.0f) &&
-                    along <= measures_.Value(part.to, "to", 0.0f, 1.0f);
-           });
   }
 
   // The upper edge supports the cloth.
@@ -263,7 +288,25 @@ class HungDraper {
     Draper draper(sheet_, material_, progress_);
     AddTethers(draper);
     draper.damping = 0.04f;
+    if (hold_) {
+      HoldShoulders(draper);
+    }
     draper.Run(240, field);
+  }
+
+  // Cloth that is wide at the neck or pinned in few places slides from the shoulders down the arms,
+  // which are as steep as a roof in the bind pose. It is laid again then, and its shoulders are
+  // held.
+  bool HasSlidOff() const {
+    for (size_t c = 0; c < columns_; ++c) {
+      const float s = Across(kFront, c);
+      const glm::vec3& p = sheet_.positions[sheet_.particle[Vertex(kFront, c, 0)]];
+      if (std::abs(s) >= cut_[kFront].neck && std::abs(s) <= shoulder_ &&
+          p.y < line_.At(s).y - 0.1f) {
+        return true;
+      }
+    }
+    return false;
   }
 
   void LowerArms() {
@@ -286,6 +329,10 @@ class HungDraper {
       PosedBody to = PoseBody(body_, StandingTurns(body_, share));
       sheet_.positions = Carried(sheet_, from.skin, to.skin);
       draper.Rest();
+      draper.pins.clear();
+      if (hold_) {
+        HoldShoulders(draper);
+      }
       walls.emplace(to);
       draper.Run(i == kPoses ? 100 : 12, FieldOf(to, 0.015f, 0.045f, false));
       from = std::move(to);
@@ -617,7 +664,9 @@ class HungDraper {
 
   const GarmentPattern& pattern_;
   std::span<const Piece> pieces_;
+  std::span<const DrapedGarment> worn_;
   const Progress& progress_;
+  bool hold_;  // Holds the shoulders from the beginning.
   const FittedBody& body_;
   PosedBody bound_;
   PosedBody standing_;
