@@ -196,7 +196,7 @@ class AroundDraper {
   bool limb_;
   Measures measures_;
   FoldWave wave_;
-  std::vector<Outline> outlines_;  // Of the trunk, or of the left and the right limb.
+  std::vector<Outline> outlines_;  // The trunk, or the left and the right limb.
   Girdle girdle_;
   float hem_ = 0.5f;
   float top_ = 1.0f;
@@ -208,7 +208,7 @@ class AroundDraper {
   bool closed_ = false;
   float middle_ = kPiF;  // Angle of the middle of the cloth.
   float half_turn_ = 0.5f * kPiF;
-  float width_ = 0.0f;  // Of the cloth, halfway down.
+  float width_ = 0.0f;  // Width of the cloth halfway down.
   float depth_ = 0.01f;
   Sheet sheet_;
 };

@@ -80,8 +80,8 @@ struct Piece {
   Formula fullness;        // Width of the cloth over that of the body below it.
   Formula folds;           // Folds in a full turn of the body.
   Formula ease;            // Metres between body and cloth, at the top.
-  Formula ease_hem;        // At the hem.
-  std::vector<Knot> path;  // Where the upper edge of a mantle runs, with smooth steps between.
+  Formula ease_hem;        // Metres between them at the hem.
+  std::vector<Knot> path;  // The upper edge of a mantle, with smooth steps between knots.
   Formula sinus;  // Unless 0, the upper part of a mantle is folded over, and hangs in a bow.
 };
 

@@ -229,7 +229,8 @@ class HungDraper {
     const bool side = seam.edge == Seam::Edge::kLeftSide || seam.edge == Seam::Edge::kRightSide;
     const float length = (side ? longest_ : cut_[kFront].HalfTop()) - from;
     const float slack = seam.parts.empty() ? 0.0f : 0.5f * thread_;
-    std::vector<std::pair<float, std::array<uint32_t, 2>>> places;  // With the share of the seam.
+    std::vector<std::pair<float, std::array<uint32_t, 2>>>
+        places;  // Shares of the seam, 0..1, and pairs there.
     const auto add = [&](float at, size_t column, size_t row) {
       if (at >= from - slack) {
         places.push_back(

@@ -42,7 +42,7 @@ class Outline {
   std::pair<size_t, float> LevelOf(float height) const;
   float AtLevel(size_t level, float angle) const;
 
-  std::vector<glm::vec2> middle_;  // Of each level.
+  std::vector<glm::vec2> middle_;  // The axis at each level.
   std::vector<std::vector<float>> radius_;
 };
 
