@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the broker of a fleet is, for devices and for pages in browsers.
+// The address of a fleet's broker, for devices and for pages in browsers.
 
 #include <cstdint>
 #include <string>

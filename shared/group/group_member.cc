@@ -26,7 +26,7 @@ constexpr int64_t kOthersClaim = kSecond;
 constexpr int kExchanges = 2;  // The group's time is known well enough after these.
 constexpr size_t kMostMarks = 16;
 constexpr size_t kMostPageEvents = 16;  // Events of a page in a second.
-constexpr int kTellDiffering = 10;      // After a split, some states differ until all have one log.
+constexpr int kTellDiffering = 10;      // Some states differ after a split, until all have one log.
 constexpr size_t kMostPoses = GroupLog::kMostEntries - 4096;  // Keys have room behind them.
 
 uint64_t Mixed(uint64_t boot, uint64_t number) {

@@ -106,7 +106,7 @@ class GroupMember {
   bool IsAlive(const Peer& peer) const;
   // A museum's device never follows a page, whose account is public.
   bool MayLead(const std::string& name) const { return !IsPage(name) || IsPage(options_.name); }
-  // Whether one more device or page can be a member.
+  // True if one more device or page can be a member.
   bool HasRoomFor(const std::string& name) const;
   // Counts events of a page. False: it sends too many.
   static bool MayAct(Peer& page, size_t events, int64_t now);

@@ -51,7 +51,7 @@ const secret = (file) => readFileSync(`${fleet}/${file}`, 'utf8').trim();
 const as = (user, file) => ['-h', '127.0.0.1', '-p', port, '--cafile', `${fleet}/authority.crt`, '-u', user, '-P', secret(file)];
 const publish = (user, file, topic, text, ...more) => execFileSync('mosquitto_pub', [...as(user, file), '-q', '1', '-t', `lararium/pompeii/${topic}`, '-m', text, ...more]);
 
-// What devices have published: by topic, the text and when it came.
+// The texts that devices have published, by topic, and when each came.
 const heard = new Map();
 function listen() {
   let rest = '';

@@ -10,7 +10,7 @@ import {skipWithout} from './needs.mjs';
 const [native, program, node] = process.argv.slice(2);
 skipWithout([program, 'build the preset `web`'], [native, 'build the program']);
 const FRAME = 1e6 / 60;
-const DELAY = 25_000;  // From device to broker and on to another device, microseconds.
+const DELAY = 25_000;  // Microseconds from one device through the broker to another.
 const MOST_APART = 0.02;  // Seconds.
 
 function check(good, text) {
@@ -34,9 +34,9 @@ function member(name, seed, ahead, command, ...options) {
 }
 
 const members = [];
-const flying = [];  // {at, to, from, bytes}, in the order of `at`.
+const flying = [];  // Messages on their way, {at, to, from, bytes}, in the order of `at`.
 let now = 0;
-const marks = new Map();  // By run and tick: of each member, the hash of its state.
+const marks = new Map();  // The hash of each member's state, by run and tick.
 
 async function play(seconds, keys = {}) {
   for (const end = now + 1e6 * seconds; now < end;) {

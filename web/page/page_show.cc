@@ -189,7 +189,7 @@ show::LanguageChoice PageShow::WithGroup(show::LanguageChoice languages) const {
 
 Result<std::unique_ptr<show::Show>> PageShow::Make(show::ShowContent content, bool together) {
   drama::DramaOptions options;
-  // In a group, late news change the past.
+  // Late news of a group change the past.
   options.past = together ? drama::Past::kKept : drama::Past::kForgotten;
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> made,
                             show::Show::Create(std::move(content), options, *log_));
@@ -219,7 +219,7 @@ void PageShow::Begin(std::unique_ptr<show::Show> show) {
 Json PageShow::DescribeState() const {
   constexpr size_t kMostMarkers = 64;
   const std::optional<geometry::Rigid3>& camera = staged_.camera.camera_from_stage;
-  // In a group, the state of the group has them.
+  // The state of a group has them.
   Json markers = Json::array();
   for (size_t i = 0; !fleet_.group && i < std::min(fleet_.markers.size(), kMostMarkers); ++i) {
     markers.push_back(fleet_.markers[i].name);

@@ -96,7 +96,7 @@ class PageShow {
   const std::string& language() const { return show_->content().language; }
   show::VisitorInput& input() { return show_->input(); }
 
-  // What a fleet is told of the show, some of the fields of a player's state
+  // Describes the show to a fleet, by some of the fields of a player's state
   // (docs/file-formats.md).
   Json DescribeState() const;
   // The staff holds the drama or lets it go on, or goes to one of its moments. An unknown marker is
@@ -170,7 +170,7 @@ class PageShow {
   explicit PageShow(bundle::Bundle bundle);
   // together: with the group.
   Status Start(show::ShowContent content, bool together);
-  // In a group, lines take the time of their longest language.
+  // Lines of a group's drama take the time of their longest language.
   show::LanguageChoice WithGroup(show::LanguageChoice languages) const;
   // Index of the person of Stage::kPerson; nullopt: all have arrived.
   std::optional<size_t> NextPerson() const;

@@ -48,7 +48,7 @@ enum class Placement : uint8_t {
   kFoot,    // A sole and straps, for both feet (sandals.h).
 };
 
-// What cloth that is placed around lies about.
+// The part of the body that cloth placed around it lies about.
 enum class About : uint8_t {
   kTrunk,
   kLegs,  // A tube about each of both legs.

@@ -67,7 +67,7 @@ Outline::Outline(const FittedBody& body, const PosedBody& posed, std::string_vie
   }
 }
 
-// Not above, because shoulders are round.
+// Levels above are left out, because shoulders are round.
 void Outline::AddPoint(const glm::vec3& p,
                        size_t below,
                        std::vector<std::vector<glm::vec2>>& slabs) {

@@ -4,7 +4,7 @@ import {WISHES} from './show.js';
 
 const ONLINE = '{"online": true}';
 const OFFLINE = '{"online": false}';
-const FORGET = {messageExpiryInterval: 60};  // The broker forgets a page that is gone after so many seconds.
+const FORGET = {messageExpiryInterval: 60};  // Seconds after which the broker forgets a page that is gone.
 const TAKEN_OVER = 0x8e;  // Another window has this name now.
 const PUBLISH_MS = 1000;
 const STEP_MS = 20;
@@ -32,7 +32,7 @@ function pageName() {
   try {
     localStorage.setItem('lararium fleet', JSON.stringify({day, name}));
   } catch {
-    // Without storage the name holds for this visit.
+    // A browser without storage keeps the name for this visit only.
   }
   return name;
 }
@@ -49,11 +49,11 @@ async function loadMqtt() {
 // How well the camera was tracked, for the fields `tracking` and `picture` of the state.
 class Tally {
   began = performance.now();
-  frames = [];  // Of the last minute: [milliseconds, tracked].
+  frames = [];  // The last minute's frames: [milliseconds, tracked].
   count = 0;
   tracked = 0;
   losses = 0;
-  seen = this.began;  // When there was a pose last.
+  seen = this.began;  // The time of the last pose.
   last = {state: 'searching', reason: 'none', confidence: 0};
 
   add(last) {
@@ -85,7 +85,7 @@ class Tally {
   }
 }
 
-// What the staff may want of a page, as functions of the field `value`; undefined: this page cannot do it.
+// The commands of the staff to a page, as functions of the field `value`; undefined: this page cannot do it.
 function commandsOf({about, show, choices, change, restart, findAnew}) {
   const loudness = (step) => change({volume: Math.min(1, Math.max(0, Math.round(10 * choices.values.volume + step) / 10))});
   const offered = (values, key) => (value) => values.includes(value) && change({[key]: value});
@@ -167,7 +167,7 @@ export class Fleet {
     }
   }
 
-  // What the tracker said of an image.
+  // Takes the tracker's answer about an image.
   saw(tracked) {
     this.tally.add(tracked);
   }

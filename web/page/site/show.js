@@ -7,7 +7,7 @@ const FORMATS = ['I420', 'NV12', 'RGBA'];
 // What begins with members that have arrived (PageShow::Stage).
 export const [GUIDE, DRAMA, PERSON, THINGS, VOICES, SHOW, LANGUAGES] = [0, 1, 2, 3, 4, 5, 6];
 
-// What the staff may want of a group's drama (GroupWish::What).
+// The wishes of the staff for a group's drama (GroupWish::What).
 export const WISHES = ['hold', 'resume', 'go_to', 'restart'];
 
 function hourNow() {
@@ -189,7 +189,7 @@ export class Show {
     this.module.ccall('lararium_go_to', null, ['string'], [marker]);
   }
 
-  // What a fleet is told of the show (PageShow::DescribeState()).
+  // Describes the show to a fleet (PageShow::DescribeState()).
   state() {
     return {...JSON.parse(this.module.UTF8ToString(this.module._lararium_state())), memory_mib: this.module.HEAPU8.length / 2 ** 20};
   }
