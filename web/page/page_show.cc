@@ -364,22 +364,22 @@ Status PageShow::OpenSound() {
 }
 
 uint8_t* PageShow::NewImage(PixelFormat format, int width, int height) {
-  format_ = format;
+  image_.format = format;
   if (format == PixelFormat::kRgba) {
-    pixels_.create(height, width, CV_8UC4);
+    image_.pixels.create(height, width, CV_8UC4);
   } else {
-    pixels_.create(height + height / 2, width, CV_8UC1);
+    image_.pixels.create(height + height / 2, width, CV_8UC1);
   }
-  return pixels_.data;
+  return image_.pixels.data;
 }
 
 const cv::Mat& PageShow::ComputeLuminance() {
-  if (format_ == PixelFormat::kRgba) {
-    cv::cvtColor(pixels_, luminance_, cv::COLOR_RGBA2GRAY);
+  if (image_.format == PixelFormat::kRgba) {
+    cv::cvtColor(image_.pixels, image_.luminance, cv::COLOR_RGBA2GRAY);
   } else {
-    luminance_ = pixels_.rowRange(0, pixels_.rows * 2 / 3);
+    image_.luminance = image_.pixels.rowRange(0, image_.pixels.rows * 2 / 3);
   }
-  return luminance_;
+  return image_.luminance;
 }
 
 double* PageShow::NewSeen(size_t count) {
@@ -448,12 +448,12 @@ Status PageShow::Present(vision::TrackedFrame tracked,
 
 Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
   const Clock::time_point start = Clock::now();
-  const int code = format_ == PixelFormat::kI420   ? cv::COLOR_YUV2BGR_I420
-                   : format_ == PixelFormat::kNv12 ? cv::COLOR_YUV2BGR_NV12
-                                                   : cv::COLOR_RGBA2BGR;
+  const int code = image_.format == PixelFormat::kI420   ? cv::COLOR_YUV2BGR_I420
+                   : image_.format == PixelFormat::kNv12 ? cv::COLOR_YUV2BGR_NV12
+                                                         : cv::COLOR_RGBA2BGR;
   // The pixels of the frame before may still be needed.
   frame_.bgr.release();
-  cv::cvtColor(pixels_, frame_.bgr, code);
+  cv::cvtColor(image_.pixels, frame_.bgr, code);
   ++frame_.index;
   frame_.capture_time = SinceBegun(moment.seconds);
   vision::TrackedFrame& next = given_->next;

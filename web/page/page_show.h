@@ -159,12 +159,19 @@ class PageShow {
     size_t keyframe = 0;  // Index into SceneDatabase::keyframes.
   };
 
-  // What this page is in a fleet.
+  // The part that this page has in a fleet.
   struct Fleet {
     std::vector<group::GroupOwn::Marker> markers;
     bool holds = false;                    // The staff holds the drama.
     std::optional<group::GroupFeed> feed;  // nullopt: the show plays alone.
     std::optional<PageGroup> group;
+  };
+
+  // An image as the page has filled it in.
+  struct CameraImage {
+    PixelFormat format = PixelFormat::kRgba;
+    cv::Mat pixels;
+    cv::Mat luminance;
   };
 
   explicit PageShow(bundle::Bundle bundle);
@@ -222,9 +229,7 @@ class PageShow {
   uint32_t anchored_ = 0;  // The place where anchor_ was measured last.
   std::vector<double> seen_numbers_;
   std::vector<vision::SeenPoint> seen_;
-  PixelFormat format_ = PixelFormat::kRgba;
-  cv::Mat pixels_;
-  cv::Mat luminance_;
+  CameraImage image_;
   geometry::Frame frame_;
   show::StagedFrame staged_;
 };

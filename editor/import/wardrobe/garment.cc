@@ -14,7 +14,7 @@
 namespace lararium::import {
 namespace {
 
-// What is draped together: a piece before and one behind the body, or one piece. Each layer becomes
+// A layer is draped together: a piece before and one behind the body, or one piece. Each layer becomes
 // a garment of its own, over those before it.
 struct Layer {
   const GarmentPattern* pattern = nullptr;
