@@ -2,7 +2,7 @@
 import {openCamera, readImage} from './camera.js';
 import {compileProgram, Folder} from './folder.js';
 import {Place} from './place.js';
-import {Show, SHOW} from './show.js';
+import {reasonOf, Show, SHOW} from './show.js';
 
 const CAMERA_SECONDS = 10;
 const DRAWN_PICTURES = 20;
@@ -207,7 +207,7 @@ async function test() {
     describeMemory(loaded.show);
     doing.textContent = 'Done. Copy the report, and send it to the people who look after the show.';
   } catch (error) {
-    const reason = error?.message ?? String(error);
+    const reason = reasonOf(error);
     say('ended early', reason);
     doing.textContent = `The test ended early: ${reason}`;
   }
