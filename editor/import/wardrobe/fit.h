@@ -16,7 +16,8 @@
 
 namespace lararium::import {
 
-// The fit of a piece. Stretch is the length of a thread between two points over the length that was cut.
+// The fit of a piece. Stretch is the length of a thread between two points over the length that was
+// cut.
 struct PieceFit {
   std::string piece;
   float stretch = 1.0f;       // Median.

@@ -14,8 +14,8 @@
 namespace lararium::import {
 namespace {
 
-// A layer is draped together: a piece before and one behind the body, or one piece. Each layer becomes
-// a garment of its own, over those before it.
+// A layer is draped together: a piece before and one behind the body, or one piece. Each layer
+// becomes a garment of its own, over those before it.
 struct Layer {
   const GarmentPattern* pattern = nullptr;
   std::span<const Piece> pieces;
