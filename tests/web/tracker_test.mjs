@@ -82,7 +82,6 @@ const unknown = await trackAll({}, native.unknown);
 const found = await trackAll({intrinsics: native.camera}, native.found, (tracker) => tracker.relocalize());
 const occluder = {positions: Float32Array.from(native.occluder.positions), indices: Uint32Array.from(native.occluder.indices)};
 const hidden = await trackAll({intrinsics: native.camera, occluder}, native.hidden);
-assert.notDeepEqual(native.hidden.map((frame) => frame.inliers), native.known.map((frame) => frame.inliers));
 for (const [name, {worst}] of Object.entries({known, unknown, found, hidden})) {
   console.log(`${worst <= MOST_PX ? 'ok  ' : 'MISS'} ${name}: largest distance from native ${worst} px (bar ${MOST_PX})`);
 }
