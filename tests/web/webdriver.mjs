@@ -94,7 +94,7 @@ export class Firefox extends Browser {
         rest = rest.subarray(end);
       }
     });
-    await browser.send('WebDriver:NewSession', {});
+    await browser.send('WebDriver:NewSession', {capabilities: {alwaysMatch: {pageLoadStrategy: 'none'}}});
     await browser.send('WebDriver:SetTimeouts', {script: 300000, pageLoad: 300000});
     return browser;
   }
@@ -119,6 +119,7 @@ export class Firefox extends Browser {
 
   async open(url) {
     await this.send('WebDriver:Navigate', {url});
+    await this.until(`location.href === ${JSON.stringify(url)} && document.readyState !== 'loading'`);
   }
 
   async execute(script, args) {
