@@ -95,13 +95,20 @@ async function watch(browser) {
   ok('a visit without a camera shows the places of the map');
 }
 
-const browser = firefox ? await Firefox.start(program, work, {'media.autoplay.default': 0, 'webgl.force-enabled': true})
-  : await WebKit.start(program, work);
+async function withBrowser(use) {
+  const browser = firefox ? await Firefox.start(program, work, {'media.autoplay.default': 0, 'webgl.force-enabled': true})
+    : await WebKit.start(program, work);
+  try {
+    return await use(browser);
+  } finally {
+    browser.close();
+  }
+}
+
 try {
-  if (await testItself(browser)) {
-    await watch(browser);
+  if (await withBrowser(testItself)) {
+    await withBrowser(watch);
   }
 } finally {
-  browser.close();
   server.close();
 }

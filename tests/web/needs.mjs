@@ -63,7 +63,7 @@ export async function serve(fileOf, port = 0) {
       response.writeHead(404).end();
       return;
     }
-    const type = TYPES[extname(typeof file === 'string' ? file : path)] ?? 'application/octet-stream';
+    const type = TYPES[extname(typeof file === 'string' ? file : path.replace(/\/$/, '/index.html'))] ?? 'application/octet-stream';
     response.writeHead(200, {'content-type': type});
     if (typeof file === 'string') {
       createReadStream(file).pipe(response);

@@ -94,7 +94,7 @@ export class Firefox extends Browser {
         rest = rest.subarray(end);
       }
     });
-    await browser.send('WebDriver:NewSession', {capabilities: {alwaysMatch: {pageLoadStrategy: 'none'}}});
+    await browser.send('WebDriver:NewSession', {pageLoadStrategy: 'none'});
     await browser.send('WebDriver:SetTimeouts', {script: 300000, pageLoad: 300000});
     return browser;
   }
