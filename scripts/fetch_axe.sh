@@ -10,11 +10,4 @@ package=axe-core@4.14.1
 integrity='FHfa+lmNjQZfJz1q8wKqIDwC6DExcHt/pkjNQb09a3NPjCKg2rhu5qb2S4r76ASyFNNtuFooJpZe37OgudVGtQ=='
 
 . "$(dirname "$0")/fetched.sh"
-begin_fetching axe-core "$integrity" "axe-core is in" "$@"
-need_programs "axe-core needs" npm openssl tar
-an_empty_folder
-fetch_from_npm "$package" "$integrity"
-mkdir -p "$folder"
-tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner package/axe.min.js package/LICENSE
-echo "$integrity" > "$folder/.complete"
-echo "$there"
+fetch_npm_files axe-core "$package" "$integrity" "axe.min.js LICENSE" "$@"

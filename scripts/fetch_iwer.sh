@@ -10,12 +10,4 @@ package=iwer@2.5.0
 integrity='grq7iMyWo4s2DYnATKLPPoAByhcNuwLjMHHOILrFU9q8EGHIEzHyUuq1mz+9Xqy6+xrYPn3Ho8Z9eymZCE+D6w=='
 
 . "$(dirname "$0")/fetched.sh"
-begin_fetching iwer "$integrity" "iwer is in" "$@"
-need_programs "iwer needs" npm openssl tar
-an_empty_folder
-fetch_from_npm "$package" "$integrity"
-mkdir -p "$folder"
-tar -xzf "$archive" -C "$folder" --strip-components=2 --no-same-owner package/build/iwer.min.js
-tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner package/LICENSE
-echo "$integrity" > "$folder/.complete"
-echo "$there"
+fetch_npm_files iwer "$package" "$integrity" "build/iwer.min.js LICENSE" "$@"

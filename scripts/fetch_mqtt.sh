@@ -10,12 +10,4 @@ package=mqtt@5.16.0
 integrity='G0VsEtuJz5sJUgZJaaADMVfW7SIFPzkIuHR+d6rk+tBeSwdCfd9BaIRycRfd2AbyFDEmLlFM+SDQeti/+IbOnw=='
 
 . "$(dirname "$0")/fetched.sh"
-begin_fetching mqtt "$integrity" "mqtt is in" "$@"
-need_programs "mqtt needs" npm openssl tar
-an_empty_folder
-fetch_from_npm "$package" "$integrity"
-mkdir -p "$folder"
-tar -xzf "$archive" -C "$folder" --strip-components=2 --no-same-owner package/dist/mqtt.min.js
-tar -xzf "$archive" -C "$folder" --strip-components=1 --no-same-owner package/LICENSE.md
-echo "$integrity" > "$folder/.complete"
-echo "$there"
+fetch_npm_files mqtt "$package" "$integrity" "dist/mqtt.min.js LICENSE.md" "$@"

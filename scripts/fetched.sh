@@ -55,3 +55,19 @@ fetch_from_npm() {
     exit 1
   fi
 }
+
+# fetch_npm_files NAME PACKAGE SHA512 FILES [FOLDER]: puts files of a package of npm into FOLDER, or else into build/NAME.
+fetch_npm_files() {
+  local name=$1 package=$2 hash=$3 files=$4 file
+  shift 4
+  begin_fetching "$name" "$hash" "$name is in" "$@"
+  need_programs "$name needs" npm openssl tar
+  an_empty_folder
+  fetch_from_npm "$package" "$hash"
+  mkdir -p "$folder"
+  for file in $files; do
+    tar -xzOf "$archive" "package/$file" > "$folder/${file##*/}"
+  done
+  echo "$hash" > "$folder/.complete"
+  echo "$there"
+}
