@@ -16,7 +16,7 @@ namespace lararium::editor {
 struct WardrobeOptions {
   std::filesystem::path check = {};       // A file garment.json; empty: none.
   std::vector<std::string> picture = {};  // Garments of the library, in the order of dressing.
-  std::string on = {};                    // The preset that wears it.
+  std::string on = {};                    // The preset that wears the garments.
   std::filesystem::path out = {};         // The picture.
 };
 

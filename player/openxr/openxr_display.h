@@ -47,7 +47,7 @@ class OpenXrDisplay {
 
   Headset headset_;
   std::unique_ptr<OpenXrHeadset> openxr_;
-  show::StageAnchor anchor_;  // used if the runtime shows the real world
+  show::StageAnchor anchor_;  // The stage in the real world that a runtime shows.
 };
 
 }  // namespace lararium::player

@@ -133,7 +133,7 @@ struct ShowManifest {
   std::string paradata;             // member, JSON: stage::ParseParadata; empty: none
   std::vector<Member> members;      // same order as in the file
   std::vector<Member> page;         // Files of the page, in folders for browsers; otherwise empty.
-  std::optional<FleetEntry> fleet;  // Only in folders for browsers.
+  std::optional<FleetEntry> fleet;  // The fleet of a folder for browsers.
 };
 
 // True if a line of the manifest is an audio description for visitors who do not see well.

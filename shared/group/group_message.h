@@ -175,7 +175,7 @@ inline constexpr size_t kMostGroupEntries = 2000;  // Limit of one message.
 inline constexpr size_t kMostGroupKey = 512;       // Bytes.
 inline constexpr size_t kMostGroupKeys = 64;       // Limit of one message.
 inline constexpr size_t kMostGroupMarkers = 500;
-inline constexpr size_t kMostGroupMembers = 32;  // Devices, without pages.
+inline constexpr size_t kMostGroupMembers = 32;  // Devices are counted, and pages are not.
 inline constexpr size_t kMostGroupPages = 16;
 
 Result<GroupMessage> ParseGroupMessage(std::string_view bytes);

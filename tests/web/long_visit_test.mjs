@@ -24,7 +24,7 @@ let network = true;
 const server = await serve((path) => network ? fileIn(folder, path) : undefined);
 const {origin} = server;
 
-// MiB of a process and of all that it has started, shared pages counted in parts.
+// Returns the memory of a process and of all that it has started, in MiB; shared pages are counted in parts.
 function memoryOf(root) {
   const parents = new Map();
   for (const pid of readdirSync('/proc').filter((name) => /^\d+$/.test(name))) {

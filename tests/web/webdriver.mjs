@@ -38,7 +38,7 @@ class Browser {
       {stdio: 'ignore', detached: true, env: {...process.env, HOME: this.home, XDG_RUNTIME_DIR: this.home, ...environment}});
   }
 
-  // Waits for promises.
+  // Evaluates an expression, and waits if it is a promise.
   async evaluate(expression) {
     const {value, error} = await this.execute(EVALUATE, [expression]);
     if (error !== undefined) {

@@ -22,7 +22,7 @@ struct PieceFit {
   std::string piece;
   float stretch = 1.0f;       // Median.
   float stretch_99 = 1.0f;    // 99th percentile.
-  float stretch_most = 1.0f;  // Largest.
+  float stretch_most = 1.0f;  // The largest stretch.
   std::string stretched_at;   // Part of the body, and seam: "left upper arm, seam \"left side\"".
   float inside = 0.0f;        // Share of the points that are more than 1 cm deep in the body.
   std::string inside_at;      // Part of the body at the deepest point.

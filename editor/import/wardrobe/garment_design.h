@@ -80,9 +80,9 @@ struct Piece {
   Formula fullness;        // Width of the cloth over that of the body below it.
   Formula folds;           // Folds in a full turn of the body.
   Formula ease;            // Metres between body and cloth, at the top.
-  Formula ease_hem;        // Metres between them at the hem.
+  Formula ease_hem;        // Metres between body and cloth, at the hem.
   std::vector<Knot> path;  // The upper edge of a mantle, with smooth steps between knots.
-  Formula sinus;  // Unless 0, the upper part of a mantle is folded over, and hangs in a bow.
+  Formula sinus;  // The upper part of a mantle is folded over and hangs in a bow, unless this is 0.
 };
 
 // Sews two pieces together along an edge of both.

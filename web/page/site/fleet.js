@@ -46,7 +46,7 @@ async function loadMqtt() {
   return globalThis.mqtt;
 }
 
-// How well the camera was tracked, for the fields `tracking` and `picture` of the state.
+// The quality of tracking, for the fields `tracking` and `picture` of the state.
 class Tally {
   began = performance.now();
   frames = [];  // The last minute's frames: [milliseconds, tracked].

@@ -21,7 +21,7 @@ function hourNow() {
   return now.getHours() + now.getMinutes() / 60;
 }
 
-const MOST_VIEWS = 8;  // More views of a room than devices have.
+const MOST_VIEWS = 8;  // Devices have fewer views of a room.
 
 const poseNumbers = ({position, orientation}) =>
   [position.x, position.y, position.z, orientation.x, orientation.y, orientation.z, orientation.w];
