@@ -5,33 +5,33 @@ local host = ...
 
 local FADE = 0.3 -- Seconds.
 
-local function fail(index, problem)
-  error("track: clips[" .. index .. "]: " .. problem, 3)
+local function fail(where, problem)
+  error("track: " .. where .. ": " .. problem, 3)
 end
 
-local function number(entry, index, key, default, least)
+local function number(entry, where, key, default, least)
   local value = entry[key]
   if value == nil then
     value = default
   end
   if type(value) ~= "number" or not (value >= least and value <= 1e6) then
-    fail(index, key .. " must be a number of at least " .. least)
+    fail(where, key .. " must be a number of at least " .. least)
   end
   return value
 end
 
 -- Reads a point {x=, y=, z=}; missing values are those of `default`.
-local function point(value, index, key, default)
+local function point(value, where, key, default)
   if value == nil then
     return default
   end
   if type(value) ~= "table" then
-    fail(index, key .. " must be a point like {x = 1, z = -2}")
+    fail(where, key .. " must be a point like {x = 1, z = -2}")
   end
   return {
-    x = number(value, index, "x", default.x, -1e6),
-    y = number(value, index, "y", default.y, -1e6),
-    z = number(value, index, "z", default.z, -1e6),
+    x = number(value, where, "x", default.x, -1e6),
+    y = number(value, where, "y", default.y, -1e6),
+    z = number(value, where, "z", default.z, -1e6),
   }
 end
 
@@ -39,24 +39,25 @@ end
 local function lead(clips, name, id)
   local position, heading, time = { x = 0, y = 0, z = 0 }, 0, 0
   for index, entry in ipairs(clips) do
+    local where = "clips[" .. index .. "]"
     if type(entry) ~= "table" then
-      fail(index, "must be a table like {at = 0, length = 4, clip = \"idle\"}")
+      fail(where, "must be a table like {at = 0, length = 4, clip = \"idle\"}")
     end
-    local at = number(entry, index, "at", nil, 0)
-    local length = number(entry, index, "length", nil, 0)
-    local fade = number(entry, index, "fade", FADE, 0)
+    local at = number(entry, where, "at", nil, 0)
+    local length = number(entry, where, "length", nil, 0)
+    local fade = number(entry, where, "fade", FADE, 0)
     if at < time then
-      fail(index, "begins before the entry before it has ended")
+      fail(where, "begins before the entry before it has ended")
     end
     if at > time and index > 1 and host.clip(id, "idle") then
       host.segment(id, time, 0, "idle", 1, FADE, position, position, heading)
     end
     local duration, stride = host.clip(id, entry.clip)
     if not duration then
-      fail(index, "the actor '" .. name .. "' has no clip '" .. tostring(entry.clip) .. "'")
+      fail(where, "the actor '" .. name .. "' has no clip '" .. tostring(entry.clip) .. "'")
     end
-    local from = point(entry.from, index, "from", position)
-    local to = point(entry.to, index, "to", from)
+    local from = point(entry.from, where, "from", position)
+    local to = point(entry.to, where, "to", from)
     local dx, dz = to.x - from.x, to.z - from.z
     local distance = math.sqrt(dx * dx + dz * dz)
     local rate = 1
@@ -67,7 +68,7 @@ local function lead(clips, name, id)
       end
     end
     if entry.heading ~= nil then
-      heading = math.rad(number(entry, index, "heading", nil, -1e6))
+      heading = math.rad(number(entry, where, "heading", nil, -1e6))
     end
     host.segment(id, at, length, entry.clip, rate, fade, from, to, heading, entry.ease)
     position, time = to, at + length
@@ -76,9 +77,6 @@ local function lead(clips, name, id)
     host.segment(id, time, 0, "idle", 1, FADE, position, position, heading)
   end
 end
-
--- Lanes of actors that the host plays, in this order.
-local of_actor = { "gestures", "speech", "walks", "uses", "gaze", "expressions" }
 
 -- Lanes that lua/std plays: the functions that start and end an item.
 local by_words = {}
@@ -97,11 +95,12 @@ local function play(name, items)
   local lane = by_words[name]
   local sorted = {}
   for index, item in ipairs(items) do
+    local where = name .. "[" .. index .. "]"
     if type(item) ~= "table" then
-      error("track: " .. name .. "[" .. index .. "]: write an item {at = 0, ...} here", 3)
+      fail(where, "write an item {at = 0, ...} here")
     end
-    number(item, index, "at", nil, 0)
-    number(item, index, "length", 0, 0)
+    number(item, where, "at", nil, 0)
+    number(item, where, "length", 0, 0)
     sorted[index] = item
   end
   table.sort(sorted, by_time)
@@ -142,11 +141,11 @@ host.play_lane("descriptions", function(item)
   describe(item.line, item)
 end)
 
--- Lanes of the stage that the host plays.
-local of_stage = { "captions", "markers" }
+-- Lanes that the host plays, in this order.
+local by_host = host.lanes()
 
-local known = { actor = true, clips = true, captions = true, markers = true }
-for _, name in ipairs(of_actor) do
+local known = { actor = true, clips = true }
+for _, name in ipairs(by_host) do
   known[name] = true
 end
 
@@ -176,17 +175,9 @@ function track(spec)
     end
     lead(spec.clips, name, id)
   end
-  for _, lane in ipairs(of_actor) do
+  for _, lane in ipairs(by_host) do
     if spec[lane] then
-      if not id then
-        error("track: " .. lane .. " need an actor", 2)
-      end
-      host.lane(lane, id, spec[lane])
-    end
-  end
-  for _, lane in ipairs(of_stage) do
-    if spec[lane] then
-      host.lane(lane, nil, spec[lane])
+      host.lane(lane, id or nil, spec[lane])
     end
   end
   for lane in pairs(by_words) do

@@ -313,6 +313,9 @@ int AddLane(ScriptRuntime& run, lua_State* lua) {
   lane.kind = *kind;
   lane.where = PlaceOf(lua);
   if (IsOfActor(*kind)) {
+    if (lua_isnil(lua, 2)) {
+      return luaL_error(lua, "track: %s need an actor", name.c_str());
+    }
     lane.actor = CheckActorId(lua, 2);
     if (SpecOf(*kind).moves_body) {
       CheckFreeActor(run, lua, 2);
@@ -338,11 +341,24 @@ int AddLane(ScriptRuntime& run, lua_State* lua) {
   return 0;
 }
 
+// lanes(): the names of the lanes that the host plays
+int ListLanes(ScriptRuntime&, lua_State* lua) {
+  lua_newtable(lua);
+  for (const LaneSpec& lane : LaneSpecs()) {
+    if (lane.by_host) {
+      PushText(lua, lane.name);
+      lua_rawseti(lua, -2, static_cast<lua_Integer>(lua_rawlen(lua, -2)) + 1);
+    }
+  }
+  return 1;
+}
+
 }  // namespace
 
 void AddTimelineBindings(HostTable& table) {
   table.AddRecorded<AddSegment>("segment");
   table.AddRecorded<AddLane>("lane");
+  table.AddOwn<ListLanes>("lanes");
 }
 
 }  // namespace lararium::drama

@@ -150,11 +150,23 @@ TEST_F(TimelineTest, MistakesAreToldWithTheirItem) {
       {"dances = {}", "track: there is no lane 'dances'"},
       {"speech = 3", "must be a list of items"},
       {"speech = {3}", "write an item {at = 0, ...} here"},
+      {"clips = {{length = 1, clip = 'idle'}}", "track: clips[1]: at must be a number"},
+      {"lights = {{at = 1, light = 'lamp'}, {light = 'lamp'}}",
+       "track: lights[2]: at must be a number"},
+      {"sounds = {{at = 1, length = 'long'}}", "track: sounds[1]: length must be a number"},
+      {"descriptions = {3}", "track: descriptions[1]: write an item {at = 0, ...} here"},
   };
   for (const auto& mistake : kMistakes) {
     const auto drama = Make(std::string("\ntrack{ actor = 'keeper', ") + mistake.track + " }\n");
     EXPECT_THAT(FirstError(*drama), HasSubstr(mistake.problem)) << mistake.track;
     EXPECT_THAT(FirstError(*drama), StartsWith("drama.lua:2: ")) << mistake.track;
+  }
+}
+
+TEST_F(TimelineTest, LanesOfAnActorNeedOne) {
+  for (const std::string lane : {"clips", "gaze", "speech"}) {
+    const auto drama = Make("track{ " + lane + " = {{at = 1}} }");
+    EXPECT_EQ(FirstError(*drama), "drama.lua:1: track: " + lane + " need an actor");
   }
 }
 
