@@ -593,10 +593,6 @@ Result<LinesFile> ReadLinesJson(std::string_view text, const std::string& where)
   return LinesFile{builder.Take(), decoded.note.empty() ? "" : where + ": " + decoded.note, {}};
 }
 
-Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where) {
-  return WholeTable(ReadLinesJson(text, where));
-}
-
 std::string FormatLinesJson(const LineTable& table) {
   LineTable written = table;
   TableBuilder unused;

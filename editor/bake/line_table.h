@@ -54,7 +54,6 @@ std::string FormatLinesCsv(const LineTable& table);
 
 // {"schema": 1, "languages": ["la"], "lines": [{"id", "speaker", "notes", "text": {"la": ""}}]}
 Result<LinesFile> ReadLinesJson(std::string_view text, const std::string& where);
-Result<LineTable> ParseLinesJson(std::string_view text, const std::string& where);
 std::string FormatLinesJson(const LineTable& table);
 
 // One translated text in a gettext catalogue of one language.

@@ -213,14 +213,4 @@ Result<ProbeImage> ReadHdrPicture(const std::filesystem::path& file) {
   return Read(file, Shape::kAny);
 }
 
-light::ShRgb ProjectProbe(const ProbeImage& image, const ProbePlacement& placement) {
-  light::ShRgb radiance =
-      light::RotateSh(light::ProjectEquirectangular(image.pixels, image.width, image.height),
-                      placement.stage_from_probe);
-  for (glm::vec3& coefficient : radiance) {
-    coefficient *= placement.radiance_scale;
-  }
-  return radiance;
-}
-
 }  // namespace lararium::bake

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "shared/core/status.h"
-#include "shared/light/spherical_harmonics.h"
 
 namespace lararium::bake {
 
@@ -44,8 +43,5 @@ struct ProbePlacement {
   glm::quat stage_from_probe = glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
   float radiance_scale = 1.0f;  // Stage radiance per unit in the file.
 };
-
-// The light of a probe image in stage axes, as spherical harmonics.
-light::ShRgb ProjectProbe(const ProbeImage& image, const ProbePlacement& placement);
 
 }  // namespace lararium::bake

@@ -92,8 +92,7 @@ class Animator {
   std::span<const JointTransform> pose() const { return pose_; }
   std::span<const glm::mat4> actor_from_joint() const { return actor_from_joint_; }
   std::span<const glm::mat4> skin() const { return skin_; }
-  // Results of the last Pose(), parallel to Human::face and to Human::morphs.
-  std::span<const float> face_weights() const { return face_weights_; }
+  // Result of the last Pose(), parallel to Human::morphs.
   std::span<const float> morph_weights() const { return morph_weights_; }
 
  private:

@@ -39,10 +39,6 @@ glm::vec3 GlossyDirection(int column, int row) {
       2.0f * glm::vec2(column, row) / static_cast<float>(GlossyMap::kSize - 1) - 1.0f);
 }
 
-glm::vec2 GlossyTexel(const glm::vec3& direction) {
-  return (0.5f * OctahedralPosition(direction) + 0.5f) * static_cast<float>(GlossyMap::kSize - 1);
-}
-
 uint32_t PackRadiance(const glm::vec3& radiance) {
   return glm::packF2x11_1x10(glm::clamp(radiance, 0.0f, kMostRadiance));
 }

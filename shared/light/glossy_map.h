@@ -36,8 +36,6 @@ struct GlossyMap {
 float RoughnessOfLayer(int layer);
 // Returns the unit direction of a texel.
 glm::vec3 GlossyDirection(int column, int row);
-// Returns the fractional column and row of a direction.
-glm::vec2 GlossyTexel(const glm::vec3& direction);
 
 uint32_t PackRadiance(const glm::vec3& radiance);
 glm::vec3 UnpackRadiance(uint32_t texel);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "shared/core/units.h"
+#include "shared/light/octahedral.h"
 
 namespace lararium::bake {
 namespace {
@@ -72,7 +73,8 @@ TEST(GlossyProbe, TurnsAndBrightensWithThePlacement) {
   const GlossyMap plain = PrefilterProbe(image, {});
   const GlossyMap turned = PrefilterProbe(image, {turn, 2.0f});
   const auto at = [](const GlossyMap& map, const glm::vec3& direction) {
-    const glm::vec2 texel = light::GlossyTexel(direction);
+    const glm::vec2 texel = (0.5f * light::OctahedralPosition(direction) + 0.5f) *
+                            static_cast<float>(GlossyMap::kSize - 1);
     return TexelOf(map, 3, static_cast<int>(std::lround(texel.x)),
                    static_cast<int>(std::lround(texel.y)))
         .r;

@@ -37,7 +37,7 @@ TEST(MaquetteProbe, TheCoefficientsComeCloseToTheIntegral) {
   LARARIUM_REQUIRE_DATA(folder, "maquette");
   const auto image = ReadProbeImage(folder / "probe.exr");
   ASSERT_TRUE(image.ok()) << image.message();
-  const light::ShRgb light = ProjectProbe(*image, {});
+  const light::ShRgb light = ProjectProbeLight(*image, {}).Whole();
   // The sun has an irradiance of 5.9, so the error of degree 5 may reach 6 % of its share at
   // single normals; the average is about 1 %.
   double squared_error = 0.0, squared = 0.0;
@@ -62,7 +62,7 @@ TEST(MaquetteProbe, TheSunStandsWhereItsNotesSay) {
   LARARIUM_REQUIRE_DATA(folder, "maquette");
   const auto image = ReadProbeImage(folder / "probe.exr");
   ASSERT_TRUE(image.ok()) << image.message();
-  const light::ShRgb light = ProjectProbe(*image, {});
+  const light::ShRgb light = ProjectProbeLight(*image, {}).Whole();
   // Towards the sun: world (-0.502, -0.622, 0.602), stage (-0.502, 0.602, 0.622).
   const glm::vec3 sun(-0.502f, 0.602f, 0.622f);
   EXPECT_GT(light::EvaluateIrradiance(light, sun).r, 5.92f);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
+#include "editor/bake/sun_split.h"
 #include "shared/core/file.h"
 #include "tests/support/test_files.h"
 
@@ -48,7 +49,7 @@ TEST_F(Probe, LightsTheSideThatTheLampIsOn) {
   WriteExr(folder_ / "right.exr", 64, 32, Lamp(48, 16));  // azimuth 90 degrees, horizon
   const auto image = ReadProbeImage(folder_ / "right.exr");
   ASSERT_TRUE(image.ok()) << image.message();
-  const light::ShRgb light = ProjectProbe(*image, {});
+  const light::ShRgb light = ProjectProbeLight(*image, {}).Whole();
   EXPECT_GT(light::EvaluateIrradiance(light, {1, 0, 0}).r,
             2.0f * light::EvaluateIrradiance(light, {-1, 0, 0}).r);
   EXPECT_NEAR(light::EvaluateIrradiance(light, {0, 0, 1}).r,
@@ -59,11 +60,11 @@ TEST_F(Probe, PlacementTurnsAndScalesTheLight) {
   WriteExr(folder_ / "p.exr", 64, 32, Lamp(48, 16));
   const auto image = ReadProbeImage(folder_ / "p.exr");
   ASSERT_TRUE(image.ok()) << image.message();
-  const light::ShRgb light = ProjectProbe(*image, {});
+  const light::ShRgb light = ProjectProbeLight(*image, {}).Whole();
   const glm::quat left =
       glm::angleAxis(std::numbers::pi_v<float> / 2.0f, glm::vec3(0, 1, 0));  // +X to -Z
   const light::ShRgb turned =
-      ProjectProbe(*image, {.stage_from_probe = left, .radiance_scale = 3.0f});
+      ProjectProbeLight(*image, {.stage_from_probe = left, .radiance_scale = 3.0f}).Whole();
   EXPECT_NEAR(light::EvaluateIrradiance(turned, {0, 0, -1}).g,
               3.0f * light::EvaluateIrradiance(light, {1, 0, 0}).g, 1e-3);
 }

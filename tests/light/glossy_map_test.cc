@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "shared/light/octahedral.h"
 #include "tests/light/sh_test_support.h"
 
 namespace lararium::light {
@@ -14,15 +15,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(GlossyMap, TexelsAndDirectionsAreInverse) {
+TEST(GlossyMap, PositionsAndDirectionsAreInverse) {
   for (int row = 0; row < GlossyMap::kSize; ++row) {
     for (int column = 0; column < GlossyMap::kSize; ++column) {
       const glm::vec3 direction = GlossyDirection(column, row);
-      const glm::vec2 texel = GlossyTexel(direction);
-      EXPECT_LT(glm::distance(GlossyDirection(static_cast<int>(std::lround(texel.x)),
-                                              static_cast<int>(std::lround(texel.y))),
-                              direction),
-                1e-5f)
+      EXPECT_LT(glm::distance(OctahedralDirection(OctahedralPosition(direction)), direction), 1e-5f)
           << column << " " << row;
     }
   }

@@ -1,3 +1,5 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
@@ -76,7 +78,7 @@ TEST(WindowUi, ClosesOnRequestAndKeepsItsCallbacksWhenMoved) {
       {.key = {}, .character = {}, .mouse_button = {}, .cursor = {}, .scroll = {}, .resize = {}});
   window.SetTitle("another title");
   EXPECT_FALSE(window.ShouldClose());
-  window.RequestClose();
+  glfwSetWindowShouldClose(glfwGetCurrentContext(), GLFW_TRUE);
   window.WaitEvents(0.01);
   EXPECT_TRUE(window.ShouldClose());
 }

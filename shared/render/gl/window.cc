@@ -260,8 +260,6 @@ bool Window::TakeClose() {
   glfwSetWindowShouldClose(state_->window.get(), GLFW_FALSE);
   return asked;
 }
-void Window::RequestClose() { glfwSetWindowShouldClose(state_->window.get(), GLFW_TRUE); }
-
 Window::Size Window::framebuffer_size() const {
   Size size;
   glfwGetFramebufferSize(state_->window.get(), &size.width, &size.height);

@@ -74,9 +74,8 @@ class Window {
   std::vector<std::string> TakePadButtons();
 
   bool ShouldClose() const;
-  // True if the user or RequestClose asked to close the window since the last call.
+  // True if the user asked to close the window since the last call.
   bool TakeClose();
-  void RequestClose();
 
   struct Size {
     int width = 0;
