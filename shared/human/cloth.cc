@@ -7,7 +7,7 @@
 
 #include "shared/core/check.h"
 #include "shared/human/cloth_data.h"
-#include "shared/human/finite.h"
+#include "shared/human/fixed_steps.h"
 #include "shared/human/skinning.h"
 
 namespace lararium::human {
@@ -16,18 +16,13 @@ namespace {
 using Model = ClothModel::Data;
 using State = ClothState::Data;
 
-constexpr float kLongestFrame = 0.25f;  // seconds; a longer frame counts as a cut
-constexpr float kLeapSpeed = 6.0f;      // m/s, mean speed of the body
-constexpr float kLeap = 0.08f;          // metres in addition to that speed
+constexpr float kLeapSpeed = 6.0f;  // m/s, mean speed of the body
+constexpr float kLeap = 0.08f;      // metres in addition to that speed
 constexpr float kSamePose = 0.03f;  // Metres by which the skin may differ within the actor frame.
 constexpr float kFarthestPlace = 1e4f;    // Metres from the origin; positions beyond are invalid.
-constexpr float kOriginRange = 4.0f;      // Metres after which the origin follows the actor.
 constexpr float kFastest = 12.0f;         // m/s, cloth relative to its wearer
-constexpr float kQuietSpeed = 0.02f;      // m/s
 constexpr float kSettlingDamping = 8.0f;  // 1/s
-constexpr float kSettlingSeconds = 2.0f;
-constexpr float kFadeSeconds = 0.4f;     // Duration of the fade between cloth and plain skin.
-constexpr float kContactMargin = 0.02f;  // Metres for motion within a beat.
+constexpr float kContactMargin = 0.02f;   // Metres for motion within a beat.
 constexpr float kSelfFriction = 0.3f;
 
 int StepsPerBeat(ClothDetail detail) {
@@ -56,15 +51,6 @@ struct StepContext {
 };
 
 // --- The body -----------------------------------------------------------------
-
-bool IsPossible(const ClothStep& step) {
-  const glm::mat4& m = step.stage_from_actor;
-  const float scale = glm::length(glm::vec3(m[0]));
-  return Finite(m) && std::isfinite(step.elapsed) && scale > 1e-4f && scale < 1e4f &&
-         glm::length(glm::vec3(m[3])) < 1e6f &&
-         std::all_of(step.actor_from_joint.begin(), step.actor_from_joint.end(),
-                     [](const glm::mat4& joint) { return Finite(joint); });
-}
 
 void ShiftBy(const Float4& shift, std::vector<Float4>& places) {
   for (Float4& place : places) {
@@ -460,14 +446,6 @@ void ResetToSkin(State& state) {
   state.pairs.clear();
 }
 
-bool IsWhole(const State& state) {
-  Float4 sum;
-  for (size_t i = 0; i < state.positions.size(); ++i) {
-    sum += (state.positions[i] + state.velocities[i]) * 0.0f;
-  }
-  return Dot(sum, sum) == 0.0f;
-}
-
 void TakeOffsets(State& state) {
   std::swap(state.offsets_before, state.offsets);
   const glm::mat3 actor_from_local = glm::mat3_cast(glm::conjugate(state.target.turn));
@@ -507,7 +485,7 @@ bool Beat(
   }
   TakeVelocities(context, state);
   ++state.beats;
-  const bool whole = IsWhole(state);
+  const bool whole = AllFinite(state.positions, state.velocities);
   if (!whole) {
     ResetToSkin(state);
   }
@@ -577,18 +555,13 @@ void AdoptMotion(float elapsed, State& state) {
 // --- One frame ----------------------------------------------------------------
 
 bool Advance(const Model& model, const ClothStep& step, State& state) {
-  const double before = state.pending;
-  state.pending += step.elapsed;
-  const int beats = static_cast<int>(state.pending / double(kBeat) + 1e-3);
   const ClothDetail detail =
       step.detail == ClothDetail::kSkinned ? ClothDetail::kCoarse : step.detail;
   bool whole = true;
-  for (int k = 1; k <= beats; ++k) {
-    const double at = (double(k) * double(kBeat) - before) / double(step.elapsed);
-    AimAt(static_cast<float>(std::clamp(at, 0.0, 1.0)), state);
+  TakeSteps(kBeat, step.elapsed, state.pending, [&](float share) {
+    AimAt(share, state);
     whole = Beat(model, step, detail, model.settings.damping, state) && whole;
-  }
-  state.pending -= double(beats) * double(kBeat);
+  });
   return whole;
 }
 
@@ -629,7 +602,9 @@ ClothReport StepCloth(const ClothModel& model, const ClothStep& step, ClothState
   State& state = cloth_state.data();
   CHECK(step.actor_from_joint.size() == data.joint_from_actor.size());
   ClothReport report;
-  if (data.rest.empty() || !IsPossible(step) || !TakePose(data, step, state)) {
+  if (data.rest.empty() ||
+      !IsPossible(step.stage_from_actor, step.actor_from_joint, step.elapsed) ||
+      !TakePose(data, step, state)) {
     return report;
   }
   const bool cut = !state.started || step.elapsed < 0.0f || step.elapsed > kLongestFrame ||

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "shared/core/check.h"
-#include "shared/human/finite.h"
-#include "shared/human/float4.h"
+#include "shared/human/fixed_steps.h"
 #include "shared/human/round_cone.h"
 #include "shared/human/turns.h"
 
@@ -19,17 +18,12 @@ namespace {
 
 constexpr float kGravity = 9.81f;       // m/s^2
 constexpr float kStep = 1.0f / 240.0f;  // seconds
-constexpr float kLongestFrame = 0.25f;  // seconds; a longer frame counts as a cut
 constexpr float kLeapSpeed = 6.0f;      // m/s, speed of the roots
 constexpr float kLeap = 0.08f;          // metres in addition to that speed
-constexpr float kFadeSeconds = 0.4f;    // Duration of the fade to and from plain animation.
-constexpr float kSettlingSeconds = 2.0f;
-constexpr float kSettlingDrag = 8.0f;  // 1/s
-constexpr float kQuietSpeed = 0.02f;   // m/s
-constexpr float kFastest = 12.0f;      // m/s, relative to the root
-constexpr float kLastLength = 0.07f;   // Length of a stick without a following joint, metres.
-constexpr float kOriginRange = 4.0f;   // Metres after which the origin follows the actor.
-constexpr int kSweeps = 3;             // Passes over the lengths of a chain in a step.
+constexpr float kSettlingDrag = 8.0f;   // 1/s
+constexpr float kFastest = 12.0f;       // m/s, relative to the root
+constexpr float kLastLength = 0.07f;    // Length of a stick without a following joint, metres.
+constexpr int kSweeps = 3;              // Passes over the lengths of a chain in a step.
 constexpr uint32_t kNone = 0xffffffffu;
 
 // A joint of a chain: a stick from the joint's origin to its tail, where the particle is.
@@ -181,17 +175,6 @@ void MeasureStandoffs(const Human& human, const std::vector<float>& radius, Mode
 
 // --- The animation --------------------------------------------------------------
 
-bool IsPossible(const SpringStep& step, std::span<const glm::mat4> actor_from_joint) {
-  const glm::mat4& m = step.stage_from_actor;
-  const float scale = glm::length(glm::vec3(m[0]));
-  const auto is_near = [](const glm::mat4& joint) {
-    return Finite(joint) && glm::length(glm::vec3(joint[3])) < 1e3f;
-  };
-  return Finite(m) && std::isfinite(step.elapsed) && scale > 1e-4f && scale < 1e4f &&
-         glm::length(glm::vec3(m[3])) < 1e6f &&
-         std::all_of(actor_from_joint.begin(), actor_from_joint.end(), is_near);
-}
-
 void FollowActor(const glm::vec3& actor_in_stage, State& state) {
   if (state.started &&
       glm::length(actor_in_stage - state.origin_in_stage) < kOriginRange * state.scale) {
@@ -341,14 +324,6 @@ void SolveContacts(const Model& model, State& state) {
   }
 }
 
-bool IsWhole(const State& state) {
-  Float4 sum;
-  for (size_t i = 0; i < state.tails.size(); ++i) {
-    sum += (state.tails[i] + state.velocities[i]) * 0.0f;
-  }
-  return Dot(sum, sum) == 0.0f;
-}
-
 void ResetToAnimation(State& state) {
   for (size_t i = 0; i < state.tails.size(); ++i) {
     state.tails[i] = state.animated[i].tail;
@@ -380,7 +355,7 @@ void StepOnce(const Model& model, float share, float further_drag, State& state)
   for (size_t i = 0; i < model.links.size(); ++i) {
     state.velocities[i] = (state.tails[i] - state.before[i]) * (1.0f / kStep);
   }
-  if (!IsWhole(state)) {
+  if (!AllFinite(state.tails, state.velocities)) {
     ResetToAnimation(state);
   }
   TakeOffsets(share, state);
@@ -440,14 +415,8 @@ void Advance(const Model& model, float elapsed, State& state) {
   if (state.adopts_motion) {
     AdoptMotion(model, elapsed, state);
   }
-  const double before = state.pending;
-  state.pending += elapsed;
-  const int steps = static_cast<int>(state.pending / double(kStep) + 1e-3);
-  for (int k = 1; k <= steps; ++k) {
-    const double at = (double(k) * double(kStep) - before) / double(elapsed);
-    StepOnce(model, static_cast<float>(std::clamp(at, 0.0, 1.0)), 0.0f, state);
-  }
-  state.pending -= double(steps) * double(kStep);
+  TakeSteps(kStep, elapsed, state.pending,
+            [&](float share) { StepOnce(model, share, 0.0f, state); });
 }
 
 // Keeps the chains at the plain animation.
@@ -560,7 +529,7 @@ void StepSprings(const SpringModel& model,
   const Model& data = model.data();
   State& state = spring_state.data();
   CHECK(pose.size() == data.parents.size() && actor_from_joint.size() == data.parents.size());
-  if (data.links.empty() || !IsPossible(step, actor_from_joint)) {
+  if (data.links.empty() || !IsPossible(step.stage_from_actor, actor_from_joint, step.elapsed)) {
     return;
   }
   TakePose(data, step, pose, actor_from_joint, state);
