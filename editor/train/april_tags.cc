@@ -230,21 +230,6 @@ std::vector<TagView> FindConsensus(std::span<const TagView> views, const SceneDa
   return best;
 }
 
-double WidestAngle(std::span<const TagView> views,
-                   const Vector3d& point,
-                   const SceneDatabase& database) {
-  double widest = 0.0;
-  for (size_t a = 0; a < views.size(); ++a) {
-    for (size_t b = a + 1; b < views.size(); ++b) {
-      widest = std::max(widest,
-                        geometry::TriangulationAngle(
-                            database.keyframes[views[a].keyframe].camera_from_map.Center(),
-                            database.keyframes[views[b].keyframe].camera_from_map.Center(), point));
-    }
-  }
-  return widest;
-}
-
 // ------------------------------------------------------------ lengths
 
 // Covariance of a triangulated point whose pixels have the standard deviation deviation_px.
@@ -322,7 +307,11 @@ Result<TagReport> MeasureTag(std::span<const TagView> all,
                        " keyframes that show it",
                    "show every id once, and let it lie still");
   }
-  if (WidestAngle(views, (*corners)[0], database) < kMinAngle) {
+  std::vector<Vector3d> centers;
+  for (const TagView& view : views) {
+    centers.push_back(database.keyframes[view.keyframe].camera_from_map.Center());
+  }
+  if (geometry::WidestAngle(centers, (*corners)[0]) < kMinAngle) {
     return Problem(name + " is seen from almost the same direction only",
                    "film it from places farther apart");
   }

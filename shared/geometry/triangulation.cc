@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "shared/core/check.h"
@@ -110,6 +111,16 @@ double TriangulationAngle(const Eigen::Vector3d& center_a,
   const Eigen::Vector3d a = center_a - point;
   const Eigen::Vector3d b = center_b - point;
   return std::atan2(a.cross(b).norm(), a.dot(b));  // exact for small angles
+}
+
+double WidestAngle(std::span<const Eigen::Vector3d> centers, const Eigen::Vector3d& point) {
+  double widest = 0.0;
+  for (size_t a = 0; a < centers.size(); ++a) {
+    for (size_t b = a + 1; b < centers.size(); ++b) {
+      widest = std::max(widest, TriangulationAngle(centers[a], centers[b], point));
+    }
+  }
+  return widest;
 }
 
 }  // namespace lararium::geometry

@@ -247,22 +247,6 @@ Result<Eigen::Vector3d> LocateAnchor(const Anchor& anchor,
   return *point;
 }
 
-double WidestAngle(std::span<const Observation> observations,
-                   const Eigen::Vector3d& point,
-                   const SceneDatabase& database) {
-  double widest = 0.0;
-  for (size_t i = 0; i < observations.size(); ++i) {
-    for (size_t j = i + 1; j < observations.size(); ++j) {
-      widest = std::max(
-          widest,
-          geometry::TriangulationAngle(
-              database.keyframes[observations[i].keyframe].camera_from_map.Center(),
-              database.keyframes[observations[j].keyframe].camera_from_map.Center(), point));
-    }
-  }
-  return widest;
-}
-
 double ReprojectionError(std::span<const Observation> observations,
                          const Eigen::Vector3d& point,
                          const SceneDatabase& database) {
@@ -342,7 +326,11 @@ Result<AnchorReport> SolveAnchor(const Anchor& anchor, const SceneDatabase& data
   const std::vector<Observation> observations = FindObservations(anchor, database);
   LARARIUM_ASSIGN_OR_RETURN(const Eigen::Vector3d point,
                             LocateAnchor(anchor, observations, database));
-  const double angle = WidestAngle(observations, point, database);
+  std::vector<Eigen::Vector3d> centers;
+  for (const Observation& observation : observations) {
+    centers.push_back(database.keyframes[observation.keyframe].camera_from_map.Center());
+  }
+  const double angle = geometry::WidestAngle(centers, point);
   if (observations.size() > 1 && angle < kMinTriangulationAngle) {
     return Problem(anchor, "the picks see it from almost the same direction",
                    "pick it in keyframes taken farther apart");

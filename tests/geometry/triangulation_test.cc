@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "shared/core/random.h"
@@ -89,6 +90,9 @@ TEST(TriangulationAngle, IsExactForRightAndTinyAngles) {
   EXPECT_NEAR(TriangulationAngle({1, 0, 0}, {0, 1, 0}, {0, 0, 0}), std::numbers::pi / 2, 1e-15);
   EXPECT_NEAR(TriangulationAngle({1, 0, 0}, {1, 1e-9, 0}, {0, 0, 0}), 1e-9, 1e-18);
   EXPECT_NEAR(TriangulationAngle({1, 0, 0}, {-1, 0, 0}, {0, 0, 0}), std::numbers::pi, 1e-15);
+  const Eigen::Vector3d centers[] = {{1, 0, 0}, {1, 0.1, 0}, {0, 1, 0}};
+  EXPECT_NEAR(WidestAngle(centers, {0, 0, 0}), std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(WidestAngle(std::span(centers).first(1), {0, 0, 0}), 0.0);
 }
 
 }  // namespace
