@@ -17,6 +17,7 @@
 #include "editor/train/session_adjustment.h"
 #include "editor/train/session_camera.h"
 #include "shared/core/check.h"
+#include "shared/core/median.h"
 #include "shared/core/random.h"
 #include "shared/geometry/resampling.h"
 #include "shared/vision/guided_matcher.h"
@@ -190,12 +191,7 @@ double MedianDepth(const SceneDatabase& db) {
     depths.push_back(
         (db.keyframes[o.keyframe].camera_from_map * db.points[o.point].cast<double>()).z());
   }
-  if (depths.empty()) {
-    return 1.0;
-  }
-  const auto middle = depths.begin() + static_cast<ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  return depths.empty() ? 1.0 : Median(std::move(depths));
 }
 
 // ------------------------------------------------------------ merging
