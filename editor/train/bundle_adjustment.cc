@@ -821,30 +821,28 @@ bool ReprojectionResidual(const CameraModel& fixed,
   const double y = in_camera.y() * inverse_z;
   const double fx = intrinsics[0];
   const double fy = fx * (fixed.fy / fixed.fx);
-  const double k1 = intrinsics[1];
-  const double k2 = intrinsics[2];
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * k2);
-  const Eigen::Vector2d distorted(
-      x * radial + 2.0 * fixed.p1 * x * y + fixed.p2 * (r2 + 2.0 * x * x),
-      y * radial + fixed.p1 * (r2 + 2.0 * y * y) + 2.0 * fixed.p2 * x * y);
+  const CameraModel lens = {.fx = 1.0,
+                            .fy = 1.0,
+                            .k1 = intrinsics[1],
+                            .k2 = intrinsics[2],
+                            .p1 = fixed.p1,
+                            .p2 = fixed.p2};
+  Eigen::Matrix2d by_plane;
+  const Eigen::Vector2d distorted = lens.PixelFromPlane({x, y}, by_plane);
   residual[0] = fx * distorted.x() + intrinsics[3] - pixel.x();
   residual[1] = fy * distorted.y() + intrinsics[4] - pixel.y();
 
   if (by_intrinsics == nullptr && by_pose == nullptr && by_point == nullptr) {
     return true;
   }
-  // Derivatives by the point on the plane z = 1, then by the point in camera axes.
-  const double slope = 2.0 * (k1 + 2.0 * k2 * r2);
-  const double mixed = x * y * slope + 2.0 * fixed.p1 * x + 2.0 * fixed.p2 * y;
-  Eigen::Matrix2d by_plane;
-  by_plane << fx * (radial + x * x * slope + 2.0 * fixed.p1 * y + 6.0 * fixed.p2 * x), fx * mixed,
-      fy * mixed, fy * (radial + y * y * slope + 6.0 * fixed.p1 * y + 2.0 * fixed.p2 * x);
+  by_plane.row(0) *= fx;
+  by_plane.row(1) *= fy;
   Matrix2x3 by_camera;
   by_camera.leftCols<2>() = by_plane * inverse_z;
   by_camera.col(2) = by_plane * Eigen::Vector2d(-x, -y) * inverse_z;
   if (by_intrinsics != nullptr) {
     Eigen::Map<Matrix2xIntrinsics> jacobian(by_intrinsics);
+    const double r2 = x * x + y * y;
     jacobian.leftCols<5>() << distorted.x(), fx * x * r2, fx * x * r2 * r2, 1.0, 0.0,  //
         fy / fx * distorted.y(), fy * y * r2, fy * y * r2 * r2, 0.0, 1.0;
     const Eigen::Vector3d speed =
