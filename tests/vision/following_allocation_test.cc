@@ -5,94 +5,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
-#include <new>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "shared/vision/foreground/foreground_mask.h"
 #include "shared/vision/tracker.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/vision/poster.h"
-
-namespace {
-
-thread_local bool counting = false;
-thread_local int allocations = 0;  // Calls of operator new.
-thread_local int by_malloc = 0;    // Calls of malloc and similar functions by libraries.
-
-void* Allocate(size_t size, size_t alignment) {
-  const int before = by_malloc;
-  allocations += counting ? 1 : 0;
-  void* memory = nullptr;
-  if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment,
-                     size == 0 ? 1 : size) != 0) {
-    std::abort();
-  }
-  by_malloc = before;
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(size_t size) { return Allocate(size, 16); }
-void* operator new[](size_t size) { return Allocate(size, 16); }
-void* operator new(size_t size, std::align_val_t alignment) {
-  return Allocate(size, static_cast<size_t>(alignment));
-}
-void* operator new[](size_t size, std::align_val_t alignment) {
-  return Allocate(size, static_cast<size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
-
-// The sanitizers replace these functions themselves.
-#if defined(__GLIBC__) && !defined(LARARIUM_SANITIZED)
-extern "C" {
-void* __libc_malloc(size_t size);                      // NOLINT
-void* __libc_calloc(size_t count, size_t size);        // NOLINT
-void* __libc_realloc(void* memory, size_t size);       // NOLINT
-void* __libc_memalign(size_t alignment, size_t size);  // NOLINT
-
-void* malloc(size_t size) {
-  by_malloc += counting ? 1 : 0;
-  return __libc_malloc(size);
-}
-void* calloc(size_t count, size_t size) {
-  by_malloc += counting ? 1 : 0;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* memory, size_t size) {
-  by_malloc += counting ? 1 : 0;
-  return __libc_realloc(memory, size);
-}
-void* aligned_alloc(size_t alignment, size_t size) {
-  by_malloc += counting ? 1 : 0;
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** memory, size_t alignment, size_t size) {
-  by_malloc += counting ? 1 : 0;
-  *memory = __libc_memalign(alignment, size);
-  return *memory == nullptr ? ENOMEM : 0;
-}
-}
-#endif
 
 namespace lararium::vision {
 namespace {
 
 constexpr int kSettledMasks = 3;  // Number of frames until a mask's images have their sizes.
 
-struct Allocations {
-  int by_new = 0;
-  int by_malloc = 0;
-};
+using test::Allocations;
 
 class Following : public testing::Test {
  protected:
@@ -119,12 +45,9 @@ class Following : public testing::Test {
       const int phase = i % (2 * kSwing);
       geometry::Frame frame = swing_[static_cast<size_t>(std::min(phase, 2 * kSwing - phase))];
       frame.index = i;
-      allocations = 0;
-      by_malloc = 0;
-      counting = true;
+      test::CountInThread();
       const TrackedFrame tracked = tracker->Track(frame);
-      counting = false;
-      all.push_back({allocations, by_malloc});
+      all.push_back(test::CountedInThread());
       EXPECT_EQ(tracked.followed, i > 0);
     }
     return all;
@@ -187,12 +110,10 @@ TEST(Foreground, AllocatesLittle) {
   }
   Allocations frame;
   for (int i = 0; i < kSettledMasks; ++i) {
-    allocations = by_malloc = 0;
-    counting = true;
+    test::CountInThread();
     const cv::Mat guide = mask.Estimate(tracked, seen);
-    counting = false;
+    frame = test::CountedInThread();
     ASSERT_FALSE(guide.empty());
-    frame = {allocations, by_malloc};
   }
   EXPECT_LE(frame.by_new, 90);     // measured: 57
   EXPECT_LE(frame.by_malloc, 40);  // measured: 21
