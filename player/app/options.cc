@@ -4,13 +4,14 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 #include "player/kiosk/listen_address.h"
+#include "player/kiosk/watchdog.h"
 
 namespace lararium::player {
 namespace {
 
-constexpr int kUsageError = 2;
 constexpr int kLargestCount = 1'000'000'000;
 
 std::map<std::string, vision::Smoothing> SmoothingNames() {
@@ -80,10 +81,9 @@ void AddChoiceOption(CLI::App& app,
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
 }
 
-void AddSwitchOption(CLI::App& app,
-                     const char* option,
-                     std::optional<bool>& on,
-                     const std::string& help) {
+// on: bool or std::optional<bool>.
+template <typename Switch>
+void AddSwitchOption(CLI::App& app, const char* option, Switch& on, const std::string& help) {
   app.add_option_function<std::string>(
          option, [&on](const std::string& word) { on = word == "on"; }, help)
       ->check(CLI::IsMember({"on", "off"}));
@@ -165,10 +165,8 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
          },
          "0, the finest, to 5; auto: as fine as keeps the frame rate")
       ->check(CLI::IsMember({"auto", "0", "1", "2", "3", "4", "5"}));
-  app.add_option_function<std::string>(
-         "--sandbox", [&play](const std::string& sandbox) { play.sandbox = sandbox == "on"; },
-         "on: no other programs, no network, no settings of the machine; off")
-      ->check(CLI::IsMember({"on", "off"}));
+  AddSwitchOption(app, "--sandbox", play.sandbox,
+                  "on: no other programs, no network, no settings of the machine; off");
   app.add_flag("--staff", play.staff, "Show how tracking is, in a corner of the picture");
   app.add_flag("--loop", play.camera.loop, "Begin a video or folder again at its end");
   CLI::Option* kiosk = app.add_flag("--kiosk", play.kiosk.enabled,
@@ -219,11 +217,9 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
                  "as well, which lags a little")
       ->transform(CLI::Transformer(SmoothingNames()));
 
-  app.add_option_function<std::string>(
-         "--foreground",
-         [&play](const std::string& foreground) { play.foreground = foreground == "on"; },
-         "on: visitors and things in front of the place hide the people who are drawn; off")
-      ->check(CLI::IsMember({"on", "off"}));
+  AddSwitchOption(
+      app, "--foreground", play.foreground,
+      "on: visitors and things in front of the place hide the people who are drawn; off");
 
   app.add_option("--audio", play.listening,
                  "headphones: mixed for two ears; speakers; none. What is recorded is mixed "
@@ -325,12 +321,91 @@ CLI::App* AddFleetPage(CLI::App& app, PageServerOptions& page) {
       ->add_option("--address", page.address,
                    "ADDRESS:PORT, INTERFACE:PORT, or PORT for this machine")
       ->capture_default_str();
-  command
-      ->add_option_function<std::string>(
-          "--sandbox", [&page](const std::string& sandbox) { page.sandbox = sandbox == "on"; },
-          "on: nothing but serving; off")
-      ->check(CLI::IsMember({"on", "off"}));
+  AddSwitchOption(*command, "--sandbox", page.sandbox, "on: nothing but serving; off");
   return command;
+}
+
+CLI::App* AddDoctor(CLI::App& app, DoctorOptions& doctor) {
+  CLI::App* command =
+      app.add_subcommand("doctor", "Look at camera, display, sound, disk and show; say what to do");
+  command->add_option("SHOW", doctor.show)->check(CLI::ExistingFile);
+  command->add_option("--trust", doctor.trust, "The museum's key (.pub)")->check(CLI::ExistingFile);
+  command->add_option("--device", doctor.device, "Device file")->check(CLI::ExistingFile);
+  command->add_option("--state", doctor.state, "The kiosk's folder");
+  command->add_option("--camera", doctor.camera, "Number of the camera")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--monitor", doctor.monitor, "Number of the monitor")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--display", doctor.display, "As the player will be told")
+      ->transform(CLI::Transformer(DisplayNames()));
+  AddSizeOption(*command, doctor.size, "As the player will be told");
+  AddGraphicsOption(*command, doctor.graphics, "As the player will be told");
+  CLI::Option* doctor_page =
+      command->add_option("--staff-page", doctor.staff_page, "As the player will be told");
+  command->add_option("--staff-pin-file", doctor.staff_pin, "As the player will be told")
+      ->needs(doctor_page);
+  command->add_flag("--json", doctor.json, "Print one JSON object");
+  return command;
+}
+
+CLI::App* AddLatency(CLI::App& app, LatencyOptions& latency) {
+  CLI::App* command = app.add_subcommand(
+      "latency", "Flash the display, watch it by the camera: how late is what is shown seen?");
+  command->add_option("--camera", latency.camera, "Number of the camera")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--monitor", latency.monitor, "Full screen on this monitor")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--device", latency.device, "Device file: how the camera is run")
+      ->check(CLI::ExistingFile);
+  return command;
+}
+
+void Refuse(bool wrong, const char* option, const std::string& why) {
+  if (wrong) {
+    throw CLI::ValidationError(option, why);
+  }
+}
+
+void CheckAddress(const char* option, const std::string& address) {
+  const auto parsed = ParseListenAddress(option, address);
+  Refuse(!parsed.ok(), option, parsed.status().message());
+}
+
+// What playing and the doctor have in common.
+void CheckScreen(const std::string& page,
+                 const std::optional<Display>& display,
+                 const render::GraphicsChoice& graphics) {
+  if (!page.empty()) {
+    CheckAddress("--staff-page", page);
+  }
+  Refuse(display == Display::kOpenXr && graphics == render::GraphicsApi::kOpenGlEs30,
+         "--display openxr", "cannot go with --graphics gles");
+}
+
+void CheckPlayOptions(const PlayOptions& play) {
+  const size_t numbers = play.camera.intrinsics.size();
+  const bool recorded = !play.camera.video.empty() || !play.camera.images.empty();
+  Refuse(numbers != 0 && numbers != 4 && numbers != 8, "--intrinsics", "takes 4 or 8 numbers");
+  if (!play.osc.empty()) {
+    CheckAddress("--osc", play.osc);
+  }
+  if (!play.fleet.address.empty()) {
+    FleetOptions fleet = play.fleet;
+    NameDevice(fleet);
+    const Status status = fleet.Validate();
+    Refuse(!status.ok(), "--fleet", status.message());
+  }
+  if (!play.benchmark.folder.empty()) {
+    Refuse(!play.fleet.address.empty(), "--fleet", "cannot go with --benchmark");
+    Refuse(!play.staff_page.address.empty(), "--staff-page", "cannot go with --benchmark");
+    Refuse(play.camera.number || recorded, "--benchmark", "takes its images from its own folder");
+    Refuse(play.kiosk.enabled, "--kiosk", "cannot go with --benchmark");
+  }
+  Refuse(play.camera.loop && !recorded, "--loop", "goes with --video or --images");
+  if (play.display.headless) {
+    Refuse(play.display.mode == Display::kOpenXr, "--display openxr", "cannot go with --headless");
+    Refuse(play.display.monitor >= 0, "--monitor", "cannot go with --headless");
+  }
 }
 
 }  // namespace
@@ -350,109 +425,30 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   const CLI::App* page_command = AddFleetPage(app, fleet_page);
   CLI::App* info_command = app.add_subcommand("info", "Say what a bundle holds");
   info_command->add_option("SHOW", info.show)->required()->check(CLI::ExistingFile);
-  CLI::App* doctor_command =
-      app.add_subcommand("doctor", "Look at camera, display, sound, disk and show; say what to do");
-  doctor_command->add_option("SHOW", doctor.show)->check(CLI::ExistingFile);
-  doctor_command->add_option("--trust", doctor.trust, "The museum's key (.pub)")
-      ->check(CLI::ExistingFile);
-  doctor_command->add_option("--device", doctor.device, "Device file")->check(CLI::ExistingFile);
-  doctor_command->add_option("--state", doctor.state, "The kiosk's folder");
-  doctor_command->add_option("--camera", doctor.camera, "Number of the camera")
-      ->check(CLI::NonNegativeNumber);
-  doctor_command->add_option("--monitor", doctor.monitor, "Number of the monitor")
-      ->check(CLI::NonNegativeNumber);
-  doctor_command->add_option("--display", doctor.display, "As the player will be told")
-      ->transform(CLI::Transformer(DisplayNames()));
-  AddSizeOption(*doctor_command, doctor.size, "As the player will be told");
-  AddGraphicsOption(*doctor_command, doctor.graphics, "As the player will be told");
-  CLI::Option* doctor_page =
-      doctor_command->add_option("--staff-page", doctor.staff_page, "As the player will be told");
-  doctor_command->add_option("--staff-pin-file", doctor.staff_pin, "As the player will be told")
-      ->needs(doctor_page);
-  doctor_command->add_flag("--json", doctor.json, "Print one JSON object");
-  CLI::App* latency_command = app.add_subcommand(
-      "latency", "Flash the display, watch it by the camera: how late is what is shown seen?");
-  latency_command->add_option("--camera", latency.camera, "Number of the camera")
-      ->check(CLI::NonNegativeNumber);
-  latency_command->add_option("--monitor", latency.monitor, "Full screen on this monitor")
-      ->check(CLI::NonNegativeNumber);
-  latency_command->add_option("--device", latency.device, "Device file: how the camera is run")
-      ->check(CLI::ExistingFile);
+  const CLI::App* doctor_command = AddDoctor(app, doctor);
+  const CLI::App* latency_command = AddLatency(app, latency);
 
   try {
     app.parse(argc, argv);
-    const size_t numbers = play.camera.intrinsics.size();
     if (app.get_subcommands().empty() && play.bundle.show.empty()) {
       throw CLI::RequiredError("SHOW");
     }
-    if (numbers != 0 && numbers != 4 && numbers != 8) {
-      throw CLI::ValidationError("--intrinsics", "takes 4 or 8 numbers");
-    }
-    if (!play.osc.empty() && !ParseListenAddress("--osc", play.osc).ok()) {
-      throw CLI::ValidationError("--osc", ParseListenAddress("--osc", play.osc).message());
-    }
-    if (!ParseListenAddress("--address", fleet_page.address).ok()) {
-      throw CLI::ValidationError("--address",
-                                 ParseListenAddress("--address", fleet_page.address).message());
-    }
-    for (const std::string& page : {play.staff_page.address, doctor.staff_page}) {
-      if (!page.empty() && !ParseListenAddress("--staff-page", page).ok()) {
-        throw CLI::ValidationError("--staff-page",
-                                   ParseListenAddress("--staff-page", page).message());
-      }
-    }
-    if (!play.fleet.address.empty()) {
-      FleetOptions fleet = play.fleet;
-      NameDevice(fleet);
-      if (const Status status = fleet.Validate(); !status.ok()) {
-        throw CLI::ValidationError("--fleet", status.message());
-      }
-    }
-    if (!play.benchmark.folder.empty() && !play.fleet.address.empty()) {
-      throw CLI::ValidationError("--fleet", "cannot go with --benchmark");
-    }
-    if (!play.benchmark.folder.empty() && !play.staff_page.address.empty()) {
-      throw CLI::ValidationError("--staff-page", "cannot go with --benchmark");
-    }
-    if (!play.benchmark.folder.empty() &&
-        (play.camera.number || !play.camera.video.empty() || !play.camera.images.empty())) {
-      throw CLI::ValidationError("--benchmark", "takes its images from its own folder");
-    }
-    if (!play.benchmark.folder.empty() && play.kiosk.enabled) {
-      throw CLI::ValidationError("--kiosk", "cannot go with --benchmark");
-    }
-    if (play.camera.loop && play.camera.video.empty() && play.camera.images.empty()) {
-      throw CLI::ValidationError("--loop", "goes with --video or --images");
-    }
-    if (play.display.headless && play.display.mode == Display::kOpenXr) {
-      throw CLI::ValidationError("--display openxr", "cannot go with --headless");
-    }
-    for (const auto& [display, graphics] : {std::pair(play.display.mode, play.display.graphics),
-                                            std::pair(doctor.display, doctor.graphics)}) {
-      if (display == Display::kOpenXr && graphics == render::GraphicsApi::kOpenGlEs30) {
-        throw CLI::ValidationError("--display openxr", "cannot go with --graphics gles");
-      }
-    }
-    if (play.display.headless && play.display.monitor >= 0) {
-      throw CLI::ValidationError("--monitor", "cannot go with --headless");
-    }
+    CheckAddress("--address", fleet_page.address);
+    CheckPlayOptions(play);
+    CheckScreen(play.staff_page.address, play.display.mode, play.display.graphics);
+    CheckScreen(doctor.staff_page, doctor.display, doctor.graphics);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
   }
-  if (*info_command) {
-    return info;
-  }
-  if (*doctor_command) {
-    return doctor;
-  }
-  if (*latency_command) {
-    return latency;
-  }
-  if (*setup_command) {
-    return fleet_setup;
-  }
-  if (*page_command) {
-    return fleet_page;
+  const std::pair<const CLI::App*, Command> commands[] = {{info_command, info},
+                                                          {doctor_command, doctor},
+                                                          {latency_command, latency},
+                                                          {setup_command, fleet_setup},
+                                                          {page_command, fleet_page}};
+  for (const auto& [command, options] : commands) {
+    if (*command) {
+      return options;
+    }
   }
   const bool shown_on_monitor = !play.display.headless && play.display.mode != Display::kOpenXr;
   if (play.kiosk.enabled && shown_on_monitor && play.display.monitor < 0) {

@@ -29,7 +29,6 @@ constexpr int64_t kBeatMilliseconds = 200;
 constexpr char kBeat = 'b';
 constexpr char kBeatBeforeLongWork = 'w';
 constexpr int kPollMilliseconds = 50;
-constexpr int kUsageError = 2;
 
 volatile std::sig_atomic_t g_end_asked = 0;
 

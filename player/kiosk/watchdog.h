@@ -46,10 +46,12 @@ struct ChildStart {
   int failed_starts = 0;  // consecutive children before this one that failed at their start
 };
 
+// Exit code of a wrong command line. A child that returns it is not started again.
+inline constexpr int kUsageError = 2;
 // A child that returns this is started again, and has not failed.
 inline constexpr int kStartAgain = 3;
 
-// Runs child in a process of its own, again and again, until it returns 0 (or a usage error, 2) or
+// Runs child in a process of its own, again and again, until it returns 0 or kUsageError, or
 // this process gets SIGINT or SIGTERM, which ends the child too. Returns the exit code of the last
 // child. Notifies systemd, if it listens, that the service is ready. Must be called while there is
 // one thread.
