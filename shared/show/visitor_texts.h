@@ -1,7 +1,8 @@
 #pragma once
 
 // The texts for visitors in all languages of the program, visitor_texts.json: `menu` has those of
-// the player's and the page's menu, `page` the sentences of the page for browsers.
+// the player's and the page's menu, `guide` those of guide_texts.h, `page` the sentences of the
+// page for browsers.
 
 #include <span>
 
