@@ -9,6 +9,7 @@
 
 #include "shared/core/parallel.h"
 #include "shared/core/units.h"
+#include "shared/render/passes/screen_bounds.h"
 
 namespace lararium::bake {
 namespace {
@@ -26,11 +27,6 @@ struct Inside {
   uint16_t joint = 0;
 };
 
-struct Box {
-  glm::vec3 low = glm::vec3(std::numeric_limits<float>::max());
-  glm::vec3 high = glm::vec3(std::numeric_limits<float>::lowest());
-};
-
 // Spreads `count` directions evenly over the sphere (a Fibonacci lattice).
 glm::vec3 LatticeDirection(int i, int count) {
   const float y = 1.0f - (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(count);
@@ -39,12 +35,11 @@ glm::vec3 LatticeDirection(int i, int count) {
   return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
-Box BoxOf(std::span<const SurfaceMesh> meshes) {
-  Box box;
+render::Box BoxOf(std::span<const SurfaceMesh> meshes) {
+  render::Box box;
   for (const SurfaceMesh& mesh : meshes) {
     for (const glm::vec3& position : mesh.positions) {
-      box.low = glm::min(box.low, position);
-      box.high = glm::max(box.high, position);
+      box.Extend(position);
     }
   }
   return box;
@@ -77,7 +72,7 @@ std::optional<uint16_t> JointAround(const RayScene& rays,
 std::pair<std::vector<Inside>, float> FindInside(const RayScene& rays,
                                                  std::span<const SurfaceMesh> meshes,
                                                  const VertexJoints& joints) {
-  const Box box = BoxOf(meshes);
+  const render::Box box = BoxOf(meshes);
   const glm::vec3 size = glm::max(box.high - box.low, glm::vec3(1e-3f));
   const float step = std::cbrt(size.x * size.y * size.z / static_cast<float>(kGridPoints));
   const glm::ivec3 counts = glm::max(glm::ivec3(size / step), glm::ivec3(1));

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <limits>
 #include <numbers>
+
+#include "shared/render/passes/screen_bounds.h"
 
 namespace lararium::show {
 namespace {
@@ -13,17 +14,11 @@ constexpr float kFilled = 0.6f;      // Filled share of a box, between a sphere'
 constexpr float kLeastSize = 0.01f;  // Metres; thinner objects are treated as this thick.
 constexpr int kMostPieces = 4;       // Pieces along one axis.
 
-struct Box {
-  glm::vec3 low = glm::vec3(std::numeric_limits<float>::max());
-  glm::vec3 high = glm::vec3(std::numeric_limits<float>::lowest());
-};
-
-Box BoxOf(const stage::PropPart& part) {
-  Box box;
+render::Box BoxOf(const stage::PropPart& part) {
+  render::Box box;
   for (const stage::PropMesh& mesh : part.meshes) {
     for (const glm::vec3& position : mesh.positions) {
-      box.low = glm::min(box.low, position);
-      box.high = glm::max(box.high, position);
+      box.Extend(position);
     }
   }
   return box;
@@ -39,7 +34,7 @@ glm::ivec3 CountPieces(const glm::vec3& size) {
   return glm::clamp(glm::ivec3(glm::round(size / piece)), glm::ivec3(1), glm::ivec3(kMostPieces));
 }
 
-void CutBox(const Box& box, uint32_t part, std::vector<PropBlocker>& blockers) {
+void CutBox(const render::Box& box, uint32_t part, std::vector<PropBlocker>& blockers) {
   const glm::vec3 size = glm::max(box.high - box.low, glm::vec3(kLeastSize));
   const glm::ivec3 counts = CountPieces(size);
   const glm::vec3 piece = size / glm::vec3(counts);
@@ -61,8 +56,8 @@ void CutBox(const Box& box, uint32_t part, std::vector<PropBlocker>& blockers) {
 std::vector<PropBlocker> FindBlockers(const stage::Prop& prop) {
   std::vector<PropBlocker> blockers;
   for (uint32_t part = 0; part < prop.parts.size(); ++part) {
-    const Box box = BoxOf(prop.parts[part]);
-    if (box.low.x <= box.high.x) {
+    const render::Box box = BoxOf(prop.parts[part]);
+    if (!box.empty()) {
       CutBox(box, part, blockers);
     }
   }
