@@ -5,9 +5,6 @@
 
 #include "editor/document/project_paths.h"
 #include "editor/document/user_folders.h"
-#include "shared/core/file.h"
-#include "shared/core/json.h"
-#include "shared/core/json_fields.h"
 
 namespace lararium::editor {
 
@@ -16,7 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kRecentSchema = 1;
-constexpr size_t kMaxFileBytes = size_t{1} << 20;
 constexpr size_t kMaxTitleBytes = 1024;
 constexpr size_t kMaxPathBytes = 4096;
 constexpr int64_t kLatest = int64_t{1} << 40;  // Far beyond any real time.
@@ -37,32 +33,16 @@ void DescribeList(Fields& fields, std::vector<RecentProject>& recent) {
   fields.List("recent", recent, RecentProjects::kMost, DescribeEntry);
 }
 
-Result<std::vector<RecentProject>> Load(const fs::path& file) {
-  LARARIUM_ASSIGN_OR_RETURN(const std::string text, ReadText(file, kMaxFileBytes));
-  return ParseFields<std::vector<RecentProject>>(text, file.string(), DescribeList);
-}
-
 }  // namespace
 
 Status RecentProjects::Reload() {
-  entries_.clear();
-  std::error_code error;
-  if (!fs::exists(file_, error)) {
-    return Status();
-  }
-  Result<std::vector<RecentProject>> loaded = Load(file_);
-  if (loaded.ok()) {
-    entries_ = *std::move(loaded);
-    return Status();
-  }
-  return SetAside(file_, loaded.status(), "open projects by their folder");
+  auto loaded = LoadUserFile<std::vector<RecentProject>>(file_, "open projects by their folder",
+                                                         DescribeList);
+  entries_ = loaded.ok() ? *std::move(loaded) : std::vector<RecentProject>();
+  return loaded.status();
 }
 
-Status RecentProjects::Save() const {
-  std::error_code error;
-  fs::create_directories(file_.parent_path(), error);
-  return SaveJson(file_, FormatFields(entries_, DescribeList));
-}
+Status RecentProjects::Save() const { return SaveUserFile(file_, entries_, DescribeList); }
 
 Status RecentProjects::NoteOpened(const RecentProject& project) {
   const Status read = Reload();

@@ -1,20 +1,15 @@
 #include "editor/window/window_sizes.h"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "editor/document/user_folders.h"
-#include "shared/core/file.h"
-#include "shared/core/json.h"
-#include "shared/core/json_fields.h"
 
 namespace lararium::editor {
 
 namespace {
 
 constexpr int kSizesSchema = 1;
-constexpr size_t kMaxFileBytes = size_t{1} << 16;
 constexpr double kLargest = 1 << 15;  // Largest size of a window or panel.
 
 void DescribeSizes(Fields& fields, WindowSizes& sizes) {
@@ -41,23 +36,11 @@ void DescribeSizes(Fields& fields, WindowSizes& sizes) {
 }  // namespace
 
 Result<WindowSizes> LoadWindowSizes(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
-    return WindowSizes();
-  }
-  const Result<std::string> text = ReadText(file, kMaxFileBytes);
-  Result<WindowSizes> sizes =
-      text.ok() ? ParseFields<WindowSizes>(*text, file.string(), DescribeSizes) : text.status();
-  if (!sizes.ok()) {
-    return SetAside(file, sizes.status(), "the window has its usual size");
-  }
-  return sizes;
+  return LoadUserFile<WindowSizes>(file, "the window has its usual size", DescribeSizes);
 }
 
 Status SaveWindowSizes(const std::filesystem::path& file, const WindowSizes& sizes) {
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
-  return SaveJson(file, FormatFields(sizes, DescribeSizes));
+  return SaveUserFile(file, sizes, DescribeSizes);
 }
 
 }  // namespace lararium::editor
