@@ -184,13 +184,7 @@ class CheckPointWorker {
 }  // namespace
 
 Result<CommandResult> RunCheckPoints(const CheckPointsOptions& options) {
-  const ProjectPaths paths{options.project};
-  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  CheckPointsOptions named = options;
-  if (!options.place.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(named.place, ChoosePlace(paths, document, options.place));
-  }
-  return CheckPointWorker(paths, std::move(document), named).Run();
+  return RunOnProject<CheckPointWorker>(options);
 }
 
 }  // namespace lararium::editor

@@ -1,6 +1,6 @@
 #pragma once
 
-// Parsing of arguments that several subcommands share.
+// What several subcommands do with their arguments.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -8,9 +8,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "editor/document/named_entries.h"
+#include "editor/document/project.h"
+#include "editor/text/command_result.h"
 #include "shared/core/status.h"
 #include "shared/geometry/transform.h"
 #include "shared/stage/picks.h"
@@ -54,5 +57,16 @@ Result<stage::Pick> ParsePick(const vision::SceneDatabase& map,
                               uint32_t session,
                               const std::string& option,
                               const std::string& text);
+
+// Runs Worker on the project that options name. A title of a place becomes the place's name.
+template <typename Worker, typename Options>
+Result<CommandResult> RunOnProject(Options options) {
+  const ProjectPaths paths{options.project};
+  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
+  if (!options.place.empty()) {
+    LARARIUM_ASSIGN_OR_RETURN(options.place, ChoosePlace(paths, document, options.place));
+  }
+  return Worker(paths, std::move(document), options).Run();
+}
 
 }  // namespace lararium::editor

@@ -282,13 +282,7 @@ class OccluderWorker {
 }  // namespace
 
 Result<CommandResult> RunOccluder(const OccluderOptions& options) {
-  const ProjectPaths paths{options.project};
-  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  OccluderOptions named = options;
-  if (!options.place.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(named.place, ChoosePlace(paths, document, options.place));
-  }
-  return OccluderWorker(paths, std::move(document), named).Run();
+  return RunOnProject<OccluderWorker>(options);
 }
 
 }  // namespace lararium::editor

@@ -153,13 +153,7 @@ class ProbeWorker {
 }  // namespace
 
 Result<CommandResult> RunPlaceProbe(const ProbeOptions& options) {
-  const ProjectPaths paths{options.project};
-  LARARIUM_ASSIGN_OR_RETURN(ProjectDocument document, LoadProject(paths));
-  ProbeOptions named = options;
-  if (!options.place.empty()) {
-    LARARIUM_ASSIGN_OR_RETURN(named.place, ChoosePlace(paths, document, options.place));
-  }
-  return ProbeWorker(paths, std::move(document), named).Run();
+  return RunOnProject<ProbeWorker>(options);
 }
 
 }  // namespace lararium::editor
