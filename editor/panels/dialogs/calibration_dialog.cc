@@ -83,20 +83,16 @@ void DrawPicture(PictureTextures& pictures,
   const ImVec2 corner(at.x + size.x, at.y + size.y);
   draw.AddRectFilled(at, corner, Packed(OverPicture().window));
   if (moment.bgr != nullptr) {
-    const float scale = std::min(size.x / static_cast<float>(moment.bgr->cols),
-                                 size.y / static_cast<float>(moment.bgr->rows));
-    const ImVec2 shown(scale * static_cast<float>(moment.bgr->cols),
-                       scale * static_cast<float>(moment.bgr->rows));
-    const ImVec2 from(at.x + 0.5f * (size.x - shown.x), at.y + 0.5f * (size.y - shown.y));
-    draw.AddImage(pictures.Show("calibration", moment.bgr), from,
-                  ImVec2(from.x + shown.x, from.y + shown.y));
+    const PictureRect rect = FitPicture(at, size, moment.bgr->cols, moment.bgr->rows);
+    const float scale = rect.size.x / static_cast<float>(moment.bgr->cols);
+    draw.AddImage(pictures.Show("calibration", moment.bgr), rect.origin, rect.corner());
     const bool good = moment.observation == BoardObservation::kKept ||
                       moment.observation == BoardObservation::kAlike;
     const ImVec4 colour = good ? OverPicture().good : OverPicture().warning;
     std::vector<ImVec2> points;
     for (const Eigen::Vector2d& pixel : moment.corners) {
-      points.emplace_back(from.x + scale * (static_cast<float>(pixel.x()) + 0.5f),
-                          from.y + scale * (static_cast<float>(pixel.y()) + 0.5f));
+      points.emplace_back(rect.origin.x + scale * (static_cast<float>(pixel.x()) + 0.5f),
+                          rect.origin.y + scale * (static_cast<float>(pixel.y()) + 0.5f));
       draw.AddCircle(points.back(), Px(4), Packed(colour), 12, Px(1.5f));
     }
     for (size_t i = 1; i < points.size(); ++i) {

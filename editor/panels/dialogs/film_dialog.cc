@@ -95,13 +95,8 @@ void DrawPicture(PictureTextures& pictures, const editor::FilmMoment& moment, co
   const ImVec2 corner(at.x + size.x, at.y + size.y);
   draw.AddRectFilled(at, corner, Packed(OverPicture().window));
   if (moment.bgr != nullptr) {
-    const float scale = std::min(size.x / static_cast<float>(moment.bgr->cols),
-                                 size.y / static_cast<float>(moment.bgr->rows));
-    const ImVec2 half(0.5f * scale * static_cast<float>(moment.bgr->cols),
-                      0.5f * scale * static_cast<float>(moment.bgr->rows));
-    const ImVec2 middle(at.x + 0.5f * size.x, at.y + 0.5f * size.y);
-    draw.AddImage(pictures.Show("film", moment.bgr), ImVec2(middle.x - half.x, middle.y - half.y),
-                  ImVec2(middle.x + half.x, middle.y + half.y));
+    const PictureRect rect = FitPicture(at, size, moment.bgr->cols, moment.bgr->rows);
+    draw.AddImage(pictures.Show("film", moment.bgr), rect.origin, rect.corner());
     const std::string fault = editor::FaultText(moment.coverage.fault, true);
     ImGui::PushFont(ThemeFonts().strong);
     float y = corner.y - Px(38);

@@ -26,25 +26,10 @@ namespace lararium::panels {
 
 namespace {
 
-struct Rect {
-  ImVec2 origin;
-  ImVec2 size;
-};
-
-// The largest rectangle with a picture's aspect ratio within the available space.
-Rect Fit(const ImVec2& origin, const ImVec2& available, int width, int height) {
-  const float scale =
-      std::min(available.x / static_cast<float>(width), available.y / static_cast<float>(height));
-  const ImVec2 size(static_cast<float>(width) * scale, static_cast<float>(height) * scale);
-  return {
-      ImVec2(origin.x + 0.5f * (available.x - size.x), origin.y + 0.5f * (available.y - size.y)),
-      size};
-}
-
 // The picture's camera in the world frame (gizmo_view.h).
 ViewCamera PictureView(const editor::PreviewPicture& picture,
                        const editor::PlaceDocument& place,
-                       const Rect& rect) {
+                       const PictureRect& rect) {
   const double scale = rect.size.x / static_cast<double>(picture.display.width);
   ViewCamera view;
   view.camera_from_world =
@@ -76,7 +61,7 @@ const char* ReasonText(vision::TrackReason reason) {
 
 // Draws the points that determine the pose, and their positions in earlier frames, which fade with
 // age.
-void DrawTrails(const editor::PreviewPicture& picture, const Rect& rect, ImDrawList& draw) {
+void DrawTrails(const editor::PreviewPicture& picture, const PictureRect& rect, ImDrawList& draw) {
   const float scale = rect.size.x / static_cast<float>(picture.display.width);
   const auto place = [&](const Eigen::Vector2f& pixel) {
     return ImVec2(rect.origin.x + scale * (pixel.x() + 0.5f),
@@ -128,7 +113,7 @@ Icon BadgeIcon(const editor::Workspace& workspace, const editor::PreviewPicture&
 
 void DrawBadge(const editor::Workspace& workspace,
                const editor::PreviewPicture& picture,
-               const Rect& rect,
+               const PictureRect& rect,
                ImDrawList& draw) {
   const bool tracked = picture.camera_from_stage.has_value();
   const std::string text = BadgeText(workspace, picture, rect.size.x - Px(58));
@@ -414,9 +399,8 @@ void DrawEmpty(const editor::Workspace& workspace,
                const ImVec2& size) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (const std::shared_ptr<const cv::Mat> image = workspace.preview().first_image()) {
-    const Rect rect = Fit(origin, size, image->cols, image->rows);
-    draw.AddImage(pictures.Show("first image", image), rect.origin,
-                  ImVec2(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y));
+    const PictureRect rect = FitPicture(origin, size, image->cols, image->rows);
+    draw.AddImage(pictures.Show("first image", image), rect.origin, rect.corner());
   }
   const std::string text = EmptyText(workspace);
   const editor::BackgroundTask* task = AwaitedTask(workspace);
@@ -501,10 +485,9 @@ void CameraView::Show(editor::Workspace& workspace,
       texture_.Upload(picture->bgr);
       uploaded_ = picture.get();
     }
-    const Rect rect = Fit(origin, size, picture->bgr.cols, picture->bgr.rows);
-    const ImVec2 corner(rect.origin.x + rect.size.x, rect.origin.y + rect.size.y);
-    draw.AddImage(ShownTexture(texture_), rect.origin, corner);
-    draw.PushClipRect(rect.origin, corner, true);
+    const PictureRect rect = FitPicture(origin, size, picture->bgr.cols, picture->bgr.rows);
+    draw.AddImage(ShownTexture(texture_), rect.origin, rect.corner());
+    draw.PushClipRect(rect.origin, rect.corner(), true);
     hovered &= !compare_slider_.Show(options.show_compare, *picture, rect.origin, rect.size,
                                      hovered, draw);
     const bool shows_stage = options.show_stage || tools.align.picking;

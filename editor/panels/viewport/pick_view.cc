@@ -269,12 +269,10 @@ void PickView::DrawImage(editor::Workspace& workspace,
   size.y -= ImGui::GetFrameHeightWithSpacing() + Px(4);
   ImGui::InvisibleButton("image", size);
   const bool hovered = ImGui::IsItemHovered();
-  const double scale = std::min(size.x / static_cast<double>(camera.width),
-                                size.y / static_cast<double>(camera.height));
-  const Vector2d extent = scale * Vector2d(camera.width, camera.height);
-  const ImageView map{ToEigen(corner) + 0.5 * (ToEigen(size) - extent), scale};
+  const PictureRect rect = FitPicture(corner, size, camera.width, camera.height);
+  const ImageView map{ToEigen(rect.origin), rect.size.x / static_cast<double>(camera.width)};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddImage(ShownTexture(texture_), ToImGui(map.origin), ToImGui(map.origin + extent));
+  draw.AddImage(ShownTexture(texture_), rect.origin, rect.corner());
   if (keyframe.grey.empty()) {
     draw.AddText(ToImGui(map.origin + Vector2d(Px(12), Px(12))), Packed(OverPicture().dim),
                  Tr("The map was made small and holds no image here."));

@@ -1,5 +1,7 @@
 #include "editor/panels/viewport/picture_textures.h"
 
+#include <algorithm>
+
 #include "editor/panels/widgets/frame_damage.h"
 #include "editor/panels/widgets/theme.h"
 
@@ -17,6 +19,15 @@ ImTextureID PictureTextures::Show(const std::string& key,
     entry.uploaded = picture;
   }
   return ShownTexture(entry.texture);
+}
+
+PictureRect FitPicture(const ImVec2& origin, const ImVec2& available, int width, int height) {
+  const float scale =
+      std::min(available.x / static_cast<float>(width), available.y / static_cast<float>(height));
+  const ImVec2 size(static_cast<float>(width) * scale, static_cast<float>(height) * scale);
+  return {
+      ImVec2(origin.x + 0.5f * (available.x - size.x), origin.y + 0.5f * (available.y - size.y)),
+      size};
 }
 
 void DrawThumbnail(PictureTextures& textures,

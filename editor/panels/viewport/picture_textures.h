@@ -30,6 +30,15 @@ class PictureTextures {
   std::map<std::string, Entry> entries_;
 };
 
+struct PictureRect {
+  ImVec2 origin;
+  ImVec2 size;
+
+  ImVec2 corner() const { return {origin.x + size.x, origin.y + size.y}; }
+};
+// The largest rectangle with a picture's aspect ratio in the middle of the available space.
+PictureRect FitPicture(const ImVec2& origin, const ImVec2& available, int width, int height);
+
 enum class ThumbnailOf { kPerson, kThing };
 
 // Draws the picture in a square with round corners, side pixels wide. Without a picture: an empty
