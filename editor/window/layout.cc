@@ -163,15 +163,14 @@ void Layout::Drop(Workspace& workspace, const panels::DroppedFile& dropped) {
 void Layout::DrawViewport(Workspace& workspace) {
   switch (options_.view) {
     case panels::ViewKind::kCamera:
-      camera_.Show(workspace, selection_, options_, tools_, pictures_, input_, actions_);
+      camera_.Show(Context(workspace));
       break;
     case panels::ViewKind::kAround:
       PaintPanelAroundRest();
-      around_->Show(workspace, selection_, options_, tools_, pictures_, input_, actions_);
+      around_->Show(Context(workspace));
       break;
     case panels::ViewKind::kPicks:
-      picks_.Show(workspace, selection_, options_, tools_.picks, tools_.check, tools_.align,
-                  input_);
+      picks_.Show(Context(workspace));
       break;
   }
 }
@@ -263,10 +262,8 @@ void Layout::DrawPanels(Workspace& workspace, PanelSizes& sizes) {
   ImGui::SameLine();
   Splitter("split inspector", true, upper, -1.0f, inspector, sizes.inspector);
   ImGui::SameLine();
-  panel(Region::kInspector, "inspector", ImVec2(Px(inspector), upper), [&] {
-    panels::DrawInspector(workspace, selection_, options_, tools_, cast_, pictures_, input_,
-                          dialogs_);
-  });
+  panel(Region::kInspector, "inspector", ImVec2(Px(inspector), upper),
+        [&] { panels::DrawInspector(Context(workspace)); });
   Splitter("split bottom", false, available.x, -1.0f, bottom, bottom_size);
   panel(Region::kBottom, "bottom", ImVec2(available.x, Px(bottom)), [&] { DrawBottom(workspace); });
   ImGui::Dummy(ImVec2(0, Px(kSplitter)));
@@ -331,7 +328,7 @@ void Layout::HandleKeys(Workspace& workspace) {
   if (bottom_ == BottomTab::kTimeline && dialogs_.shown == panels::Dialog::kNone) {
     timeline_.HandleKeys(workspace, input_, actions_);
   }
-  panels::HandleShortcuts(workspace, selection_, options_, tools_, input_, dialogs_, actions_);
+  panels::HandleShortcuts(Context(workspace));
 }
 
 void Layout::DrainActions(const Workspace& workspace) {
@@ -397,16 +394,14 @@ void Layout::Show(Workspace& workspace, Settings& settings, PanelSizes& sizes) {
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
   input_.keyboard.Begin(Region::kToolbar);
-  panels::DrawMenuBar(workspace, selection_, options_, tools_.place, input_, dialogs_, actions_,
-                      bottom_, settings);
+  panels::DrawMenuBar(Context(workspace), bottom_, settings);
   panels::DrawToolbar(workspace, options_, tools_.gizmo, dialogs_);
   DrainActions(workspace);
   input_.dialog_open = dialogs_.shown != panels::Dialog::kNone;
   DrawPanels(workspace, sizes);
   if (calibration_.is_open()) {
     calibration_.Show(workspace.project().paths(), pictures_, dialogs_.fields);
-  } else if (panels::DrawDialogs(workspace, selection_, options_, pictures_, input_, dialogs_,
-                                 actions_)) {
+  } else if (panels::DrawDialogs(Context(workspace))) {
     calibration_.Open();
   }
   film_.Show(workspace, pictures_, dialogs_);

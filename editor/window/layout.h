@@ -56,6 +56,9 @@ class Layout {
  private:
   explicit Layout(std::unique_ptr<panels::SceneView> around) : around_(std::move(around)) {}
 
+  panels::PanelContext Context(Workspace& workspace) {
+    return {workspace, selection_, options_, tools_, cast_, pictures_, input_, dialogs_, actions_};
+  }
   void HandleKeys(Workspace& workspace);
   // Carries out what the panels have requested since the last call.
   void DrainActions(const Workspace& workspace);

@@ -19,6 +19,7 @@
 #include "editor/panels/inspector/occluder_inspector.h"
 #include "editor/panels/viewport/check_point_panel.h"
 #include "editor/panels/viewport/pick_view.h"
+#include "editor/panels/viewport/view_tools.h"
 #include "editor/panels/widgets/key_state.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
@@ -526,12 +527,8 @@ constexpr DialogEntry kDialogs[] = {{Dialog::kTrain, TrLater("Train a place")},
                                     {Dialog::kLeave, TrLater("Work is not done")}};
 
 // Returns true when the user wants to calibrate the camera.
-bool DrawContent(editor::Workspace& workspace,
-                 Selection& selection,
-                 ViewOptions& options,
-                 PictureTextures& pictures,
-                 Dialogs& dialogs,
-                 EditorActions& actions) {
+bool DrawContent(const PanelContext& context) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   switch (dialogs.shown) {
     case Dialog::kTrain:
       return TrainDialog(workspace, dialogs);
@@ -694,13 +691,8 @@ void TrainRecording(editor::Workspace& workspace,
   workspace.training().TrainFrom(place.name, place.title, *recording);
 }
 
-bool DrawDialogs(editor::Workspace& workspace,
-                 Selection& selection,
-                 ViewOptions& options,
-                 PictureTextures& pictures,
-                 Input& input,
-                 Dialogs& dialogs,
-                 EditorActions& actions) {
+bool DrawDialogs(const PanelContext& context) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   if (dialogs.shown == Dialog::kNone && workspace.training().TakeNewReport()) {
     dialogs.shown = Dialog::kTrainingReport;
   }
@@ -716,8 +708,8 @@ bool DrawDialogs(editor::Workspace& workspace,
     // Copied before Escape restores the text of a field.
     const DialogFields typed = dialogs.fields;
     DrawModal(Label(Tr(entry.title), "dialog").c_str(), 520, open, [&] {
-      calibrate = DrawContent(workspace, selection, options, pictures, dialogs, actions);
-      open = dialogs.shown == entry.dialog && !calibrate;
+      calibrate = DrawContent(context);
+      open = context.dialogs.shown == entry.dialog && !calibrate;
     });
     if (!open && !calibrate && dialogs.shown == entry.dialog) {  // A dialog can open another one.
       dialogs.left[entry.dialog] = typed;

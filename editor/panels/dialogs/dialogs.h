@@ -16,16 +16,12 @@
 
 namespace lararium::panels {
 
+struct PanelContext;
+
 // Shows the open dialog, if there is one. The dialog reports invalid input; Cancel always closes
 // it. Returns true when the user wants to calibrate the camera of its recording (CalibrationDialog)
 // and then return.
-bool DrawDialogs(editor::Workspace& workspace,
-                 Selection& selection,
-                 ViewOptions& options,
-                 PictureTextures& pictures,
-                 Input& input,
-                 Dialogs& dialogs,
-                 EditorActions& actions);
+bool DrawDialogs(const PanelContext& context);
 
 // What to say of a dropped file that has no use.
 std::string UselessDropText(const std::string& name);

@@ -165,14 +165,8 @@ void AskForOnionMore(ViewOptions& options, EditorActions& actions) {
   actions.push_back(OpenOnionSettings{});
 }
 
-void ViewMenu(editor::Workspace& workspace,
-              ViewOptions& options,
-              PlaceView& place_view,
-              Input& input,
-              Dialogs& dialogs,
-              EditorActions& actions,
-              BottomTab bottom,
-              editor::Settings& settings) {
+void ViewMenu(const PanelContext& context, BottomTab bottom, editor::Settings& settings) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   const std::tuple<const char*, KeyAction, ViewKind> views[] = {
       {Tr("Through the camera"), KeyAction::kCameraView, ViewKind::kCamera},
       {Tr("Around the place"), KeyAction::kAroundView, ViewKind::kAround},
@@ -215,15 +209,15 @@ void ViewMenu(editor::Workspace& workspace,
   if (ImGui::BeginMenu(Label(Tr("Colour the points by"), "point colours").c_str())) {
     for (int i = 0; i < kPointColours; ++i) {
       const auto colour = static_cast<PointColour>(i);
-      if (ImGui::MenuItem(PointColourName(colour), nullptr, place_view.colours == colour)) {
-        place_view.colours = colour;
+      if (ImGui::MenuItem(PointColourName(colour), nullptr, tools.place.colours == colour)) {
+        tools.place.colours = colour;
         options.view = ViewKind::kAround;
       }
     }
     ImGui::EndMenu();
   }
-  if (MenuItem(Tr("Measure"), KeyAction::kMeasure, place_view.measure)) {
-    place_view.measure = !place_view.measure;
+  if (MenuItem(Tr("Measure"), KeyAction::kMeasure, tools.place.measure)) {
+    tools.place.measure = !tools.place.measure;
   }
   if (MenuItem(Tr("Handles move in steps"), KeyAction::kSnapHandles, options.snap)) {
     options.snap = !options.snap;
@@ -395,12 +389,8 @@ void Do(editor::Workspace& workspace,
   }
 }
 
-void DoInViews(editor::Workspace& workspace,
-               Selection& selection,
-               ViewOptions& options,
-               ViewTools& tools,
-               EditorActions& actions,
-               KeyAction action) {
+void DoInViews(const PanelContext& context, KeyAction action) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   switch (action) {
     case KeyAction::kCameraView:
       options.view = ViewKind::kCamera;
@@ -484,15 +474,8 @@ bool IsNoTyping(const KeyPress& press) {
 
 }  // namespace
 
-void DrawMenuBar(editor::Workspace& workspace,
-                 Selection& selection,
-                 ViewOptions& options,
-                 PlaceView& place_view,
-                 Input& input,
-                 Dialogs& dialogs,
-                 EditorActions& actions,
-                 BottomTab bottom,
-                 editor::Settings& settings) {
+void DrawMenuBar(const PanelContext& context, BottomTab bottom, editor::Settings& settings) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   if (!ImGui::BeginMenuBar()) {
     return;
   }
@@ -509,7 +492,7 @@ void DrawMenuBar(editor::Workspace& workspace,
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(Label(Tr("View"), "view").c_str())) {
-    ViewMenu(workspace, options, place_view, input, dialogs, actions, bottom, settings);
+    ViewMenu(context, bottom, settings);
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu(Label(Tr("Help"), "help").c_str())) {
@@ -566,13 +549,8 @@ void DrawToolbar(editor::Workspace& workspace,
   }
 }
 
-void HandleShortcuts(editor::Workspace& workspace,
-                     Selection& selection,
-                     ViewOptions& options,
-                     ViewTools& tools,
-                     Input& input,
-                     Dialogs& dialogs,
-                     EditorActions& actions) {
+void HandleShortcuts(const PanelContext& context) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   if (dialogs.shown != Dialog::kNone) {
     return;
   }
@@ -587,7 +565,7 @@ void HandleShortcuts(editor::Workspace& workspace,
     if (const KeyAction action = ActionOf(KeyScope::kAlways, press); action != KeyAction::kNone) {
       Do(workspace, input, dialogs, actions, action);
     } else if (!HandleLightKey(workspace, selection, options, tools.light, press)) {
-      DoInViews(workspace, selection, options, tools, actions, ActionOf(KeyScope::kViews, press));
+      DoInViews(context, ActionOf(KeyScope::kViews, press));
     }
   }
 }

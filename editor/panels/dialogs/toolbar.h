@@ -6,27 +6,13 @@
 
 namespace lararium::panels {
 
-void DrawMenuBar(editor::Workspace& workspace,
-                 Selection& selection,
-                 ViewOptions& options,
-                 PlaceView& place_view,
-                 Input& input,
-                 Dialogs& dialogs,
-                 EditorActions& actions,
-                 BottomTab bottom,
-                 editor::Settings& settings);
+void DrawMenuBar(const PanelContext& context, BottomTab bottom, editor::Settings& settings);
 void DrawToolbar(editor::Workspace& workspace,
                  ViewOptions& options,
                  GizmoTool& gizmo,
                  Dialogs& dialogs);
 
 // Ctrl+S, Ctrl+Z, Ctrl+Shift+Z, W, E, R, 1, 2, 3, Space.
-void HandleShortcuts(editor::Workspace& workspace,
-                     Selection& selection,
-                     ViewOptions& options,
-                     ViewTools& tools,
-                     Input& input,
-                     Dialogs& dialogs,
-                     EditorActions& actions);
+void HandleShortcuts(const PanelContext& context);
 
 }  // namespace lararium::panels

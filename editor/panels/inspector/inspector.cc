@@ -564,14 +564,8 @@ const Entry* FindByName(const std::vector<Entry>& entries, const std::string& na
 
 }  // namespace
 
-void DrawInspector(editor::Workspace& workspace,
-                   Selection& selection,
-                   ViewOptions& options,
-                   ViewTools& tools,
-                   CastView& cast_view,
-                   PictureTextures& pictures,
-                   Input& input,
-                   Dialogs& dialogs) {
+void DrawInspector(const PanelContext& context) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   using Kind = Selection::Kind;
   // Keeps the document alive: an edit below can replace it.
   const auto document = workspace.project().commands().snapshot();
@@ -586,7 +580,7 @@ void DrawInspector(editor::Workspace& workspace,
   }
   if (selection.kind == Kind::kActor) {
     if (const auto* member = FindByName(document->cast, name)) {
-      DrawActor(workspace, selection, cast_view, pictures, input, dialogs, *member);
+      DrawActor(workspace, selection, cast, pictures, input, dialogs, *member);
     }
     return;
   }

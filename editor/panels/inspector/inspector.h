@@ -7,13 +7,6 @@
 namespace lararium::panels {
 
 // Shows the properties of the selected object.
-void DrawInspector(editor::Workspace& workspace,
-                   Selection& selection,
-                   ViewOptions& options,
-                   ViewTools& tools,
-                   CastView& cast_view,
-                   PictureTextures& pictures,
-                   Input& input,
-                   Dialogs& dialogs);
+void DrawInspector(const PanelContext& context);
 
 }  // namespace lararium::panels

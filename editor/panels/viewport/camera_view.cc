@@ -461,13 +461,8 @@ void CameraView::DrawCorners(editor::Workspace& workspace,
   corners_.EndDrag(workspace);
 }
 
-void CameraView::Show(editor::Workspace& workspace,
-                      Selection& selection,
-                      ViewOptions& options,
-                      ViewTools& tools,
-                      PictureTextures& pictures,
-                      Input& input,
-                      EditorActions& actions) {
+void CameraView::Show(const PanelContext& context) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   ImVec2 size = ImGui::GetContentRegionAvail();
   size.y -= ImGui::GetFrameHeightWithSpacing() + Px(4);
@@ -501,16 +496,14 @@ void CameraView::Show(editor::Workspace& workspace,
       DrawCheckPoints(workspace, selection, tools.check, view, draw);
       const bool picking =
           DrawModelPoints(workspace, selection, options, tools.align, view, hovered, draw);
-      const bool walking = walks_.Show(workspace, selection, options, tools.walks, input, actions,
-                                       view, hovered && !picking, draw);
+      const bool walking = walks_.Show(context, view, hovered && !picking, draw);
       DrawGizmo(workspace, selection, options, tools.gizmo, input, view,
                 hovered && !picking && !walking, draw);
     }
     if (options.show_matches) {
       DrawTrails(*picture, rect, draw);
     }
-    light_.Show(workspace, selection, tools.light, pictures, *picture, rect.origin, rect.size,
-                hovered, draw);
+    light_.Show(context, *picture, rect.origin, rect.size, hovered, draw);
     DrawBadge(workspace, *picture, rect, draw);
     DrawCorners(workspace, selection, *picture, rect.origin, rect.size, hovered, draw);
     draw.PopClipRect();

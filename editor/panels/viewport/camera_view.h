@@ -26,13 +26,7 @@ struct OnionSettings {
 class CameraView {
  public:
   // Fills the current window.
-  void Show(editor::Workspace& workspace,
-            Selection& selection,
-            ViewOptions& options,
-            ViewTools& tools,
-            PictureTextures& pictures,
-            Input& input,
-            EditorActions& actions);
+  void Show(const PanelContext& context);
   void OpenOnionSettings() { onion_.asked = true; }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "editor/panels/inspector/light_maths.h"
 #include "editor/panels/viewport/gizmo_view.h"
+#include "editor/panels/viewport/view_tools.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "shared/geometry/glm_convert.h"
@@ -195,15 +196,14 @@ bool LightOverlay::ComparesPictures(const editor::Workspace& workspace,
          (light.histogram || light.picking == Picking::kGrey);
 }
 
-void LightOverlay::Show(editor::Workspace& workspace,
-                        const Selection& selection,
-                        LightView& light,
-                        PictureTextures& pictures,
+void LightOverlay::Show(const PanelContext& context,
                         const editor::PreviewPicture& picture,
                         const ImVec2& origin,
                         const ImVec2& size,
                         bool hovered,
                         ImDrawList& draw) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
+  LightView& light = tools.light;
   const editor::ProbeDocument* probe = SelectedProbe(workspace, selection);
   if (drags_ball_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     drags_ball_ = false;

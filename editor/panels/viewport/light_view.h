@@ -10,6 +10,8 @@
 
 namespace lararium::panels {
 
+struct PanelContext;
+
 class LightOverlay {
  public:
   // Whether it needs the camera's image alone in addition to the picture (PreviewLook::compare).
@@ -19,10 +21,7 @@ class LightOverlay {
 
   // origin, size: the picture on the screen. hovered: the pointer is over the view. Does nothing
   // where no probe is selected.
-  void Show(editor::Workspace& workspace,
-            const Selection& selection,
-            LightView& light,
-            PictureTextures& pictures,
+  void Show(const PanelContext& context,
             const editor::PreviewPicture& picture,
             const ImVec2& origin,
             const ImVec2& size,

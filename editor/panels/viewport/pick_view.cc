@@ -16,6 +16,7 @@
 #include "editor/panels/viewport/gizmo_view.h"
 #include "editor/panels/viewport/picks_list.h"
 #include "editor/panels/viewport/place_cards.h"
+#include "editor/panels/viewport/view_tools.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "editor/panels/widgets/widgets.h"
@@ -313,13 +314,8 @@ void PickView::DrawImage(editor::Workspace& workspace,
   ImGui::SetCursorScreenPos(ImVec2(corner.x, corner.y + size.y + Px(8)));
 }
 
-void PickView::Show(editor::Workspace& workspace,
-                    const Selection& selection,
-                    ViewOptions& options,
-                    PickTarget& picks,
-                    CheckView& check,
-                    AlignView& align,
-                    Input& input) {
+void PickView::Show(const PanelContext& context) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   const auto& database = workspace.map().loaded().database;
   if (workspace.project().place() == nullptr || database == nullptr ||
       database->keyframes.empty()) {
@@ -330,18 +326,18 @@ void PickView::Show(editor::Workspace& workspace,
   if (const editor::OccluderDocument* drawn = OccluderInWork(workspace, selection)) {
     DrawCornerHint(workspace, *drawn);
   } else if (const editor::CheckPointDocument* checked = SelectedCheckPoint(workspace, selection)) {
-    DrawCheckHint(workspace, check, checked->name);
-  } else if (const ModelPairInWork work = PairInWork(workspace, selection, align);
+    DrawCheckHint(workspace, tools.check, checked->name);
+  } else if (const ModelPairInWork work = PairInWork(workspace, selection, tools.align);
              work.occluder != nullptr) {
-    DrawModelHint(workspace, align, work);
+    DrawModelHint(workspace, tools.align, work);
   } else {
-    DrawAnchorButtons(workspace, picks);
+    DrawAnchorButtons(workspace, tools.picks);
   }
   const int last = static_cast<int>(database->keyframes.size()) - 1;
-  picks.keyframe = std::clamp(picks.keyframe, 0, last);
-  HandlePickKeys(workspace, selection, picks, align, input);
-  const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(picks.keyframe)];
-  DrawImage(workspace, selection, picks, align, keyframe);
+  tools.picks.keyframe = std::clamp(tools.picks.keyframe, 0, last);
+  HandlePickKeys(workspace, selection, tools.picks, tools.align, input);
+  const vision::Keyframe& keyframe = database->keyframes[static_cast<size_t>(tools.picks.keyframe)];
+  DrawImage(workspace, selection, tools.picks, tools.align, keyframe);
   std::string name = keyframe.name;
   if (keyframe.session != 0) {
     name += ", " + SessionName(*workspace.project().place(), keyframe.session);
@@ -352,10 +348,10 @@ void PickView::Show(editor::Workspace& workspace,
   const std::string longest = Text(Tr("training image %d"), last);
   const bool named = ImGui::CalcTextSize(longest.c_str()).x + Px(16) <= width;
   ImGui::SetNextItemWidth(width);
-  ImGui::SliderInt("##keyframe", &picks.keyframe, 0, last, named ? Tr("training image %d") : "%d",
-                   ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderInt("##keyframe", &tools.picks.keyframe, 0, last,
+                   named ? Tr("training image %d") : "%d", ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
-  DrawPickSteps(workspace, selection, options, picks, align, input);
+  DrawPickSteps(workspace, selection, options, tools.picks, tools.align, input);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   DimText(name);

@@ -9,6 +9,8 @@
 
 namespace lararium::panels {
 
+struct PanelContext;
+
 // The anchors, indexed by PickTarget::anchor.
 struct AnchorEntry {
   const char* label;
@@ -28,13 +30,7 @@ void DrawNewOccluder(editor::Workspace& workspace, Selection& selection, ViewOpt
 class PickView {
  public:
   // Fills the current window.
-  void Show(editor::Workspace& workspace,
-            const Selection& selection,
-            ViewOptions& options,
-            PickTarget& picks,
-            CheckView& check,
-            AlignView& align,
-            Input& input);
+  void Show(const PanelContext& context);
 
  private:
   void DrawImage(editor::Workspace& workspace,

@@ -426,13 +426,8 @@ void SceneView::Interact(PlaceView& place_view,
   }
 }
 
-void SceneView::Show(editor::Workspace& workspace,
-                     Selection& selection,
-                     ViewOptions& options,
-                     ViewTools& tools,
-                     PictureTextures& pictures,
-                     Input& input,
-                     EditorActions& actions) {
+void SceneView::Show(const PanelContext& context) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
   UpdateMap(workspace.map().loaded(), tools.place);
   UpdateColours(workspace.map().loaded(), tools.place);
   UpdateOccluders(workspace);
@@ -465,13 +460,12 @@ void SceneView::Show(editor::Workspace& workspace,
   draw.PushClipRect(origin, corner, true);
   DrawCheckPoints(workspace, selection, tools.check, view, draw);
   const auto dragging = [&] {
-    return tools.gizmo.drag.has_value() || tools.walks.drag.has_value();
+    return context.tools.gizmo.drag.has_value() || context.tools.walks.drag.has_value();
   };
   const bool was_dragging = dragging();
   const bool picking =
       DrawModelPoints(workspace, selection, options, tools.align, view, hovered, draw);
-  const bool walking = walks_.Show(workspace, selection, options, tools.walks, input, actions, view,
-                                   hovered && !picking, draw);
+  const bool walking = walks_.Show(context, view, hovered && !picking, draw);
   const bool wanted = DrawGizmo(workspace, selection, options, tools.gizmo, input, view,
                                 hovered && !picking && !walking, draw) ||
                       walking;

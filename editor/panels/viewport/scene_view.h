@@ -26,13 +26,7 @@ class SceneView {
   ~SceneView();
 
   // Fills the current window.
-  void Show(editor::Workspace& workspace,
-            Selection& selection,
-            ViewOptions& options,
-            ViewTools& tools,
-            PictureTextures& pictures,
-            Input& input,
-            EditorActions& actions);
+  void Show(const PanelContext& context);
 
  private:
   explicit SceneView(std::unique_ptr<render::Overlay> overlay);

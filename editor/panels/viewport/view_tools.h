@@ -11,6 +11,9 @@
 
 namespace lararium::panels {
 
+struct CastView;
+struct Dialogs;
+
 struct ViewTools {
   GizmoTool gizmo;
   PickTarget picks;
@@ -19,6 +22,19 @@ struct ViewTools {
   CheckView check;
   AlignView align;
   LightView light;
+};
+
+// What the panels share in a frame. Functions take their parts by structured binding.
+struct PanelContext {
+  editor::Workspace& workspace;
+  Selection& selection;
+  ViewOptions& options;
+  ViewTools& tools;
+  CastView& cast;
+  PictureTextures& pictures;
+  Input& input;
+  Dialogs& dialogs;
+  EditorActions& actions;
 };
 
 }  // namespace lararium::panels

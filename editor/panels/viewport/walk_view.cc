@@ -12,6 +12,7 @@
 
 #include "editor/panels/viewport/gizmo_view.h"
 #include "editor/panels/viewport/place_picking.h"
+#include "editor/panels/viewport/view_tools.h"
 #include "editor/panels/widgets/text.h"
 #include "editor/panels/widgets/theme.h"
 #include "shared/stage/actor.h"
@@ -502,15 +503,12 @@ void WalkView::Draw(const Shown& walk,
   }
 }
 
-bool WalkView::Show(editor::Workspace& workspace,
-                    const Selection& selection,
-                    const ViewOptions& options,
-                    WalkHandles& walks,
-                    Input& input,
-                    EditorActions& actions,
+bool WalkView::Show(const PanelContext& context,
                     const ViewCamera& view,
                     bool hovered,
                     ImDrawList& draw) {
+  auto [workspace, selection, options, tools, cast, pictures, input, dialogs, actions] = context;
+  WalkHandles& walks = tools.walks;
   if (workspace.project().place() == nullptr) {
     return false;
   }

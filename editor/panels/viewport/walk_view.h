@@ -21,6 +21,8 @@
 
 namespace lararium::panels {
 
+struct PanelContext;
+
 // The walks that the views show, and the end that is being moved.
 struct WalkHandles {
   // The selection in the timeline, if it is a single item or a single task of the dry run.
@@ -51,15 +53,7 @@ class WalkView {
   // Shows the walk that is selected in the timeline and, with thinner lines, other walks of that
   // person and walks of the selected person. hovered: the pointer is over the view. Returns true
   // while the ends use the pointer.
-  bool Show(editor::Workspace& workspace,
-            const Selection& selection,
-            const ViewOptions& options,
-            WalkHandles& walks,
-            Input& input,
-            EditorActions& actions,
-            const ViewCamera& view,
-            bool hovered,
-            ImDrawList& draw);
+  bool Show(const PanelContext& context, const ViewCamera& view, bool hovered, ImDrawList& draw);
 
  private:
   using Handle = WalkHandles::Handle;
