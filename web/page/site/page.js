@@ -8,7 +8,7 @@ import {keyOf} from './keys.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
 import {Place} from './place.js';
 import {canShowRoom, Room} from './room.js';
-import {DRAMA, GUIDE, LANGUAGES, PERSON, reasonOf, Show, SHOW, THINGS, VOICES} from './show.js';
+import {DRAMA, GUIDE, LANGUAGES, PERSON, Show, SHOW, THINGS, VOICES} from './show.js';
 import {Sound} from './sound.js';
 import {firstKnown, KNOWN, menuText, sentence, setLanguage} from './texts.js';
 
@@ -61,7 +61,7 @@ function showProblem(error) {
     showCard(error.message, sentence('again'), start);
   } else {
     console.error(error);
-    showCard(`${sentence('failed')} ${reasonOf(error)}`, sentence('reload'), () => location.reload());
+    showCard(`${sentence('failed')} ${error.message}`, sentence('reload'), () => location.reload());
   }
 }
 

@@ -2,7 +2,7 @@
 import {openCamera, readImage} from './camera.js';
 import {compileProgram, Folder} from './folder.js';
 import {Place} from './place.js';
-import {reasonOf, Show, SHOW} from './show.js';
+import {Show, SHOW} from './show.js';
 
 const CAMERA_SECONDS = 10;
 const DRAWN_PICTURES = 20;
@@ -120,14 +120,20 @@ async function testDrawing(show) {
 
 function describeCamera(track) {
   const {width, height, frameRate} = track.getSettings();
-  say('camera', `${track.label || 'not named'}, ${width}x${height}, ${Math.round(frameRate)} images a second`);
+  say('camera', `${track.label || 'not named'}, ${width}x${height}, ${frameRate === undefined ? 'rate not told' : `${Math.round(frameRate)} images a second`}`);
   const able = track.getCapabilities?.() ?? {};
   if (able.width !== undefined) {
     say('camera at most', `${able.width.max}x${able.height.max}, ${Math.round(able.frameRate?.max ?? 0)} images a second`);
   }
 }
 
-const nextImage = () => new Promise((resolve) => video.requestVideoFrameCallback((now, image) => resolve(image)));
+const nextImage = () => new Promise((resolve, reject) => {
+  const missing = setTimeout(() => reject(new Error('the camera sends no images')), 1000 * CAMERA_SECONDS);
+  video.requestVideoFrameCallback((now, image) => {
+    clearTimeout(missing);
+    resolve(image);
+  });
+});
 
 async function testCamera({show, place}, begun) {
   const stream = await openCamera();
@@ -207,7 +213,7 @@ async function test() {
     describeMemory(loaded.show);
     doing.textContent = 'Done. Copy the report, and send it to the people who look after the show.';
   } catch (error) {
-    const reason = reasonOf(error);
+    const reason = error?.message ?? String(error);
     say('ended early', reason);
     doing.textContent = `The test ended early: ${reason}`;
   }

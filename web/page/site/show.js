@@ -10,12 +10,6 @@ export const [GUIDE, DRAMA, PERSON, THINGS, VOICES, SHOW, LANGUAGES] = [0, 1, 2,
 // The wishes of the staff for a group's drama (GroupWish::What).
 export const WISHES = ['hold', 'resume', 'go_to', 'restart'];
 
-// The reason of an error for people. Some versions of WebKit let exceptions of WebAssembly pass the program's own handlers.
-export function reasonOf(error) {
-  return error instanceof WebAssembly.Exception ? 'this browser does not run the program rightly; update it, or use another one'
-    : error?.message ?? String(error);
-}
-
 function hourNow() {
   const now = new Date();
   return now.getHours() + now.getMinutes() / 60;
