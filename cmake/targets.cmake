@@ -88,6 +88,15 @@ function(lararium_test name)
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
 endfunction()
 
+# lararium_thorough_test(NAME TIMEOUT seconds): a test's tests once more with the label slow, where test::IsThorough()
+# (tests/support/thorough.h) is true.
+function(lararium_thorough_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "" ${ARGN})
+  string(REGEX REPLACE "_test$" "" room ${name})
+  lararium_test_program(${name} slow ${room}/slow "*" "${arg_TIMEOUT}")
+  set_tests_properties(${room}/slow PROPERTIES ENVIRONMENT LARARIUM_THOROUGH=1)
+endfunction()
+
 function(lararium_test_program name label test filter seconds)
   if(NOT seconds)
     set(seconds 1200)

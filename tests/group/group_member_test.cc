@@ -1,4 +1,4 @@
-// Groups of simulated devices: LARARIUM_GROUP_SECONDS is how long the long test plays.
+// Groups of simulated devices.
 
 #include "shared/group/group_member.h"
 
@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "tests/group/simulated_group.h"
+#include "tests/support/thorough.h"
 
 namespace lararium::group {
 namespace {
@@ -20,8 +21,10 @@ const SimulatedGroup::Network kBad = {
     .delays = {2'000, 10'000, 20'000, 30'000, 40'000, 50'000, 65'000, 80'000},
     .jitter = 8'000,
     .loss = 0.02};
+// How long the longest test plays.
+const int kSeconds = test::IsThorough() ? 600 : 12;
 // How long a broker is away; a split lasts twice as long.
-constexpr double kAway = std::clamp(LARARIUM_GROUP_SECONDS / 3.0, 4.0, 30.0);
+const double kAway = test::IsThorough() ? 30.0 : 4.0;
 const SimulatedGroup::Network kGood = {.delays = {2'000}, .jitter = 1'000, .loss = 0.0};
 
 double Percentile95(std::vector<double> values) {
@@ -75,7 +78,7 @@ TEST(Group, OfEightInABadNetworkPlaysOneDrama) {
   group.Play(4.0);
   std::vector<double> spreads;
   int events = 0;
-  for (int second = 0; second < LARARIUM_GROUP_SECONDS; ++second) {
+  for (int second = 0; second < kSeconds; ++second) {
     if (second % 3 == 0) {
       group.device(static_cast<size_t>(events) % 8).keys = events % 2 == 0 ? "a" : "/door,1";
       ++events;
@@ -92,12 +95,12 @@ TEST(Group, OfEightInABadNetworkPlaysOneDrama) {
   std::printf(
       "%d s, %d keys: p95 of the largest difference %.1f ms, worst %.1f ms; %zu states "
       "compared, %zu differ; log %zu entries; %.1f kB/s\n",
-      LARARIUM_GROUP_SECONDS, events, 1e3 * Percentile95(spreads),
+      kSeconds, events, 1e3 * Percentile95(spreads),
       1e3 * *std::max_element(spreads.begin(), spreads.end()), group.Compare().compared,
       group.Compare().different, group.device(0).member().log().size(),
       1e-3 * static_cast<double>(group.bytes_sent()) / group.now());
   EXPECT_LE(Percentile95(spreads), 0.02);
-  EXPECT_GE(group.Compare().compared + 10, static_cast<size_t>(LARARIUM_GROUP_SECONDS));
+  EXPECT_GE(group.Compare().compared + 10, static_cast<size_t>(kSeconds));
   EXPECT_EQ(group.Compare().different, 0u);
   EXPECT_EQ(Leaders(group), 1);
   EXPECT_EQ(backwards, 0);
@@ -111,7 +114,7 @@ TEST(Group, TakesLateDevicesInWithinASecondOfHearingThem) {
   for (int i = 0; i < 4; ++i) {
     group.Add();
   }
-  group.Play(LARARIUM_GROUP_SECONDS * 0.7);
+  group.Play(kSeconds * 0.7);
   group.Add();
   const double took = SecondsUntilInStep(group, 10.0);
   std::printf("in step after %.2f s\n", took);
@@ -175,8 +178,8 @@ TEST(Group, GoesOnWithoutItsBrokerAndIsInStepAgain) {
 
 TEST(Group, ThatWasSplitBecomesOneWithTheLargerSide) {
   SimulatedGroup group(kBad, 5);
-  constexpr size_t kDevices = LARARIUM_GROUP_SECONDS < 100 ? 5 : 8;
-  constexpr size_t kCut = kDevices * 3 / 8;  // The leader is one of these.
+  const size_t kDevices = test::IsThorough() ? 8 : 5;
+  const size_t kCut = kDevices * 3 / 8;  // The leader is one of these.
   for (size_t i = 0; i < kDevices; ++i) {
     group.Add();
     group.Play(0.5);
