@@ -15,6 +15,7 @@
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/quality.h"
 #include "shared/stage/place.h"
+#include "shared/vision/foreground/foreground_mask.h"
 #include "shared/vision/pose_smoother.h"
 
 namespace lararium::web {
@@ -59,15 +60,17 @@ vision::TrackedFrame ParseTracked(std::span<const double> numbers) {
 
 }  // namespace
 
-// Gives the smoother the poses that another worker has found.
+// Gives the smoother the poses that another worker has found, and the mask the points.
 class GivenPoses final : public vision::PoseSource {
  public:
   vision::TrackedFrame Track(const geometry::Frame& frame) override {
     next.frame = frame;
     return std::move(next);
   }
+  void Seen(std::vector<vision::SeenPoint>& seen) const override { seen = points; }
 
   vision::TrackedFrame next;
+  std::vector<vision::SeenPoint> points;
 };
 
 PageShow::PageShow(bundle::Bundle bundle)
@@ -333,8 +336,9 @@ Status PageShow::Start(show::ShowContent content, bool together) {
   }
   auto given = std::make_unique<GivenPoses>();
   given_ = given.get();
-  smoothed_ =
-      vision::Smooth(std::move(given), show::Maps(content.places), vision::Smoothing::kSoft);
+  const auto maps = show::Maps(content.places);
+  smoothed_ = vision::Smooth(vision::WithForeground(std::move(given), maps), maps,
+                             vision::Smoothing::kSoft);
   LARARIUM_ASSIGN_OR_RETURN(
       renderer_, show::ShowRenderer::Create(content, render::QualityLadder()[quality_.level()]));
   LARARIUM_ASSIGN_OR_RETURN(std::unique_ptr<show::Show> show, Make(std::move(content), together));
@@ -387,17 +391,20 @@ double* PageShow::NewSeen(size_t count) {
   return seen_numbers_.data();
 }
 
-std::array<float, 3> PageShow::EstimateGain(uint32_t map) {
-  const vision::SceneDatabase& database = *show_->content().places[map].map;
-  seen_.clear();
+void PageShow::TakeTracked(std::span<const double> numbers) {
+  vision::TrackedFrame& next = given_->next;
+  next = ParseTracked(numbers);
+  const vision::SceneDatabase& map = *show_->content().places[next.map].map;
+  std::vector<vision::SeenPoint>& seen = given_->points;
+  seen.clear();
   for (size_t i = 0; i + 2 < seen_numbers_.size(); i += 3) {
     const auto point = static_cast<uint32_t>(seen_numbers_[i]);
-    CHECK(point < database.points.size());  // The tracker has the same maps.
-    seen_.push_back(
+    CHECK(point < map.points.size());  // The tracker has the same maps.
+    seen.push_back(
         {point, Eigen::Vector2d(seen_numbers_[i + 1], seen_numbers_[i + 2]).cast<float>()});
   }
-  gain_ = gain_estimator_.Estimate(frame_.bgr, database, seen_).value_or(gain_);
-  return gain_;
+  gain_ = gain_estimator_.Estimate(frame_.bgr, map, seen).value_or(gain_);
+  next.gain = gain_;
 }
 
 Status PageShow::SetSize(int width, int height) {
@@ -453,12 +460,12 @@ Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
                                                          : cv::COLOR_RGBA2BGR;
   // The pixels of the frame before may still be needed.
   frame_.bgr.release();
+  frame_.grey.release();
   cv::cvtColor(image_.pixels, frame_.bgr, code);
+  cv::cvtColor(frame_.bgr, frame_.grey, cv::COLOR_BGR2GRAY);
   ++frame_.index;
   frame_.capture_time = SinceBegun(moment.seconds);
-  vision::TrackedFrame& next = given_->next;
-  next = ParseTracked(tracked);
-  next.gain = EstimateGain(next.map);
+  TakeTracked(tracked);
   if (std::exchange(view_, std::nullopt)) {
     show_->input().ForgetPose();
   }

@@ -192,8 +192,9 @@ class PageShow {
   Status Present(vision::TrackedFrame tracked,
                  const Moment& moment,
                  std::chrono::steady_clock::time_point start);
-  // Brightness of the image over the map's photometric reference.
-  std::array<float, 3> EstimateGain(uint32_t map);
+  // Gives the next pose of smoothed_ and the points seen, with the image's brightness over the
+  // map's photometric reference. numbers: see kTrackedNumbers.
+  void TakeTracked(std::span<const double> numbers);
   Status SetSize(int width, int height);
   // start: when work on the picture began.
   void ChooseQuality(std::chrono::steady_clock::time_point start, const Moment& moment);
@@ -228,7 +229,6 @@ class PageShow {
   show::StageAnchor anchor_;
   uint32_t anchored_ = 0;  // The place where anchor_ was measured last.
   std::vector<double> seen_numbers_;
-  std::vector<vision::SeenPoint> seen_;
   CameraImage image_;
   geometry::Frame frame_;
   show::StagedFrame staged_;
