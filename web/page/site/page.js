@@ -197,10 +197,11 @@ const openFolder = once(async () => {
   return folder;
 });
 
+const compilePrograms = once(() => Promise.all(['module.wasm', 'lararium-tracker/module.wasm'].map(compileProgram)));
+
 // Loads what tracking and the guide need.
 const load = once(async () => {
-  const [folder, program, trackerProgram] = await Promise.all(
-    [openFolder(), compileProgram('module.wasm'), compileProgram('lararium-tracker/module.wasm')]);
+  const [folder, [program, trackerProgram]] = await Promise.all([openFolder(), compilePrograms()]);
   const show = await folder.openShow(Show, program);
   const languages = choices.languagesFor(about);
   await folder.supply(show, GUIDE, languages, counting(folder.bytesOf(show, GUIDE, languages), showProgress));
@@ -594,8 +595,10 @@ canShowRoom().then((possible) => {
 writeTexts();
 applyChoices();
 showTitle();
+// While visitors read the title, the programs arrive. Starting says what is wrong.
 openFolder().then(() => {
   if (go.onclick === start && !go.hidden && visit === undefined) {
     showTitle();
   }
-}, () => {});  // Starting says what is wrong.
+  return compilePrograms();
+}).catch(() => {});

@@ -50,7 +50,7 @@ async function load() {
   const start = performance.now();
   const folder = await Folder.open();
   say('show', folder.about.title);
-  const [program, trackerProgram] = await Promise.all(['module.wasm', 'lararium-tracker/module.wasm'].map((url) => compileProgram(url)));
+  const [program, trackerProgram] = await Promise.all(['module.wasm', 'lararium-tracker/module.wasm'].map(compileProgram));
   const show = await folder.openShow(Show, program);
   await folder.supply(show, SHOW, LANGUAGES);
   say('files and programs', `${(since(start) / 1000).toFixed(1)} s`);
