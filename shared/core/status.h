@@ -75,11 +75,11 @@ class [[nodiscard]] Result {
 }  // namespace lararium
 
 // Returns from the calling function when expression (a Status) failed.
-#define LARARIUM_RETURN_IF_ERROR(expression)                        \
-  do {                                                              \
-    if (::lararium::Status status_ = (expression); !status_.ok()) { \
-      return status_;                                               \
-    }                                                               \
+#define LARARIUM_RETURN_IF_ERROR(expression)                                        \
+  do {                                                                              \
+    if (::lararium::Status lararium_failed = (expression); !lararium_failed.ok()) { \
+      return lararium_failed;                                                       \
+    }                                                                               \
   } while (false)
 
 #define LARARIUM_CONCAT_INNER(a, b) a##b
