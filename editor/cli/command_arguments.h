@@ -1,6 +1,6 @@
 #pragma once
 
-// What several subcommands do with their arguments.
+// Functions by which several subcommands read their arguments.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

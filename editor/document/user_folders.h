@@ -42,7 +42,7 @@ Result<T> LoadUserFile(const std::filesystem::path& file,
   return value.ok() ? std::move(value) : SetAside(file, value.status(), remedy);
 }
 
-// Writes it, and the folder where that is missing.
+// Writes a JSON file of the user's, and its folder where that is missing.
 template <typename T>
 Status SaveUserFile(const std::filesystem::path& file,
                     const T& value,

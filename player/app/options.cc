@@ -371,7 +371,7 @@ void CheckAddress(const char* option, const std::string& address) {
   Refuse(!parsed.ok(), option, parsed.status().message());
 }
 
-// What playing and the doctor have in common.
+// Checks the options that playing and the doctor have in common.
 void CheckScreen(const std::string& page,
                  const std::optional<Display>& display,
                  const render::GraphicsChoice& graphics) {

@@ -24,7 +24,8 @@ class HostTable {
       return RuntimeOf(lua).CallRecorded(lua, index, kFunction);
     });
   }
-  // Adds a function of coroutines and time only. It is called again in a replay.
+  // Adds a function of coroutines and time, or of what never changes. It is called again in a
+  // replay.
   template <HostFunction kFunction>
   void AddOwn(const char* name) {
     Push(name, [](lua_State* lua) { return kFunction(RuntimeOf(lua), lua); });

@@ -23,7 +23,8 @@ std::optional<Eigen::Vector3d> TriangulatePoint(std::span<const Rigid3> camera_f
 double TriangulationAngle(const Eigen::Vector3d& center_a,
                           const Eigen::Vector3d& center_b,
                           const Eigen::Vector3d& point);
-// The widest one of any two of the centres; 0 for fewer than two.
+// Returns the widest triangulation angle at `point`, radians, of any two of the centres; 0 for
+// fewer than two.
 double WidestAngle(std::span<const Eigen::Vector3d> centers, const Eigen::Vector3d& point);
 
 }  // namespace lararium::geometry

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the simulations of cloth.cc and spring.cc have in common: checks of what comes in and of
-// what comes out, and steps of equal length in frames of any length. Internal to shared/human.
+// The simulations of cloth.cc and spring.cc share these checks of what comes in and of what comes
+// out, and steps of equal length in frames of any length. Internal to shared/human.
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,8 @@ inline constexpr float kFadeSeconds = 0.4f;    // Duration of the fade to and fr
 inline constexpr float kSettlingSeconds = 2.0f;
 inline constexpr float kQuietSpeed = 0.02f;  // m/s
 
+// Returns false for matrices that are not finite, a scale outside 0.0001 to 10000, an actor farther
+// than 1000 km from the stage's origin or a joint farther than 1 km from the actor's.
 inline bool IsPossible(const glm::mat4& stage_from_actor,
                        std::span<const glm::mat4> actor_from_joint,
                        float elapsed) {
@@ -30,6 +32,7 @@ inline bool IsPossible(const glm::mat4& stage_from_actor,
          });
 }
 
+// Returns false if a place or a velocity of any particle is infinite or not a number.
 inline bool AllFinite(std::span<const Float4> places, std::span<const Float4> velocities) {
   Float4 sum;
   for (size_t i = 0; i < places.size(); ++i) {
@@ -39,6 +42,7 @@ inline bool AllFinite(std::span<const Float4> places, std::span<const Float4> ve
 }
 
 // Calls take(share) for each step of the next `elapsed` seconds; share is 1 at the end of them.
+// pending: seconds that no step has taken yet, which the next call begins with.
 template <typename Take>
 void TakeSteps(double step, float elapsed, double& pending, const Take& take) {
   const double before = pending;

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
+#include <glm/vec2.hpp>
 
 #include "shared/core/check.h"
 #include "shared/light/octahedral.h"

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-// Counts allocations by operator new. A program that links this library has its
-// global allocator replaced: use it only in separate test programs.
+// Counts allocations by operator new, and in one thread also calls of malloc. A program that links
+// this library has its global allocator replaced: use it only in separate test programs.
 
 namespace lararium::test {
 

@@ -4,7 +4,7 @@
 
 namespace lararium::test {
 
-// Whether tests may take minutes: those with the label slow (lararium_thorough_test in
+// Returns true where tests may take minutes: those with the label slow (lararium_thorough_test in
 // cmake/targets.cmake).
 inline bool IsThorough() { return std::getenv("LARARIUM_THOROUGH") != nullptr; }
 

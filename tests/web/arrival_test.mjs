@@ -1,6 +1,6 @@
 // node arrival_test.mjs PAGE CHROMIUM WORK_FOLDER EDITOR PROJECT VIDEO
-// What a visitor's phone fetches of the sample at 20 Mbit/s: the bytes until the camera is tracked, until the first person stands
-// there, and of the whole show in one language; prints the seconds. Status 77: something that the test needs is absent.
+// Counts what a visitor's phone fetches of the sample at 20 Mbit/s: the bytes until the camera is tracked, until the first person
+// stands there, and of the whole show in one language; prints the seconds. Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {existsSync, mkdirSync, statSync} from 'node:fs';
 import {exportFolder, fileIn, serve, skipWithout, sleep} from './needs.mjs';

@@ -1,6 +1,6 @@
 // node foreground_test.mjs PLAYER EDITOR PAGE CHROMIUM WORK_FOLDER PROJECT SHOW VIDEO
-// What stands before the place hides people in the page, where the native player finds it, too: the images of a video in which a hand
-// comes before the camera. Writes screenshots. Status 77: something that the test needs is absent.
+// The page hides people behind what stands before the place, where the native player finds it, too: in a video, a hand comes before
+// the camera. Writes both pictures. Status 77: something that the test needs is absent.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
@@ -29,9 +29,9 @@ const server = await serve((path) => path === '/mask.png' ? mask : path.startsWi
 // Runs in the page: plays the images, draws the last one with the points that were seen and without them, as if no foreground could
 // be known, and returns how many pixels differ, how many of these are in the mask, and both pictures.
 async function play(images) {
-  const [{compileProgram, Folder}, {Place}, {Show, SHOW}] = await Promise.all(['folder', 'place', 'show'].map((name) => import(`/${name}.js`)));
+  const [{compilePrograms, Folder}, {Place}, {Show, SHOW}] = await Promise.all(['folder', 'place', 'show'].map((name) => import(`/${name}.js`)));
   const folder = await Folder.open();
-  const [program, trackerProgram] = await Promise.all(['module.wasm', 'lararium-tracker/module.wasm'].map((url) => compileProgram(url)));
+  const [program, trackerProgram] = await compilePrograms();
   const show = await folder.openShow(Show, program);
   const languages = {spoken: '', captions: ''};
   await folder.supply(show, SHOW, languages);

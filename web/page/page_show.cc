@@ -496,6 +496,7 @@ Status PageShow::DrawView(size_t index, const Moment& moment) {
   const Clock::time_point start = Clock::now();
   const vision::Keyframe& keyframe = KeyframeOf(views_[index]);
   frame_.bgr.release();
+  frame_.grey.release();
   cv::cvtColor(keyframe.grey, frame_.bgr, cv::COLOR_GRAY2BGR);
   ++frame_.index;
   frame_.capture_time = SinceBegun(moment.seconds);
@@ -538,6 +539,7 @@ Status PageShow::DrawInRoom(std::span<const RoomView> views,
   }
   const Clock::time_point start = Clock::now();
   frame_.bgr.release();
+  frame_.grey.release();
   ++frame_.index;
   frame_.capture_time = SinceBegun(moment.seconds);
   const auto eye_from_stage = [this](const RoomView& view) {

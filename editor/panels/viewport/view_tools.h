@@ -24,7 +24,7 @@ struct ViewTools {
   LightView light;
 };
 
-// What the panels share in a frame. Functions take their parts by structured binding.
+// The values that panels share in a frame. Functions take their parts by structured binding.
 struct PanelContext {
   editor::Workspace& workspace;
   Selection& selection;

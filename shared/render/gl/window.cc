@@ -260,6 +260,7 @@ bool Window::TakeClose() {
   glfwSetWindowShouldClose(state_->window.get(), GLFW_FALSE);
   return asked;
 }
+
 Window::Size Window::framebuffer_size() const {
   Size size;
   glfwGetFramebufferSize(state_->window.get(), &size.width, &size.height);

@@ -1,8 +1,9 @@
 #pragma once
 
 // Pixels that an object may cover. Drawing is limited to them, which saves most of the bandwidth
-// of multisampling. Private to render.
+// of multisampling. Boxes also bound what blocks light (shared/show, editor/bake).
 
+#include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

@@ -32,11 +32,14 @@ export async function unpack(blob) {
 }
 
 // Compiles a program, which folders hold compressed and the build does not.
-export async function compileProgram(url) {
+async function compileProgram(url) {
   const blob = await fetchBytes(url);
   const [first, second] = new Uint8Array(await blob.slice(0, 2).arrayBuffer());
   return WebAssembly.compile(first === 0x1f && second === 0x8b ? await unpack(blob) : await blob.arrayBuffer());
 }
+
+// Compiles the show's program and the tracker's.
+export const compilePrograms = () => Promise.all(['module.wasm', 'lararium-tracker/module.wasm'].map((url) => compileProgram(url)));
 
 export class Folder {
   // What the show is, is known at once; openShow() verifies it.

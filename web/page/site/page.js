@@ -2,7 +2,7 @@
 import {openCamera, Problem, readImage} from './camera.js';
 import {showTexts} from './captions.js';
 import {Choices, OFF} from './choices.js';
-import {compileProgram, Folder} from './folder.js';
+import {compilePrograms, Folder} from './folder.js';
 import {keep} from './keep.js';
 import {keyOf} from './keys.js';
 import {closeMenu, fillMenu, fillSelect, languageOption, openMenu} from './menu.js';
@@ -61,7 +61,7 @@ function showProblem(error) {
     showCard(error.message, sentence('again'), start);
   } else {
     console.error(error);
-    showCard(`${sentence('failed')} ${error.message}`, sentence('reload'), () => location.reload());
+    showCard(`${sentence('failed')} ${error?.message ?? String(error)}`, sentence('reload'), () => location.reload());
   }
 }
 
@@ -197,11 +197,11 @@ const openFolder = once(async () => {
   return folder;
 });
 
-const compilePrograms = once(() => Promise.all(['module.wasm', 'lararium-tracker/module.wasm'].map(compileProgram)));
+const fetchPrograms = once(compilePrograms);
 
 // Loads what tracking and the guide need.
 const load = once(async () => {
-  const [folder, [program, trackerProgram]] = await Promise.all([openFolder(), compilePrograms()]);
+  const [folder, [program, trackerProgram]] = await Promise.all([openFolder(), fetchPrograms()]);
   const show = await folder.openShow(Show, program);
   const languages = choices.languagesFor(about);
   await folder.supply(show, GUIDE, languages, counting(folder.bytesOf(show, GUIDE, languages), showProgress));
@@ -595,10 +595,10 @@ canShowRoom().then((possible) => {
 writeTexts();
 applyChoices();
 showTitle();
-// While visitors read the title, the programs arrive. Starting says what is wrong.
 openFolder().then(() => {
   if (go.onclick === start && !go.hidden && visit === undefined) {
     showTitle();
   }
-  return compilePrograms();
-}).catch(() => {});
+}, () => {});  // Starting says what is wrong.
+// The programs arrive while visitors read the title.
+fetchPrograms().catch(() => {});

@@ -1,6 +1,6 @@
 // Measures how well a device plays the show, and writes a report as text.
 import {openCamera, readImage} from './camera.js';
-import {compileProgram, Folder} from './folder.js';
+import {compilePrograms, Folder} from './folder.js';
 import {Place} from './place.js';
 import {Show, SHOW} from './show.js';
 
@@ -50,7 +50,7 @@ async function load() {
   const start = performance.now();
   const folder = await Folder.open();
   say('show', folder.about.title);
-  const [program, trackerProgram] = await Promise.all(['module.wasm', 'lararium-tracker/module.wasm'].map(compileProgram));
+  const [program, trackerProgram] = await compilePrograms();
   const show = await folder.openShow(Show, program);
   await folder.supply(show, SHOW, LANGUAGES);
   say('files and programs', `${(since(start) / 1000).toFixed(1)} s`);
