@@ -430,6 +430,11 @@ double PageShow::SinceBegun(double seconds) {
   return seconds - *begun_;
 }
 
+void PageShow::BeginFrame(const Moment& moment) {
+  frame_ = {
+      .index = frame_.index + 1, .capture_time = SinceBegun(moment.seconds), .bgr = {}, .grey = {}};
+}
+
 void PageShow::StageImage(vision::TrackedFrame tracked, const Moment& moment) {
   show_->input().SetHour(moment.hour);
   show_->StageFrame(std::move(tracked), frame_.capture_time, staged_);
@@ -458,13 +463,9 @@ Status PageShow::Draw(std::span<const double> tracked, const Moment& moment) {
   const int code = image_.format == PixelFormat::kI420   ? cv::COLOR_YUV2BGR_I420
                    : image_.format == PixelFormat::kNv12 ? cv::COLOR_YUV2BGR_NV12
                                                          : cv::COLOR_RGBA2BGR;
-  // The pixels of the frame before may still be needed.
-  frame_.bgr.release();
-  frame_.grey.release();
+  BeginFrame(moment);
   cv::cvtColor(image_.pixels, frame_.bgr, code);
   cv::cvtColor(frame_.bgr, frame_.grey, cv::COLOR_BGR2GRAY);
-  ++frame_.index;
-  frame_.capture_time = SinceBegun(moment.seconds);
   TakeTracked(tracked);
   if (std::exchange(view_, std::nullopt)) {
     show_->input().ForgetPose();
@@ -495,11 +496,8 @@ void PageShow::FindViews() {
 Status PageShow::DrawView(size_t index, const Moment& moment) {
   const Clock::time_point start = Clock::now();
   const vision::Keyframe& keyframe = KeyframeOf(views_[index]);
-  frame_.bgr.release();
-  frame_.grey.release();
+  BeginFrame(moment);
   cv::cvtColor(keyframe.grey, frame_.bgr, cv::COLOR_GRAY2BGR);
-  ++frame_.index;
-  frame_.capture_time = SinceBegun(moment.seconds);
   vision::TrackedFrame tracked;
   tracked.frame = frame_;
   tracked.state = vision::TrackState::kTracking;
@@ -538,10 +536,7 @@ Status PageShow::DrawInRoom(std::span<const RoomView> views,
     return Status();
   }
   const Clock::time_point start = Clock::now();
-  frame_.bgr.release();
-  frame_.grey.release();
-  ++frame_.index;
-  frame_.capture_time = SinceBegun(moment.seconds);
+  BeginFrame(moment);
   const auto eye_from_stage = [this](const RoomView& view) {
     return view.room_from_eye.Inverse() * *anchor_.room_from_stage();
   };

@@ -186,6 +186,9 @@ class PageShow {
   const vision::Keyframe& KeyframeOf(const View& view) const {
     return show_->content().places[view.place].map->keyframes[view.keyframe];
   }
+  // Makes frame_ the next frame, without pixels, because those of the one before may still be
+  // needed.
+  void BeginFrame(const Moment& moment);
   // Steps the drama and its sound to the image in frame_.
   void StageImage(vision::TrackedFrame tracked, const Moment& moment);
   // Stages and draws an image that is in frame_ already. start: when work on it began.
