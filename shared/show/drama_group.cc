@@ -69,7 +69,7 @@ GroupSeat::~GroupSeat() {
 
 void GroupSeat::Tell(const drama::Visitor& own, bool restart) {
   const std::lock_guard lock(group_.mutex_);
-  DramaGroup::Own& told = group_.own_ ? *group_.own_ : group_.own_.emplace();
+  DramaGroup::Own& told = group_.own_ ? *group_.own_ : group_.own_.emplace(DramaGroup::Own{});
   std::string keys = std::move(told.visitor.keys);
   std::string_view more = own.keys;
   for (std::string_view key = drama::TakeKey(more); !key.empty(); key = drama::TakeKey(more)) {

@@ -363,7 +363,7 @@ class UseDescription {
                    key.time = static_cast<float>(last);
                    DescribePose(fields, "at", key.pose);
                  });
-    fields_.Object("seat", action.seat, [](Fields& fields, ObjectAction::Seat& seat) {
+    fields_.Object("seat", action.seat, [](Fields& fields, ObjectSeat& seat) {
       DescribeVector(fields, "at", seat.position);
       seat.heading = DescribeHeading(fields);
     });

@@ -94,6 +94,11 @@ struct StateSound {
   float gain_db = 0.0f;
 };
 
+struct ObjectSeat {
+  glm::vec3 position = glm::vec3(0.0f);  // Point of its surface below the hips, object frame.
+  float heading = 0.0f;
+};
+
 struct ObjectAction {
   // Moves a joint to a value during seconds begin..end of the action.
   struct Move {
@@ -108,12 +113,6 @@ struct ObjectAction {
     float time = 0.0f;
     Pose pose;
   };
-  struct Seat {
-    glm::vec3 position =
-        glm::vec3(0.0f);  // Point of the seat's surface below the hips, object frame.
-    float heading = 0.0f;
-  };
-
   std::string name;
   uint32_t from = ~0u;    // Bit i: may begin in state i.
   int to = -1;            // State afterwards; -1: no change.
@@ -126,7 +125,7 @@ struct ObjectAction {
   std::vector<Key> path;  // Ascending times.
   std::string clip;       // Clip that the actor plays meanwhile; empty: none.
   ActionSound sound;
-  std::optional<Seat> seat;  // The actor sits down there and stays until its next task.
+  std::optional<ObjectSeat> seat;  // The actor sits down there and stays until its next task.
 };
 
 // How a portable object is carried: with the hands on it, in the pose holder_from_object (actor

@@ -199,15 +199,8 @@ class Generator {
       case 1:
         return Below(2) == 0;
       case 2: {
-        constexpr const char* kTexts[] = {"salvete",
-                                          "a \"b\" 'c'",
-                                          "x\\y\n\tz\x01"
-                                          "7",
-                                          "--[[",
-                                          "]]",
-                                          "{,}",
-                                          "ātrium",
-                                          ""};
+        constexpr const char* kTexts[] = {"salvete", "a \"b\" 'c'", "x\\y\n\tz\0017", "--[[",
+                                          "]]",      "{,}",         "ātrium",         ""};
         return kTexts[Below(std::size(kTexts))];
       }
       case 3: {

@@ -296,8 +296,7 @@ TEST(CastLibraryData, TargetsMoveWhatTheirNamesSay) {
       sum += glm::length(deltas[v]);
     }
     const auto& bones = Library()->base().bones;
-    const auto where =
-        std::find_if(bones.begin(), bones.end(), [&](const CastBone& b) { return b.name == bone; });
+    const auto where = std::ranges::find(bones, bone, &CastBone::name);
     ASSERT_NE(where, bones.end());
     EXPECT_LT(glm::distance(centre / sum, base[where->head_vertices[0]]), 0.15f) << target;
   }
