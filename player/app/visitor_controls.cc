@@ -49,6 +49,7 @@ void VisitorControls::ApplyOptions(Choices& choices) const {
 void VisitorControls::ResetLanguages() {
   choices_.language.clear();
   choices_.captions.clear();
+  choices_.read.clear();
   ApplyOptions(choices_);
 }
 
@@ -73,6 +74,7 @@ void VisitorControls::KeepLanguages(const show::LanguageChoice& languages, doubl
   Choices choices = choices_;
   choices.language = languages.spoken;
   choices.captions = languages.captions;
+  choices.read = languages.read;
   Change(choices, now);
 }
 
@@ -195,11 +197,14 @@ void VisitorControls::Do(Action action, double now) {
   }
 }
 
-void VisitorControls::Change(const Choices& choices, double now) {
+void VisitorControls::Change(Choices choices, double now) {
+  if (choices.captions == show::kNoCaptions && choices_.captions != show::kNoCaptions) {
+    choices.read = choices_.captions;
+  }
   if (choices == choices_) {
     return;
   }
-  choices_ = choices;
+  choices_ = std::move(choices);
   ApplyChoices();
   Keep(now);
 }

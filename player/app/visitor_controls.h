@@ -33,7 +33,9 @@ class VisitorControls {
                   Log& log);
 
   Kiosk* kiosk() { return kiosk_ ? &*kiosk_ : nullptr; }  // nullptr: this is not a kiosk
-  show::LanguageChoice languages() const { return {choices_.language, choices_.captions}; }
+  show::LanguageChoice languages() const {
+    return {choices_.language, choices_.captions, false, choices_.read};
+  }
   // Returns to the languages of the options, because the show does not have those of the last
   // visitor.
   void ResetLanguages();
@@ -72,7 +74,7 @@ class VisitorControls {
  private:
   void ApplyOptions(Choices& choices) const;
   void Do(Action action, double now);
-  void Change(const Choices& choices, double now);
+  void Change(Choices choices, double now);
   void ApplyChoices();
   void Keep(double now);
   void ToggleMenu(double now);

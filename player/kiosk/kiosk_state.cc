@@ -21,6 +21,7 @@ std::filesystem::path StateFile(const std::filesystem::path& folder) {
 void DescribeChoices(Fields& fields, Choices& choices) {
   fields.Text("language", choices.language, kMaxText);
   fields.Text("captions", choices.captions, kMaxText);
+  fields.Text(Optional("read"), choices.read, kMaxText);
   fields.Number("volume", choices.volume, 0.0, 1.0);
   render::CaptionStyle& style = choices.caption_style;
   fields.Choice("caption_size", style.size, render::kCaptionSizes, "caption_size cannot be \"{}\"",

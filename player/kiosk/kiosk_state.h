@@ -19,6 +19,7 @@ struct Choices {
   render::CaptionStyle caption_style = {};
   bool descriptions = false;    // audio descriptions are heard
   bool reduced_motion = false;  // elements fade instead of gliding
+  std::string read = {};        // language of captions before they were turned off
 
   friend bool operator==(const Choices&, const Choices&) = default;
 };

@@ -407,15 +407,16 @@ Result<Languages> ResolveLanguages(const bundle::ShowManifest& manifest,
   LARARIUM_ASSIGN_OR_RETURN(
       languages.chosen.spoken,
       ChooseLanguage(SpokenLanguages(manifest), choice.spoken, "speech", where));
-  if (choice.captions != kNoCaptions) {
-    LARARIUM_ASSIGN_OR_RETURN(
-        languages.chosen.captions,
-        ChooseLanguage(manifest.captions, choice.captions, "captions", where));
+  const bool captions_are_off = choice.captions == kNoCaptions;
+  LARARIUM_ASSIGN_OR_RETURN(
+      languages.read,
+      ChooseLanguage(manifest.captions, captions_are_off ? choice.read : choice.captions,
+                     "captions", where));
+  if (!captions_are_off) {
+    languages.chosen.captions = languages.read;
   }
-  languages.read = languages.chosen.captions;
   if (languages.read.empty()) {
-    languages.read =
-        manifest.captions.empty() ? languages.chosen.spoken : manifest.captions.front();
+    languages.read = languages.chosen.spoken;
   }
   return languages;
 }

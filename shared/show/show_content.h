@@ -89,6 +89,9 @@ struct LanguageChoice {
   // A line takes the time of its longest language, so that shows in several languages stay
   // together.
   bool in_step = false;
+  // Of the guide and of audio descriptions where captions are off; otherwise these are in the
+  // captions' language.
+  std::string read = {};
 
   friend bool operator==(const LanguageChoice&, const LanguageChoice&) = default;
 };

@@ -18,7 +18,7 @@ TEST(KioskState, ComesBackAsItWasSaved) {
       "The thermopolium",
       73.25,
       {"la", "en", 0.4, {render::CaptionSize::kLarge, render::CaptionContrast::kHigh}, true, true},
-      {"it", "off", 0.7}};
+      {"it", "off", 0.7, {}, false, false, "it"}};
   ASSERT_TRUE(SaveKioskState(place, state).ok());
   EXPECT_EQ(*LoadKioskState(place), state);
 }

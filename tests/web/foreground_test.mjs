@@ -33,7 +33,7 @@ async function play(images) {
   const folder = await Folder.open();
   const [program, trackerProgram] = await compilePrograms();
   const show = await folder.openShow(Show, program);
-  const languages = {spoken: '', captions: ''};
+  const languages = {spoken: '', captions: '', read: ''};
   await folder.supply(show, SHOW, languages);
   const place = new Place(show.maps(), trackerProgram);
   show.load(SHOW, languages);

@@ -88,6 +88,15 @@ function watch() {
               return drawn[at] + drawn[at + 1] + drawn[at + 2] > 60;
             });
         });
+      window.white = views.map((view) => layer.getViewport(view)).filter((viewport) => viewport?.width > 0)
+        .map(({x, y, width, height}) => {
+          const drawn = pixels(x, y, width, Math.floor(0.45 * height));
+          let count = 0;
+          for (let at = 0; at < drawn.length; at += 4) {
+            count += drawn[at] === 255 && drawn[at + 1] === 255 && drawn[at + 2] === 255;
+          }
+          return count;
+        });
       window.pictures = (window.pictures ?? 0) + 1;
     });
   };
@@ -112,7 +121,9 @@ async function after(browser, change) {
 }
 
 async function visit(browser) {
-  await browser.open(`${server.origin}/`, `${readFileSync(iwer, 'utf8')}\n(${watch})()`);
+  // Without captions, everything that is drawn in the room are people.
+  const silent = `localStorage.setItem('lararium', '{"captions": "off"}');`;
+  await browser.open(`${server.origin}/`, `${silent}\n${readFileSync(iwer, 'utf8')}\n(${watch})()`);
   await browser.until(READY);
   await browser.setCamera(server.origin, 'granted');
   await press(browser);
@@ -134,6 +145,17 @@ async function visit(browser) {
   const [left, right] = await after(browser, 'device.position.z -= 1, device.stereoEnabled = true');
   check(right !== undefined && left.right > right.right,
     `the left eye sees them ${degrees(left.right - right.right)} degrees more to the right than the right one`);
+
+  // The emulator shows no elements over the room.
+  const bare = await browser.evaluate('white');
+  await browser.evaluate(`{
+    const captions = document.querySelector('[data-key=captions]');
+    captions.value = 'it';
+    captions.dispatchEvent(new Event('change'));
+  }`);
+  await browser.until(`white.every((count, i) => count > [${bare}][i] + 100)`, 120);
+  writeFileSync(`${work}/caption.png`, await browser.screenshot(844, 390));
+  console.log(`ok   a caption is written for both eyes: ${await browser.evaluate('white')} white pixels below the middle, ${bare} without`);
 
   await browser.evaluate('room.session.end()');
   await browser.until(says('The show waits for you'));

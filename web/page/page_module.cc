@@ -30,6 +30,12 @@ const char* TakeNames(const lararium::Result<std::vector<std::string>>& found) {
   return ErrorText(found.status());
 }
 
+lararium::show::LanguageChoice Languages(const char* spoken,
+                                         const char* captions,
+                                         const char* read) {
+  return {.spoken = spoken, .captions = captions, .read = read};
+}
+
 }  // namespace
 
 extern "C" {
@@ -49,11 +55,13 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_open(const char* manifest,
   return nullptr;
 }
 
-// An empty language is the author's choice.
+// Languages: see show::LanguageChoice.
 EMSCRIPTEN_KEEPALIVE const char* lararium_find_missing(int stage,
                                                        const char* spoken,
-                                                       const char* captions) {
-  return TakeNames(show->FindMissing(static_cast<PageShow::Stage>(stage), {spoken, captions}));
+                                                       const char* captions,
+                                                       const char* read) {
+  return TakeNames(
+      show->FindMissing(static_cast<PageShow::Stage>(stage), Languages(spoken, captions, read)));
 }
 
 // Verifies the manifest of another version of the show.
@@ -64,10 +72,12 @@ EMSCRIPTEN_KEEPALIVE const char* lararium_find_needed(const char* manifest,
                                                       const char* key,
                                                       size_t key_size,
                                                       const char* spoken,
-                                                      const char* captions) {
+                                                      const char* captions,
+                                                      const char* read) {
   auto opened =
       PageShow::Open({manifest, manifest_size}, {signature, signature_size}, {key, key_size});
-  return opened.ok() ? TakeNames((*opened)->FindMissing(PageShow::Stage::kShow, {spoken, captions}))
+  return opened.ok() ? TakeNames((*opened)->FindMissing(PageShow::Stage::kShow,
+                                                        Languages(spoken, captions, read)))
                      : ErrorText(opened.status());
 }
 
@@ -109,24 +119,32 @@ EMSCRIPTEN_KEEPALIVE void lararium_occluder(size_t index, uint32_t* found) {
   found[3] = mesh.indices.size();
 }
 
-EMSCRIPTEN_KEEPALIVE const char* lararium_load_guide(const char* spoken, const char* captions) {
-  return ErrorText(show->LoadGuide({spoken, captions}));
+EMSCRIPTEN_KEEPALIVE const char* lararium_load_guide(const char* spoken,
+                                                     const char* captions,
+                                                     const char* read) {
+  return ErrorText(show->LoadGuide(Languages(spoken, captions, read)));
 }
 
-EMSCRIPTEN_KEEPALIVE const char* lararium_load(const char* spoken, const char* captions) {
-  return ErrorText(show->Load({spoken, captions}));
+EMSCRIPTEN_KEEPALIVE const char* lararium_load(const char* spoken,
+                                               const char* captions,
+                                               const char* read) {
+  return ErrorText(show->Load(Languages(spoken, captions, read)));
 }
 
 EMSCRIPTEN_KEEPALIVE const char* lararium_load_people() { return ErrorText(show->LoadPeople()); }
 
 EMSCRIPTEN_KEEPALIVE const char* lararium_load_things() { return ErrorText(show->LoadThings()); }
 
-EMSCRIPTEN_KEEPALIVE const char* lararium_load_voices(const char* spoken, const char* captions) {
-  return ErrorText(show->LoadVoices({spoken, captions}));
+EMSCRIPTEN_KEEPALIVE const char* lararium_load_voices(const char* spoken,
+                                                      const char* captions,
+                                                      const char* read) {
+  return ErrorText(show->LoadVoices(Languages(spoken, captions, read)));
 }
 
-EMSCRIPTEN_KEEPALIVE const char* lararium_set_languages(const char* spoken, const char* captions) {
-  return ErrorText(show->SetLanguages({spoken, captions}));
+EMSCRIPTEN_KEEPALIVE const char* lararium_set_languages(const char* spoken,
+                                                        const char* captions,
+                                                        const char* read) {
+  return ErrorText(show->SetLanguages(Languages(spoken, captions, read)));
 }
 
 EMSCRIPTEN_KEEPALIVE const char* lararium_open_sound() { return ErrorText(show->OpenSound()); }

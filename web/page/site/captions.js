@@ -3,6 +3,12 @@ import {sentence} from './texts.js';
 
 const hex = (colour) => `rgb(${colour.map((part) => Math.round(255 * part)).join(' ')})`;
 
+// The name of the side on which a speaker is out of view, which render::CaptionSide numbers; undefined for one in view.
+const nameOfSide = (side) => [undefined, 'left', 'right'][side];
+
+// An arrow to that side; '' for a speaker in view.
+export const sideOf = (side) => ({left: '◀', right: '▶'})[nameOfSide(side)] ?? '';
+
 function lineOf({speaker, colour, side, text}) {
   const line = document.createElement('p');
   line.dir = 'auto';
@@ -11,13 +17,12 @@ function lineOf({speaker, colour, side, text}) {
     name.textContent = speaker;
     name.style.color = hex(colour);
     line.append(name, ' ');
-    const where = [undefined, 'left', 'right'][side];  // Indexed by render::CaptionSide.
-    if (where !== undefined) {
+    if (sideOf(side) !== '') {
       const arrow = document.createElement('span');
       arrow.className = 'side';
-      arrow.textContent = where === 'left' ? '◀ ' : '▶ ';
+      arrow.textContent = `${sideOf(side)} `;
       arrow.setAttribute('role', 'img');
-      arrow.setAttribute('aria-label', sentence(where));
+      arrow.setAttribute('aria-label', sentence(nameOfSide(side)));
       line.prepend(arrow);
     }
   }

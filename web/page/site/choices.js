@@ -44,6 +44,7 @@ export class Choices {
     return {
       spoken: has(spoken, values.spoken),
       captions: values.captions === OFF ? OFF : has(captions, values.captions || values.page),
+      read: has(captions, values.page),
     };
   }
 }

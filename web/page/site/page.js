@@ -460,8 +460,10 @@ function drawRoom(mine, now, view) {
     image = {number: image.number + 1, viewer: view.viewer};
     place.track(image.number, show.setImage(pixels), seconds);
   }
-  drawPicture(canvas, (left) => show.drawInRoom(view.views, view.framebuffer, seconds, lateness(seconds - before), left),
-    () => awaitRoom(mine));
+  drawPicture(canvas, (left) => show.drawInRoom(view.views, view.framebuffer, seconds, lateness(seconds - before), left), () => {
+    room.texts?.draw(view.views, view.viewer, view.framebuffer);
+    awaitRoom(mine);
+  });
 }
 
 // Lets the camera go, and shows what has happened.
@@ -540,6 +542,7 @@ function drawPicture({width, height}, draw, next) {
     const texts = show.takeTexts();
     if (texts !== undefined) {
       showTexts(texts, show.language);
+      visit.room?.texts?.set(texts, show.language, choices.values);
     }
     if (shareLeft(show) === 0) {
       stop(showEnd);

@@ -1,5 +1,7 @@
 // People in the room that the device itself shows and tracks (WebXR), in place of the camera's image.
 
+import {RoomTexts} from './room_texts.js';
+
 const IMAGE_SIDE = 640;          // The longer side of images for the tracker, in pixels.
 const IMAGE_MILLISECONDS = 100;  // Milliseconds from one image for the tracker to the next.
 
@@ -28,7 +30,9 @@ export class Room {
       await session.updateRenderState({baseLayer: layer});
       const sees = session.enabledFeatures?.includes('camera-access') ?? false;
       const binding = sees ? new XRWebGLBinding(session, gl) : undefined;
-      Object.assign(room, {session, gl, layer, binding, space: await session.requestReferenceSpace('local')});
+      // Glasses seldom show elements of the page over the room.
+      const texts = session.domOverlayState?.type ? undefined : new RoomTexts(gl);
+      Object.assign(room, {session, gl, layer, binding, texts, space: await session.requestReferenceSpace('local')});
     } catch (error) {
       await session.end();
       throw error;

@@ -7,7 +7,7 @@ import {Show, SHOW} from './show.js';
 const CAMERA_SECONDS = 10;
 const DRAWN_PICTURES = 20;
 const FRAME_SECONDS = 1 / 30;
-const LANGUAGES = {spoken: '', captions: ''};  // The author's choice.
+const LANGUAGES = {spoken: '', captions: '', read: ''};  // The author's choice.
 // A picture in which no person is visible is the keyframe itself, but for rounding.
 const LEAST_DECIBELS = 40;
 

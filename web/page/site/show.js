@@ -50,14 +50,14 @@ export class Show {
   }
 
   // The names of the members that a stage needs and that have not arrived. languages: see load().
-  findMissing(stage, {spoken, captions}) {
-    this.call('lararium_find_missing', stage, spoken, captions);
+  findMissing(stage, {spoken, captions, read}) {
+    this.call('lararium_find_missing', stage, spoken, captions, read);
     return this.names();
   }
 
   // Verifies the manifest of another version, and returns the names of all members that it needs.
-  findNeeded({text, signature, key}, {spoken, captions}) {
-    this.call('lararium_find_needed', text, signature, key, spoken, captions);
+  findNeeded({text, signature, key}, {spoken, captions, read}) {
+    this.call('lararium_find_needed', text, signature, key, spoken, captions, read);
     return this.names();
   }
 
@@ -94,7 +94,8 @@ export class Show {
       })).flat();
   }
 
-  // Begins the guide or the show with what has arrived. languages: {spoken, captions}; '' is the author's choice.
+  // Begins the guide or the show with what has arrived. languages: {spoken, captions, read}; '' is the author's choice.
+  // captions: OFF for none; then the guide's words and descriptions are in the language `read`.
   load(stage, languages) {
     this.callWithLanguages(stage === GUIDE ? 'lararium_load_guide' : 'lararium_load', languages);
     this.length = this.module._lararium_length();  // Seconds; 0: not known.
@@ -120,8 +121,8 @@ export class Show {
     this.callWithLanguages('lararium_set_languages', languages);
   }
 
-  callWithLanguages(name, {spoken, captions}) {
-    this.call(name, spoken, captions);
+  callWithLanguages(name, {spoken, captions, read}) {
+    this.call(name, spoken, captions, read);
     this.language = this.module.UTF8ToString(this.module._lararium_language());
   }
 
