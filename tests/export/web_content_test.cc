@@ -109,9 +109,9 @@ TEST(WebContent, LeavesOutWhatAPageDoesNotNeed) {
   line.sound = test::Encode(test::Make(
                                 1.0, [](double t) { return std::sin(900.0 * t); }, 22'050),
                             1, 22'050, test::Coding::kFlac);
+  const size_t line_bytes = line.sound.size();
   content.lines.emplace_back();  // A line without a sound.
   content.sounds = {test::Sound("bell", test::Encode(test::Noise(1.0), 1))};
-  const size_t line_bytes = line.sound.size();
   const size_t bell_bytes = content.sounds[0].bytes.size();
   NoProgress progress;
   const Status status = ReduceForWeb(content, progress);

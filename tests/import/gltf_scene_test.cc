@@ -128,7 +128,7 @@ TEST_F(ReadGltf, MovesTextureCoordinatesByTheTransformOfTheTexture) {
   test::GlbFigure model = Triangle();
   PrimitiveOf(model)["attributes"]["TEXCOORD_1"] = model.AddFloats({1, 0, 0, 1, 0, 0}, 2);
   PrimitiveOf(model)["material"] = 0;
-  model.json["textures"] = {Json::object()};
+  model.json["textures"] = Json::array({Json::object()});
   const Json transform = {
       {"offset", {0.5, 0.25}}, {"scale", {0.5, 0.5}}, {"rotation", 1.5707963}, {"texCoord", 1}};
   const Json texture = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
@@ -317,7 +317,7 @@ TEST_F(ReadGltf, LeavesOutHiddenNodes) {
 TEST_F(ReadGltf, TellsExtensionsThatItDoesNotKnow) {
   test::GlbFigure model = Triangle();
   model.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization", "X_smell"};
-  model.json["cameras"] = {Json::object()};
+  model.json["cameras"] = Json::array({Json::object()});
   model.json["nodes"][0]["camera"] = 0;
   ASSERT_TRUE(Read(model).ok());
   EXPECT_THAT(notes_.structure, Contains(HasSubstr("X_smell, cameras, lights")));
