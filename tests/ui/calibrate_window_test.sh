@@ -33,7 +33,7 @@ grep -q "but a board 9x6 was" "$out/wrong.log" || fail "$(cat "$out/wrong.log")"
 
 "$editor" new "$project" > /dev/null || fail "cannot make a project"
 open_window 700 780 "$project"
-sleep 3
+settle
 click 37 44   # Train
 fill 700 361 tavern
 fill 700 454 "$video"

@@ -31,7 +31,7 @@ has_not() { echo "! tr -d ' \n' < '$json' | grep -qE '$1'"; }
 
 "$editor" new "$project" > /dev/null || fail "cannot make a project"
 open_window 700 780 "$project"
-sleep 2
+settle
 xdotool key F8 sleep 1  # the messages leave the most room above
 
 # The second of the presets' pictures, which gives the name too.
@@ -103,7 +103,7 @@ echo 'hail = "nod"' > "$project/drama.lua"
 printf 'drivers=wave\n[wave]\nfile=%s/heard.wav\n' "$out" > "$out/alsoft.conf"
 export ALSOFT_CONF=$out/alsoft.conf ALSOFT_DRIVERS=wave
 open_window 700 780 "$project"
-sleep 2
+settle
 xdotool key F8 sleep 1
 click 60 205
 click 1160 484  # opens Clips

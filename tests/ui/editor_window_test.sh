@@ -19,7 +19,7 @@ translation_is() { [ "$(translation "$json")" = "$1" ]; }
 
 start_editor() {
   open_window 700 780 "$project"
-  sleep 2
+  settle
   xdotool key F8 sleep 1  # the messages leave the most room above
 }
 

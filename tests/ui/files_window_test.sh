@@ -23,7 +23,7 @@ import -window root "$HOME/frames/1.png"
 drop() { "$drop_files" "$(xdotool search --name Lararium | head -1)" "$@" || fail "$* was not taken"; sleep 1; }
 begin() {
   open_window 1300 860 "$@"
-  sleep 2
+  settle
 }
 
 # The window's own list: home, f for films, Right opens it; w for the file, Enter takes it.

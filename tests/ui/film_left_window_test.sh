@@ -29,7 +29,7 @@ begin() {
 "$make_board_video" "$video" 10 || fail "cannot write a video"
 "$editor" new "$project" > /dev/null || fail "cannot make a project"
 open_window 700 780 "$project"
-sleep 3
+settle
 
 # Escape asks while filming goes on, and Escape again goes on filming.
 begin 1

@@ -21,7 +21,7 @@ shows_picture() { [ "$(colours)" -gt 2000 ]; }
 
 "$editor" new "$project" > /dev/null || fail "cannot make a project"
 open_window 700 780 "$project"
-sleep 3
+settle
 shot empty
 shows_picture && fail "a project without a place shows a picture"
 click 37 44    # Train

@@ -25,7 +25,7 @@ heading_within() {
 
 start_editor() {
   open_window 700 780 "$project"
-  sleep 3
+  settle
   xdotool key F8 sleep 1  # the messages leave the most room above
   press l
   sleep 2

@@ -30,7 +30,7 @@ to_the_end() {
 }
 start_editor() {
   open_window 1300 860 "$@"
-  sleep 3
+  settle
 }
 
 start_editor

@@ -27,7 +27,7 @@ cat > "$json" << JSON
             "length_m": 1}}]}
 JSON
 open_window 700 300 "$project"
-sleep 4
+settle
 import -window root "$out/missing.png"
 
 click 55 695

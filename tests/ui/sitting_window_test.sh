@@ -41,7 +41,7 @@ face() {
 
 # New from a video; the place is trained at once.
 open_window 1300 860
-sleep 2
+settle
 click 250 137
 fill 770 372 "tavern"
 fill 740 435 "$out"

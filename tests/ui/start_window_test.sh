@@ -16,7 +16,7 @@ recent=$XDG_STATE_HOME/lararium/recent.json
 
 start_editor() {
   open_window 1300 860 "$@"
-  sleep 2
+  settle
 }
 # The folders of the list, newest first.
 listed() { tr -d ' \n' < "$recent" | grep -oE '"folder":"[^"]*"' | sed 's/.*\///; s/"//' | xargs; }

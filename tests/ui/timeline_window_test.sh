@@ -42,7 +42,7 @@ track{actor = "keeper",
 track{markers = {{at = 12, name = "noon"}}}
 LUA
 open_window 700 300 "$project"
-sleep 3
+settle
 import -window root "$out/timeline.png"
 
 # What a check found leads to the item that it is about, which keys then mean.

@@ -28,7 +28,7 @@ done_after() {
 }
 
 open_window 1300 880
-sleep 2
+settle
 click 250 377  # Open the sample
 wait_for 20 titled "A morning at the thermopolium" || fail "the sample did not open"
 wait_for 120 at_step 1 || fail "the tour does not begin with the picture"

@@ -72,11 +72,16 @@ fail() {
   exit 1
 }
 
-# hold KEY...: together, for as long as a slow frame: fields look at keys once a frame.
+# hold KEY...: together, for as long as a slow frame: fields look at keys once a frame. The last key is
+# let go first: an A that outlives its Ctrl on a busy machine repeats itself as a letter.
 hold() {
-  for key in "$@"; do xdotool keydown "$key"; done
+  local held=()
+  for key in "$@"; do
+    xdotool keydown "$key"
+    held=("$key" "${held[@]}")
+  done
   sleep 0.4
-  for key in "$@"; do xdotool keyup "$key"; done
+  for key in "${held[@]}"; do xdotool keyup "$key"; done
   sleep 0.3
 }
 
