@@ -235,7 +235,7 @@ TEST_F(ShowContentTest, OtherLanguagesShareThePeople) {
   EXPECT_EQ(silent->cast[0].title, "");
   EXPECT_EQ(silent->language, "en") << "the guide is in the author's language";
   const auto guided =
-      LoadInLanguages(*bundle, {.captions = std::string(kNoCaptions), .read = "it"}, *italian);
+      LoadInLanguages(*bundle, {"", std::string(kNoCaptions), false, "it"}, *italian);
   ASSERT_TRUE(guided.ok()) << guided.message();
   EXPECT_TRUE(guided->speech[0].captions.empty());
   EXPECT_EQ(guided->language, "it") << "the visitor reads the guide as the captions before";

@@ -33,7 +33,7 @@ const char* TakeNames(const lararium::Result<std::vector<std::string>>& found) {
 lararium::show::LanguageChoice Languages(const char* spoken,
                                          const char* captions,
                                          const char* read) {
-  return {.spoken = spoken, .captions = captions, .read = read};
+  return {spoken, captions, false, read};
 }
 
 }  // namespace
