@@ -89,8 +89,8 @@ struct LanguageChoice {
   // A line takes the time of its longest language, so that shows in several languages stay
   // together.
   bool in_step = false;
-  // Of the guide and of audio descriptions where captions are off; otherwise these are in the
-  // captions' language.
+  // The language of the guide and of audio descriptions while captions are off. While they are on,
+  // both are in the captions' language.
   std::string read = {};
 
   friend bool operator==(const LanguageChoice&, const LanguageChoice&) = default;

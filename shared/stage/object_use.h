@@ -94,8 +94,9 @@ struct StateSound {
   float gain_db = 0.0f;
 };
 
+// A surface of an object on which an actor can sit down.
 struct ObjectSeat {
-  glm::vec3 position = glm::vec3(0.0f);  // Point of its surface below the hips, object frame.
+  glm::vec3 position = glm::vec3(0.0f);  // Point of the surface below the hips, object frame.
   float heading = 0.0f;
 };
 
@@ -113,6 +114,7 @@ struct ObjectAction {
     float time = 0.0f;
     Pose pose;
   };
+
   std::string name;
   uint32_t from = ~0u;    // Bit i: may begin in state i.
   int to = -1;            // State afterwards; -1: no change.
