@@ -3,10 +3,11 @@
 import {sideOf} from './captions.js';
 import {directionOf} from './texts.js';
 
-// The panel stands upright before the head and moves with it.
-const PANEL = {right: 0, up: -0.55, ahead: 1.8, width: 1.2, height: 0.6};  // Its centre and its size, in metres.
+// The panel stands upright before the head and moves with it: the place of its centre and its size, in metres.
+const PANEL = {right: 0, up: -0.55, ahead: 1.8, width: 1.2, height: 0.6};
 const PIXELS = [1024, 512];
-const LETTERS = [44, 60, 76];  // Pixels by the size that the visitor has chosen.
+// The height of letters in pixels, for each size that visitors can choose.
+const LETTERS = [44, 60, 76];
 const ROW = 1.3;               // The height of a row over that of its letters.
 
 const VERTICES = `#version 300 es
@@ -77,7 +78,7 @@ export class RoomTexts {
     const {gl, paint} = this;
     const [width, height] = PIXELS;
     const letters = LETTERS[size];
-    const texts = [...captions.map(({speaker, side, text}) => [speaker, sideOf(side), text].filter((part) => part).join(' ')), hint]
+    const texts = [...captions.map(({speaker, side, text}) => [sideOf(side), speaker, text].filter((part) => part).join(' ')), hint]
       .filter((text) => text !== '');
     this.empty = texts.length === 0;
     paint.clearRect(0, 0, width, height);
