@@ -159,7 +159,7 @@ CoverageState CoverageGuide::Add(const CoverageFrame& frame) {
   CoverageState state;
   state.fault = FindFault(frame);
   state.shares = Shares();
-  state.advice = Advise(state.shares);
+  state.advice = Advise(state.shares, frame.time);
   state.heading = Heading();
   state.pitch = Pitch();
   state.moved = at_;
@@ -421,39 +421,66 @@ CoverageShares CoverageGuide::Shares() const {
           std::min(range.x() / kSideways, 1.0), std::min(range.y() / kDepth, 1.0)};
 }
 
-// Advises steps to one side until enough is covered there, then to the other side.
-CoverageAdvice CoverageGuide::StepAside() {
-  const double right = highest_.x();
-  const double left = -lowest_.x();
-  if (side_ > 0.0 ? right > 0.5 * kSideways && right > left
-                  : left > 0.5 * kSideways && left > right) {
-    side_ = -side_;
+// The sign of the steps to advise along an axis of at_: one way until half of the range is covered
+// there, then the other way. If the camera does not get on, as before a wall, the advice is the
+// other way for good.
+double CoverageGuide::WayAlong(int axis, double range, double time) {
+  constexpr double kPatience = 4.0;  // seconds
+  constexpr double kGotOn = 0.04;    // Share of the median distance.
+  Course& course = courses_[static_cast<size_t>(axis)];
+  const bool gets_on = stretch_.axis != axis || std::abs(at_[axis] - stretch_.at) > kGotOn;
+  if (!gets_on && time - stretch_.time > kPatience) {
+    course.blocked = true;
+    course.blocked_behind = false;
+    // Without parallax there is no new view, so this is the end of the range.
+    lowest_[axis] = std::min(lowest_[axis], at_[axis]);
+    highest_[axis] = std::max(highest_[axis], at_[axis]);
   }
-  return side_ > 0.0 ? CoverageAdvice::kStepRight : CoverageAdvice::kStepLeft;
+  const double there = course.sign > 0.0 ? highest_[axis] : -lowest_[axis];
+  const double back = course.sign > 0.0 ? -lowest_[axis] : highest_[axis];
+  if (course.blocked || (!course.blocked_behind && there > 0.5 * range && there > back)) {
+    course.sign = -course.sign;
+    std::swap(course.blocked, course.blocked_behind);
+    stretch_.axis = -1;
+  }
+  if (gets_on || stretch_.axis == -1) {
+    stretch_ = {axis, at_[axis], time};
+  }
+  return course.sign;
 }
 
-CoverageAdvice CoverageGuide::Advise(const CoverageShares& shares) {
+CoverageAdvice CoverageGuide::StepAside(double time) {
+  return WayAlong(0, kSideways, time) > 0.0 ? CoverageAdvice::kStepRight
+                                            : CoverageAdvice::kStepLeft;
+}
+
+CoverageAdvice CoverageGuide::Advise(const CoverageShares& shares, double time) {
   constexpr double kInView = 20.0 * kRadiansPerDegree;
   constexpr double kLookingDown = -8.0 * kRadiansPerDegree;
   const auto look = [&](size_t row, double reach) {
     const std::optional<double> missing = NearestMissing(cells_, row, reach, Heading());
     const double aside = missing ? Wrapped(*missing - Heading()) : 0.0;
     if (std::abs(aside) < kInView) {
-      return StepAside();
+      return StepAside(time);
     }
+    stretch_.axis = -1;
     return aside > 0.0 ? CoverageAdvice::kLookRight : CoverageAdvice::kLookLeft;
   };
   if (shares.ahead < 1.0) {
     return look(1, kAhead);
   }
   if (shares.sideways < 1.0) {
-    return StepAside();
+    return StepAside(time);
+  }
+  if (shares.floor < 1.0 && Pitch() <= kLookingDown) {
+    return look(0, kFloor);
   }
   if (shares.floor < 1.0) {
-    return Pitch() > kLookingDown ? CoverageAdvice::kLookDown : look(0, kFloor);
+    stretch_.axis = -1;
+    return CoverageAdvice::kLookDown;
   }
   if (shares.depth < 1.0) {
-    return highest_.y() < 0.5 * kDepth ? CoverageAdvice::kGoNearer : CoverageAdvice::kStepBack;
+    return WayAlong(1, kDepth, time) > 0.0 ? CoverageAdvice::kGoNearer : CoverageAdvice::kStepBack;
   }
   return CoverageAdvice::kEnough;
 }

@@ -128,6 +128,20 @@ class CoverageGuide {
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
   };
 
+  // Where and when the camera last got on while steps are advised.
+  struct Stretch {
+    int axis = -1;  // Index into at_; -1 while no steps are advised.
+    double at = 0.0;
+    double time = 0.0;
+  };
+
+  // The steps along an axis of at_ that are advised.
+  struct Course {
+    double sign = 1.0;
+    bool blocked = false;         // The camera did not get on that way.
+    bool blocked_behind = false;  // The camera did not get on the other way.
+  };
+
   // A reference frame from which motion was measured.
   struct KnownView {
     CoverageFeatures features;
@@ -159,8 +173,9 @@ class CoverageGuide {
   void NoteObservations(const CoverageFrame& frame, bool moved);
   void JudgeCells();
   CoverageShares Shares() const;
-  CoverageAdvice Advise(const CoverageShares& shares);
-  CoverageAdvice StepAside();
+  CoverageAdvice Advise(const CoverageShares& shares, double time);
+  double WayAlong(int axis, double range, double time);
+  CoverageAdvice StepAside(double time);
   double Heading() const;
   double Pitch() const;
 
@@ -177,8 +192,9 @@ class CoverageGuide {
   Eigen::Vector2d at_ = Eigen::Vector2d::Zero();      // Right and ahead.
   Eigen::Vector2d lowest_ = Eigen::Vector2d::Zero();  // Range of at_ in the views so far.
   Eigen::Vector2d highest_ = Eigen::Vector2d::Zero();
-  bool moved_ = false;  // Way::moved of the last frame.
-  double side_ = 1.0;   // Side to which steps are advised: 1 right, -1 left.
+  bool moved_ = false;             // Way::moved of the last frame.
+  std::array<Course, 2> courses_;  // Along each axis of at_.
+  Stretch stretch_;
   std::map<uint32_t, Observation> observations_;
   std::array<std::array<CellCount, kColumns>, kRows> counts_;
   Cells cells_ = {};

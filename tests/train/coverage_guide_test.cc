@@ -56,7 +56,7 @@ class CoverageGuideTest : public testing::Test {
       const Vector3d in_camera =
           world_from_camera.conjugate() * (points_[i] - Vector3d(stand.x, 0.0, stand.z));
       const Eigen::Vector2d pixel = kFocal * in_camera.hnormalized() +
-                                    0.2 * Eigen::Vector2d(noise_.Normal(), noise_.Normal());
+                                    0.2 * Eigen::Vector2d{noise_.Normal(), noise_.Normal()};
       const bool inside = in_camera.z() > 0.2 && std::abs(pixel.x()) < kHalfWidth &&
                           std::abs(pixel.y()) < kHalfHeight;
       if (!inside) {
@@ -169,11 +169,15 @@ TEST_F(CoverageGuideTest, ASideThatIsMissingIsAskedFor) {
   EXPECT_EQ(guide_.cells()[1][14], CoverageGuide::Cell::kCovered);
 }
 
-TEST_F(CoverageGuideTest, AWalkThatDoesWhatIsAskedComesToItsEnd) {
+// The walls of the room end each step that would lead through them.
+class CoverageWalkTest : public CoverageGuideTest, public testing::WithParamInterface<uint64_t> {};
+
+TEST_P(CoverageWalkTest, ThatDoesWhatIsAskedComesToItsEnd) {
+  noise_ = Random(GetParam());
   double covered = 0.0;
   CoverageState state = Go({}, 2);
   int steps = 0;
-  for (; steps < 120 && state.advice != CoverageAdvice::kEnough; ++steps) {
+  for (; steps < 60 && state.advice != CoverageAdvice::kEnough; ++steps) {
     Stand to = at_;
     switch (state.advice) {
       case CoverageAdvice::kStepLeft:
@@ -210,6 +214,8 @@ TEST_F(CoverageGuideTest, AWalkThatDoesWhatIsAskedComesToItsEnd) {
   EXPECT_EQ(state.shares.all(), 1.0);
   EXPECT_GT(steps, 10) << "a glance is not enough";
 }
+
+INSTANTIATE_TEST_SUITE_P(Noise, CoverageWalkTest, testing::Values(1, 3, 6, 8, 9, 11));
 
 TEST_F(CoverageGuideTest, BlurHasteDarknessAndBareWallsAreToldFirst) {
   Go({.x = 0.3}, 20);
