@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 glm::vec3 Direction(Random& random) {
-  return glm::normalize(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
+  return glm::normalize(glm::vec3{random.Normal(), random.Normal(), random.Normal()});
 }
 glm::quat Rotation(Random& random) {
   return glm::angleAxis(static_cast<float>(random.Uniform(0.0, 3.0)), Direction(random));

@@ -19,7 +19,7 @@ using test::MakeProbe;
 glm::vec3 EvenSky(const glm::vec3& d) { return {0.4f + 0.2f * d.y, 0.5f + 0.2f * d.y, 0.8f}; }
 
 glm::vec3 SunDirection(Random& random) {
-  return glm::normalize(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
+  return glm::normalize(glm::vec3{random.Normal(), random.Normal(), random.Normal()});
 }
 
 TEST(SunSplit, FindsWhereHowLargeAndHowBrightADiscIs) {

@@ -30,12 +30,13 @@ cv::Mat Wall() {
   Random random(1);
   cv::Mat wall(1500, 2000, CV_8UC1, cv::Scalar(128));
   for (int i = 0; i < 40000; ++i) {
-    const cv::Point centre(static_cast<int>(random.Below(2000)),
-                           static_cast<int>(random.Below(1500)));
-    const cv::Size axes(2 + static_cast<int>(random.Below(12)),
-                        2 + static_cast<int>(random.Below(12)));
-    cv::ellipse(wall, centre, axes, random.Uniform(0.0, 180.0), 0.0, 360.0,
-                cv::Scalar(random.Uniform(20.0, 235.0)), cv::FILLED);
+    const cv::Point centre{static_cast<int>(random.Below(2000)),
+                           static_cast<int>(random.Below(1500))};
+    const cv::Size axes{2 + static_cast<int>(random.Below(12)),
+                        2 + static_cast<int>(random.Below(12))};
+    const double angle = random.Uniform(0.0, 180.0);
+    cv::ellipse(wall, centre, axes, angle, 0.0, 360.0, cv::Scalar(random.Uniform(20.0, 235.0)),
+                cv::FILLED);
   }
   cv::GaussianBlur(wall, wall, cv::Size(), 1.0);
   return wall;
@@ -72,7 +73,8 @@ std::shared_ptr<const SceneDatabase> MakeDatabase(const cv::Mat& wall) {
   database->camera = kCamera;
   Random random(2);
   for (int i = 0; i < 4000; ++i) {
-    const Eigen::Vector3d point = OnWall(random.Uniform(100, 1900), random.Uniform(100, 1400));
+    const double column = random.Uniform(100, 1900);
+    const Eigen::Vector3d point = OnWall(column, random.Uniform(100, 1400));
     database->points.push_back(point.cast<float>());
     database->normals.emplace_back(0.0f, 0.0f, 1.0f);
     database->observation_counts.push_back(4);
@@ -110,8 +112,8 @@ std::vector<Eigen::Vector2f> PatchCentres() {
   Random random(3);
   std::vector<Eigen::Vector2f> centres;
   for (int i = 0; i < kPatches; ++i) {
-    centres.emplace_back(static_cast<float>(random.Uniform(20, 620)),
-                         static_cast<float>(random.Uniform(20, 460)));
+    centres.push_back(
+        {static_cast<float>(random.Uniform(20, 620)), static_cast<float>(random.Uniform(20, 460))});
   }
   return centres;
 }

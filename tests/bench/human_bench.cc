@@ -27,8 +27,8 @@ Human MakeChain(size_t joints, size_t vertices) {
   }
   for (size_t key = 0; key < 31 * joints; ++key) {
     JointTransform transform = human.skeleton.rest[0];
-    transform.rotation =
-        glm::normalize(glm::quat(4.0f, random.Normal(), random.Normal(), random.Normal()));
+    transform.rotation = glm::normalize(
+        glm::quat(4.0f, glm::vec3{random.Normal(), random.Normal(), random.Normal()}));
     clip.keys.push_back(transform);
   }
   human.clips.push_back(clip);
@@ -37,7 +37,7 @@ Human MakeChain(size_t joints, size_t vertices) {
     const auto joint = [&] {
       return static_cast<uint8_t>(random.Below(static_cast<uint32_t>(joints)));
     };
-    mesh.positions.emplace_back(random.Normal(), random.Normal(), random.Normal());
+    mesh.positions.push_back({random.Normal(), random.Normal(), random.Normal()});
     mesh.normals.push_back(glm::normalize(mesh.positions.back()));
     mesh.joints.push_back({joint(), joint(), joint(), joint()});
     mesh.weights.emplace_back(0.4f, 0.3f, 0.2f, 0.1f);

@@ -50,7 +50,7 @@ ShRgb SomeLight() {
   Random random(52);
   ShRgb light;
   for (glm::vec3& coefficient : light) {
-    coefficient = glm::vec3(random.Normal(), random.Normal(), random.Normal());
+    coefficient = glm::vec3{random.Normal(), random.Normal(), random.Normal()};
   }
   return light;
 }

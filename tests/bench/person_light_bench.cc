@@ -108,7 +108,7 @@ void BenchStageLight(benchmark::State& bench) {
   light::ShRgb light;
   Random random(55);
   for (glm::vec3& coefficient : light) {
-    coefficient = glm::vec3(random.Normal(), random.Normal(), random.Normal());
+    coefficient = glm::vec3{random.Normal(), random.Normal(), random.Normal()};
   }
   std::vector<LitActor> actors;
   for (size_t i = 0; i < kPeople; ++i) {

@@ -105,7 +105,7 @@ void BenchOverlayPoints(benchmark::State& state) {
   Random random(1);
   for (OverlayPoint& point : points) {
     point.position =
-        glm::vec3(random.Uniform(-2, 2), random.Uniform(-1, 1), random.Uniform(-9, -3));
+        glm::vec3{random.Uniform(-2, 2), random.Uniform(-1, 1), random.Uniform(-9, -3)};
   }
   OverlayView view;
   view.display = Pinhole(1280, 720);

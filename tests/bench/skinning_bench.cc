@@ -25,13 +25,13 @@ struct Body {
   explicit Body(size_t count) {
     Random random(1);
     for (size_t i = 0; i < kJoints; ++i) {
-      glm::mat4 matrix = glm::mat4_cast(
-          glm::normalize(glm::quat(3.0f, random.Normal(), random.Normal(), random.Normal())));
-      matrix[3] = glm::vec4(random.Normal(), random.Normal(), random.Normal(), 1.0f);
+      glm::mat4 matrix = glm::mat4_cast(glm::normalize(
+          glm::quat(3.0f, glm::vec3{random.Normal(), random.Normal(), random.Normal()})));
+      matrix[3] = glm::vec4{random.Normal(), random.Normal(), random.Normal(), 1.0f};
       skin.push_back(matrix);
     }
     for (size_t v = 0; v < count; ++v) {
-      positions.emplace_back(random.Normal(), random.Normal(), random.Normal());
+      positions.push_back({random.Normal(), random.Normal(), random.Normal()});
       normals.push_back(glm::normalize(positions.back()));
       const auto joint = [&](size_t offset) {
         return static_cast<uint8_t>((v * kJoints / count + offset) % kJoints);

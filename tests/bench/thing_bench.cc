@@ -33,7 +33,7 @@ stage::Prop MakeJar(Random& random) {
   prop.light_shown = {1};
   const auto direction = [&] {
     return glm::normalize(
-        glm::vec3(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)));
+        glm::vec3{random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)});
   };
   for (uint16_t i = 0; i < kThingReceivers; ++i) {
     light.receivers.push_back({0, 0.22f * direction()});
@@ -89,8 +89,8 @@ struct Kitchen {
       irradiance.emplace_back(is_thing ? kThingVertices : 0);
       memories.emplace_back(0.25f);
       places.push_back(glm::translate(
-          glm::mat4(1.0f), glm::vec3(random.Uniform(-3, 3), is_thing ? random.Uniform(0, 1) : 0.0,
-                                     random.Uniform(-3, 3))));
+          glm::mat4(1.0f), glm::vec3{random.Uniform(-3, 3), is_thing ? random.Uniform(0, 1) : 0.0,
+                                     random.Uniform(-3, 3)}));
     }
   }
 };

@@ -25,12 +25,13 @@ cv::Mat Picture() {
   Random random(1);
   cv::Mat picture(480, 640, CV_8UC1, cv::Scalar(128));
   for (int i = 0; i < 6000; ++i) {
-    const cv::Point centre(static_cast<int>(random.Below(640)),
-                           static_cast<int>(random.Below(480)));
-    const cv::Size axes(1 + static_cast<int>(random.Below(8)),
-                        1 + static_cast<int>(random.Below(8)));
-    cv::ellipse(picture, centre, axes, random.Uniform(0.0, 180.0), 0.0, 360.0,
-                cv::Scalar(random.Uniform(20.0, 235.0)), cv::FILLED);
+    const cv::Point centre{static_cast<int>(random.Below(640)),
+                           static_cast<int>(random.Below(480))};
+    const cv::Size axes{1 + static_cast<int>(random.Below(8)),
+                        1 + static_cast<int>(random.Below(8))};
+    const double angle = random.Uniform(0.0, 180.0);
+    cv::ellipse(picture, centre, axes, angle, 0.0, 360.0, cv::Scalar(random.Uniform(20.0, 235.0)),
+                cv::FILLED);
   }
   cv::GaussianBlur(picture, picture, cv::Size(), 0.8);
   return picture;
@@ -94,7 +95,7 @@ void BenchPreemptiveRansac(benchmark::State& state) {
   std::vector<Eigen::Vector2d> seen;
   for (const Eigen::Vector3d& point : world.points) {
     const bool wrong = noise.Uniform() < 0.6;
-    seen.push_back(wrong ? Eigen::Vector2d(noise.Uniform(-0.5, 0.5), noise.Uniform(-0.4, 0.4))
+    seen.push_back(wrong ? Eigen::Vector2d{noise.Uniform(-0.5, 0.5), noise.Uniform(-0.4, 0.4)}
                          : Eigen::Vector2d((truth * point).hnormalized()));
   }
   const auto generate = [&](Random& random, std::vector<Pose>& poses) {

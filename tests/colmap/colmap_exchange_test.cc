@@ -104,9 +104,12 @@ class Board {
     Random random(3);
     texture_ = cv::Mat(kSide, kSide, CV_8UC3, cv::Scalar::all(110));
     for (int i = 0; i < 900; ++i) {
-      const cv::Point center(static_cast<int>(random.Below(kSide)),
-                             static_cast<int>(random.Below(kSide)));
-      const cv::Scalar colour(random.Below(256), random.Below(256), random.Below(256));
+      const cv::Point center{static_cast<int>(random.Below(kSide)),
+                             static_cast<int>(random.Below(kSide))};
+      cv::Scalar colour;
+      for (int channel = 0; channel < 3; ++channel) {
+        colour[channel] = random.Below(256);
+      }
       cv::circle(texture_, center, static_cast<int>(3 + random.Below(14)), colour, -1, cv::LINE_AA);
     }
     cv::GaussianBlur(texture_, texture_, cv::Size(), 1.2);

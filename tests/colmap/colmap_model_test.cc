@@ -33,7 +33,7 @@ ColmapModel MakeModel() {
     image.camera = id == 40 ? 9 : 1;
     image.name = "folder/image " + std::to_string(id) + ".jpg";
     image.camera_from_map.rotation =
-        Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
+        Eigen::Quaterniond{random.Normal(), random.Normal(), random.Normal(), random.Normal()}
             .normalized();
     image.camera_from_map.translation = {random.Normal(), random.Normal(), random.Normal()};
     if (id == 3) {

@@ -19,8 +19,8 @@ TEST(CameraModel, UndistortingInvertsDistorting) {
   Random random(1);
   for (const CameraModel& camera : {kFox, kBarrel}) {
     for (int i = 0; i < 1000; ++i) {
-      const Eigen::Vector2d pixel(random.Uniform(0, camera.width),
-                                  random.Uniform(0, camera.height));
+      const Eigen::Vector2d pixel{random.Uniform(0, camera.width),
+                                  random.Uniform(0, camera.height)};
       EXPECT_LT((camera.PixelFromPlane(camera.PlaneFromPixel(pixel)) - pixel).norm(), 1e-7);
     }
   }

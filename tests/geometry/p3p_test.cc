@@ -16,7 +16,7 @@ Vector3d RandomVector(Random& random) {
 }
 
 Rigid3 RandomPose(Random& random) {
-  return {Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
+  return {Eigen::Quaterniond{random.Normal(), random.Normal(), random.Normal(), random.Normal()}
               .normalized(),
           RandomVector(random)};
 }

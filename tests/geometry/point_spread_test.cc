@@ -18,8 +18,8 @@ TEST(SpreadOf, FindsTheAxesAndDeviationsOfATurnedCloud) {
   const Eigen::Vector3d center(3.0, -2.0, 5.0);
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 20000; ++i) {
-    points.push_back(center + turn * Eigen::Vector3d(0.1 * random.Normal(), 4.0 * random.Normal(),
-                                                     random.Normal()));
+    points.push_back(center + turn * Eigen::Vector3d{0.1 * random.Normal(), 4.0 * random.Normal(),
+                                                     random.Normal()});
   }
   const PointSpread spread = SpreadOf(points);
   EXPECT_LT((spread.mean - center).norm(), 0.1);

@@ -35,16 +35,16 @@ Vector2d Distorted(const Vector2d& undistorted, double division) {
 FivePointView RandomView(Random& random, bool planar, double division) {
   FivePointView c;
   c.camera_from_world.rotation =
-      Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
+      Eigen::Quaterniond{random.Normal(), random.Normal(), random.Normal(), random.Normal()}
           .normalized();
   c.camera_from_world.translation = {random.Normal(), random.Normal(), random.Normal()};
   c.focal = kHalfSize * std::exp(random.Uniform(-0.7, 1.0));
   c.division = division;
   // The plane of a wall that is seen at a slant.
-  const Vector3d normal(random.Uniform(0.3, 0.8), random.Uniform(0.3, 0.8), 1.0);
+  const Vector3d normal{random.Uniform(0.3, 0.8), random.Uniform(0.3, 0.8), 1.0};
   for (int i = 0; i < 5; ++i) {
-    const Vector2d undistorted(kHalfSize * random.Uniform(-0.9, 0.9),
-                               kHalfSize * random.Uniform(-0.5, 0.5));
+    const Vector2d undistorted{kHalfSize * random.Uniform(-0.9, 0.9),
+                               kHalfSize * random.Uniform(-0.5, 0.5)};
     const Vector3d ray = (undistorted / c.focal).homogeneous();
     const double depth = planar ? 4.0 / normal.dot(ray) : random.Uniform(2.0, 6.0);
     c.points[i] = c.camera_from_world.Inverse() * Vector3d(depth * ray);
@@ -99,7 +99,7 @@ TEST(RadialPose, AFewHundredthsOfAPixelMoveTheFocalLengthLittle) {
   for (int i = 0; i < 1000; ++i) {
     FivePointView c = RandomView(random, false, 0.0);
     for (Vector2d& pixel : c.pixels) {
-      pixel += 0.03 * Vector2d(random.Normal(), random.Normal());
+      pixel += 0.03 * Vector2d{random.Normal(), random.Normal()};
     }
     errors.push_back(LeastError(c));
   }

@@ -14,7 +14,7 @@ namespace lararium::geometry {
 namespace {
 
 Eigen::Vector3d RandomOffset(Random& random, double size = 1.0) {
-  return size * Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal());
+  return size * Eigen::Vector3d{random.Normal(), random.Normal(), random.Normal()};
 }
 
 Rigid3 RandomRigid(Random& random) {
@@ -85,7 +85,7 @@ TEST(CameraFromB, IsRigidAndProjectsToTheSamePixel) {
   for (int i = 0; i < 100; ++i) {
     const Similarity3 map_from_stage = RandomSimilarity(random);
     const Rigid3 camera_from_map = RandomRigid(random);
-    const Eigen::Vector3d in_camera(random.Uniform(-0.5, 0.5), random.Uniform(-0.4, 0.4), 1.0);
+    const Eigen::Vector3d in_camera{random.Uniform(-0.5, 0.5), random.Uniform(-0.4, 0.4), 1.0};
     const Eigen::Vector3d in_map = camera_from_map.Inverse() * (7.0 * in_camera);
     const Eigen::Vector3d in_stage = map_from_stage.Inverse() * in_map;
     const Rigid3 camera_from_stage = CameraFromB(camera_from_map, map_from_stage);

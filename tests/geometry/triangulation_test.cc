@@ -36,8 +36,8 @@ TEST(Triangulation, RecoversExactPoints) {
   Random random(1);
   const std::vector<Rigid3> cameras = Arc(4, 0.8);
   for (int i = 0; i < 100; ++i) {
-    const Eigen::Vector3d point(random.Uniform(-1, 1), random.Uniform(-1, 1),
-                                random.Uniform(-1, 1));
+    const Eigen::Vector3d point{random.Uniform(-1, 1), random.Uniform(-1, 1),
+                                random.Uniform(-1, 1)};
     const auto found = TriangulatePoint(cameras, Views(cameras, point));
     ASSERT_TRUE(found);
     EXPECT_LT((*found - point).norm(), 1e-9);
@@ -49,7 +49,7 @@ TEST(Triangulation, MinimisesTheErrorOnThePlane) {
   const std::vector<Rigid3> cameras = Arc(5, 0.6);
   std::vector<Eigen::Vector2d> views = Views(cameras, {0.3, -0.2, 0.4});
   for (Eigen::Vector2d& view : views) {
-    view += 1e-3 * Eigen::Vector2d(random.Normal(), random.Normal());
+    view += 1e-3 * Eigen::Vector2d{random.Normal(), random.Normal()};
   }
   const auto error = [&](const Eigen::Vector3d& point) {
     double sum = 0.0;

@@ -57,11 +57,11 @@ TEST(ClothAtLength, AMillionJoltsLoseNoParticle) {
       PoseWalker(human, random.Uniform(0.0, 30.0), walker);
       step.actor_from_joint = walker.actor_from_joint;
     }
-    step.stage_from_actor = glm::rotate(
-        glm::translate(glm::mat4(1.0f),
-                       glm::vec3(random.Normal(), random.Normal(), random.Normal()) * 0.02f),
-        static_cast<float>(random.Normal()) * 0.1f, glm::vec3(0.0f, 1.0f, 0.0f));
-    step.wind.velocity = glm::vec3(random.Normal(), random.Normal(), random.Normal()) * 10.0f;
+    const glm::vec3 place = glm::vec3{random.Normal(), random.Normal(), random.Normal()} * 0.02f;
+    step.stage_from_actor =
+        glm::rotate(glm::translate(glm::mat4(1.0f), place),
+                    static_cast<float>(random.Normal()) * 0.1f, glm::vec3(0.0f, 1.0f, 0.0f));
+    step.wind.velocity = glm::vec3{random.Normal(), random.Normal(), random.Normal()} * 10.0f;
     // Each frame is one step of the solver.
     step.elapsed = 1.0f / 120.0f;
     step.detail = ClothDetail::kCoarse;

@@ -509,11 +509,11 @@ TEST(Cloth, SurvivesRandomJolts) {
   for (int i = 0; i < 500; ++i) {
     PoseWalker(human, random.Uniform(0.0, 30.0), walker);
     step.actor_from_joint = walker.actor_from_joint;
-    step.stage_from_actor = glm::rotate(
-        glm::translate(glm::mat4(1.0f), glm::vec3(random.Normal() * 0.05, random.Normal() * 0.05,
-                                                  random.Normal() * 0.05)),
-        static_cast<float>(random.Normal()) * 0.1f, glm::vec3(0.0f, 1.0f, 0.0f));
-    step.wind.velocity = glm::vec3(random.Normal(), random.Normal(), random.Normal()) * 10.0f;
+    const glm::vec3 place = glm::vec3{random.Normal(), random.Normal(), random.Normal()} * 0.05f;
+    step.stage_from_actor =
+        glm::rotate(glm::translate(glm::mat4(1.0f), place),
+                    static_cast<float>(random.Normal()) * 0.1f, glm::vec3(0.0f, 1.0f, 0.0f));
+    step.wind.velocity = glm::vec3{random.Normal(), random.Normal(), random.Normal()} * 10.0f;
     step.elapsed = static_cast<float>(random.Uniform(0.0, 0.05));
     step.detail = static_cast<ClothDetail>(random.Below(4));
     StepCloth(model, step, state);
@@ -702,7 +702,7 @@ TEST(RoundCone, NearestSphereGivesTheDistanceToTheHull) {
   Random random(3);
   for (int trial = 0; trial < 200; ++trial) {
     const auto point = [&] {
-      return Float4(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
+      return Float4(glm::vec3{random.Normal(), random.Normal(), random.Normal()});
     };
     const Float4 a = point(), b = point(), p = point();
     const auto radius_a = static_cast<float>(random.Uniform(0.0, 1.0));

@@ -28,7 +28,7 @@ Clip Swaying(uint64_t seed) {
   Clip clip{"sway", 2.0f, 30.0f, true, 0.0f, Pose(kKeys * kJoints)};
   for (size_t joint = 0; joint < kJoints; ++joint) {
     const glm::vec3 axis =
-        glm::normalize(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
+        glm::normalize(glm::vec3{random.Normal(), random.Normal(), random.Normal()});
     const glm::quat base = TurnBy(3.0f * axis);
     const auto turns = static_cast<float>(1 + random.Below(3));
     for (int key = 0; key < kKeys; ++key) {
@@ -97,8 +97,8 @@ TEST(CompressedClip, TakesEveryRotationThereIs) {
   for (int key = 0; key <= 200; ++key) {
     JointTransform at;
     at.rotation = glm::normalize(
-        glm::quat(static_cast<float>(random.Normal()), static_cast<float>(random.Normal()),
-                  static_cast<float>(random.Normal()), static_cast<float>(random.Normal())));
+        glm::quat{static_cast<float>(random.Normal()), static_cast<float>(random.Normal()),
+                  static_cast<float>(random.Normal()), static_cast<float>(random.Normal())});
     clip.keys.push_back(at);
   }
   const CompressedClip compressed(clip, 1);

@@ -123,8 +123,8 @@ class BodyMaker {
 
   glm::quat RandomTurn() {
     return glm::normalize(
-        glm::quat(static_cast<float>(random_.Normal()), static_cast<float>(random_.Normal()),
-                  static_cast<float>(random_.Normal()), static_cast<float>(random_.Normal())));
+        glm::quat{static_cast<float>(random_.Normal()), static_cast<float>(random_.Normal()),
+                  static_cast<float>(random_.Normal()), static_cast<float>(random_.Normal())});
   }
 
   glm::quat lowered_;

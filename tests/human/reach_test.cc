@@ -46,11 +46,11 @@ TEST(TwoBoneIk, BringsTheEndToAnyTargetWithinReach) {
     ik.upper = arm.shoulder;
     ik.lower = arm.elbow;
     ik.end = arm.wrist;
-    const glm::vec3 way(random.Normal(), random.Normal(), random.Normal());
+    const glm::vec3 way{random.Normal(), random.Normal(), random.Normal()};
     const float length = arm.upper_length + arm.lower_length;
     ik.target =
         shoulder + static_cast<float>(random.Uniform(0.2, 0.99)) * length * glm::normalize(way);
-    ik.pole = glm::vec3(random.Normal(), random.Normal(), random.Normal());
+    ik.pole = glm::vec3{random.Normal(), random.Normal(), random.Normal()};
     ik.hinge = glm::vec3(0.0f, -1.0f, 0.0f);
     const float missed = ik.Solve(human.skeleton, body, pose);
     const JointFrame wrist = ActorFromJoint(human.skeleton, pose, arm.wrist);

@@ -58,9 +58,10 @@ TEST(SkinMesh, MovesVerticesWithTheirJoints) {
 
 glm::mat4 RandomMotion(Random& random, float scale) {
   glm::mat4 matrix = glm::mat4_cast(glm::normalize(
-      glm::quat(random.Normal(), random.Normal(), random.Normal(), random.Normal())));
+      glm::quat{static_cast<float>(random.Normal()), static_cast<float>(random.Normal()),
+                static_cast<float>(random.Normal()), static_cast<float>(random.Normal())}));
   matrix = glm::scale(matrix, glm::vec3(scale));
-  matrix[3] = glm::vec4(random.Normal(), random.Normal(), random.Normal(), 1.0f);
+  matrix[3] = glm::vec4{random.Normal(), random.Normal(), random.Normal(), 1.0f};
   return matrix;
 }
 
@@ -72,13 +73,13 @@ struct RandomSkin {
       skin.push_back(RandomMotion(random, 1.0f));
     }
     for (size_t v = 0; v < count; ++v) {
-      positions.emplace_back(random.Normal(), random.Normal(), random.Normal());
+      positions.push_back({random.Normal(), random.Normal(), random.Normal()});
       normals.push_back(glm::normalize(positions.back()));
       const auto joint = [&] {
         return static_cast<uint8_t>(random.Below(static_cast<uint32_t>(joint_count)));
       };
       joints.push_back({joint(), joint(), joint(), joint()});
-      glm::vec4 w(random.Uniform(0, 1), random.Uniform(0, 1), random.Uniform(0, 1), 0.0f);
+      glm::vec4 w{random.Uniform(0, 1), random.Uniform(0, 1), random.Uniform(0, 1), 0.0f};
       weights.push_back(w / (w.x + w.y + w.z + w.w));
     }
   }
@@ -120,7 +121,7 @@ TEST(DualQuaternion, MovesAPointAsItsMatrixDoes) {
   for (int i = 0; i < 100; ++i) {
     const glm::mat4 matrix = RandomMotion(random, static_cast<float>(random.Uniform(0.3, 3.0)));
     const DualQuaternion q = ToDualQuaternion(matrix);
-    const glm::vec3 point(random.Normal(), random.Normal(), random.Normal());
+    const glm::vec3 point{random.Normal(), random.Normal(), random.Normal()};
     const glm::quat translation = 2.0f * (q.dual * glm::conjugate(q.real));
     const glm::vec3 moved =
         q.real * (q.scale * point) + glm::vec3(translation.x, translation.y, translation.z);

@@ -222,7 +222,7 @@ TEST(Springs, SurviveJoltsAndInputThatIsNotFinite) {
   Random random(5);
   for (int i = 0; i < 3000; ++i) {
     braid.step.stage_from_actor = glm::translate(
-        glm::mat4(1.0f), glm::vec3(random.Normal(), random.Normal(), random.Normal()) * 0.1f);
+        glm::mat4(1.0f), glm::vec3{random.Normal(), random.Normal(), random.Normal()} * 0.1f);
     if (i % 50 == 7) {
       braid.step.stage_from_actor[3].x = std::numeric_limits<float>::quiet_NaN();
     }

@@ -22,10 +22,10 @@ class NoisyCamera : public capture::FrameSource {
     Random random(static_cast<uint64_t>(next_) + 1);
     cv::Mat fine(kFine * height(), kFine * width(), CV_32FC3, cv::Scalar::all(0.5));
     for (int i = 0; i < 12; ++i) {
-      const cv::Point centre(static_cast<int>(random.Uniform(0, fine.cols)),
-                             static_cast<int>(random.Uniform(0, fine.rows)));
-      cv::circle(fine, centre, static_cast<int>(random.Uniform(80, 180)),
-                 cv::Scalar::all(random.Uniform(0.1, 0.9)), cv::FILLED);
+      const cv::Point centre{static_cast<int>(random.Uniform(0, fine.cols)),
+                             static_cast<int>(random.Uniform(0, fine.rows))};
+      const int radius = static_cast<int>(random.Uniform(80, 180));
+      cv::circle(fine, centre, radius, cv::Scalar::all(random.Uniform(0.1, 0.9)), cv::FILLED);
     }
     cv::GaussianBlur(fine, fine, cv::Size(), kFine * (next_ % 2 == 0 ? kBlur : 4.0));
     cv::Mat image;

@@ -74,7 +74,7 @@ TEST(PhotographedPlace, AStageLaidByFourPointsShowsPeopleWhereTheyStandToThePixe
     for (const vision::Keyframe& keyframe : map.keyframes) {
       const auto pixel = seen(keyframe.name, point.position);
       if (pixel && surveyed.camera.Contains(*pixel) && keyframe.frame_index % 2 == 1) {
-        const Vector2d error(random.Uniform(-1.5, 1.5), random.Uniform(-1.5, 1.5));
+        const Vector2d error{random.Uniform(-1.5, 1.5), random.Uniform(-1.5, 1.5)};
         SetCheckPick(place, point.name, {keyframe.frame_index, keyframe.name, *pixel + error});
       }
     }

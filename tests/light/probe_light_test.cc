@@ -13,7 +13,7 @@ namespace lararium::light {
 namespace {
 
 glm::vec3 Direction(Random& random) {
-  return glm::normalize(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
+  return glm::normalize(glm::vec3{random.Normal(), random.Normal(), random.Normal()});
 }
 
 TEST(ProjectSun, IsTheIntegralOverAnEvenDisc) {
@@ -53,7 +53,7 @@ TEST(ProbeLight, TurnsAndBrightensSkyAndSunAlike) {
   Random random(5);
   ProbeLight light;
   for (glm::vec3& c : light.sky) {
-    c = glm::vec3(random.Normal(), random.Normal(), random.Normal());
+    c = glm::vec3{random.Normal(), random.Normal(), random.Normal()};
   }
   light.sky[0] = glm::vec3(20.0f);
   light.sun = Sun{Direction(random), {3.0f, 2.0f, 1.0f}, 0.01f};

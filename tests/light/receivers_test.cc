@@ -15,7 +15,7 @@ constexpr size_t kReceiverCount = 37;  // no multiple of the register size
 std::vector<glm::vec3> RandomPoints(Random& random, size_t count) {
   std::vector<glm::vec3> points;
   for (size_t i = 0; i < count; ++i) {
-    points.emplace_back(random.Uniform(-1, 1), random.Uniform(0, 2), random.Uniform(-1, 1));
+    points.push_back({random.Uniform(-1, 1), random.Uniform(0, 2), random.Uniform(-1, 1)});
   }
   return points;
 }

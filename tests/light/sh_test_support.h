@@ -22,13 +22,14 @@ inline glm::vec3 RandomDirection(Random& random) {
 
 inline glm::quat RandomRotation(Random& random) {
   return glm::normalize(
-      glm::quat(random.Normal(), random.Normal(), random.Normal(), random.Normal()));
+      glm::quat{static_cast<float>(random.Normal()), static_cast<float>(random.Normal()),
+                static_cast<float>(random.Normal()), static_cast<float>(random.Normal())});
 }
 
 inline ShRgb RandomCoefficients(Random& random) {
   ShRgb radiance;
   for (glm::vec3& coefficient : radiance) {
-    coefficient = glm::vec3(random.Normal(), random.Normal(), random.Normal());
+    coefficient = glm::vec3{random.Normal(), random.Normal(), random.Normal()};
   }
   return radiance;
 }

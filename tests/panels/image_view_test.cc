@@ -18,8 +18,8 @@ TEST(ImageView, APointOfThePlaceIsWhereThePictureShowsItAndGivesItsRawPixel) {
   Random random(3);
   double farthest = 0.0;
   for (int i = 0; i < 200; ++i) {
-    const Vector3d point(random.Uniform(-1.0, 1.0), random.Uniform(-0.75, 0.75),
-                         random.Uniform(2.0, 6.0));
+    const Vector3d point{random.Uniform(-1.0, 1.0), random.Uniform(-0.75, 0.75),
+                         random.Uniform(2.0, 6.0)};
     const Vector2d raw = *kRaw.Project(point);
     const Vector2d shown = *map.redrawn->display.Project(point);
     const Vector2d on_screen = map.origin + 1.7 * (shown + Vector2d(0.5, 0.5));

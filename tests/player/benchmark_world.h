@@ -32,10 +32,10 @@ inline BenchmarkWorld MakeBenchmarkWorld(int cameras, double noise, uint64_t see
   BenchmarkWorld world;
   Random random(seed);
   const auto draw = [&](double size) {
-    return Eigen::Vector3d(size * random.Normal(), size * random.Normal(), size * random.Normal());
+    return Eigen::Vector3d{size * random.Normal(), size * random.Normal(), size * random.Normal()};
   };
   for (int i = 0; i < 300; ++i) {
-    world.points.emplace_back(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+    world.points.push_back({random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)});
   }
   for (int i = 0; i < cameras; ++i) {
     geometry::Rigid3 truth{geometry::RotationFromVector(draw(0.1)),

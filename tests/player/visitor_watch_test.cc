@@ -75,7 +75,7 @@ TEST(VisitorWatch, WhatTrembleThereIsWakesNobody) {
   ASSERT_FALSE(watch.present());
   const auto events = Play(watch, 100.0, 600.0, [&](double) {
     return Rigid3{geometry::RotationFromVector(
-                      Eigen::Vector3d(random.Normal(), random.Normal(), 0.0) * 0.0008),
+                      Eigen::Vector3d{random.Normal(), random.Normal(), 0.0} * 0.0008),
                   {0.0005 * random.Normal(), 0.0, 2.0}};
   });
   EXPECT_TRUE(events.empty());

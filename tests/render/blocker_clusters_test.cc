@@ -16,8 +16,8 @@ std::vector<glm::vec4> RandomBalls(size_t count, uint64_t seed) {
   Random random(seed);
   std::vector<glm::vec4> balls;
   for (size_t i = 0; i < count; ++i) {
-    balls.emplace_back(random.Uniform(-2.0, 2.0), random.Uniform(0.0, 2.0),
-                       random.Uniform(-1.0, 1.0), random.Uniform(0.02, 0.1));
+    balls.push_back({random.Uniform(-2.0, 2.0), random.Uniform(0.0, 2.0), random.Uniform(-1.0, 1.0),
+                     random.Uniform(0.02, 0.1)});
   }
   return balls;
 }

@@ -254,7 +254,7 @@ TEST_F(CatcherTest, OfManyBallsInColouredLightTheFloorKeepsWhatQuadratureSays) {
   Random random(31);
   light::ShRgb light = {};
   for (size_t k = 1; k < 16; ++k) {
-    light[k] = 0.12f * glm::vec3(random.Normal(), random.Normal(), random.Normal());
+    light[k] = 0.12f * glm::vec3{random.Normal(), random.Normal(), random.Normal()};
   }
   light[0] = glm::vec3(3.0f, 2.5f, 2.0f);
   scene_.light = light;
@@ -399,8 +399,8 @@ TEST_F(CatcherTest, MoreBallsThanFitDarkenAlike) {
   Random random(8);
   std::vector<glm::vec4> balls;
   for (int i = 0; i < 512; ++i) {
-    balls.emplace_back(random.Uniform(-0.3, 0.3), random.Uniform(0.1, 1.7),
-                       random.Uniform(-0.2, 0.2), random.Uniform(0.015, 0.025));
+    balls.push_back({random.Uniform(-0.3, 0.3), random.Uniform(0.1, 1.7), random.Uniform(-0.2, 0.2),
+                     random.Uniform(0.015, 0.025)});
   }
   scene_.blockers = balls;
   const cv::Mat as_many = Draw();

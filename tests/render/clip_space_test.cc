@@ -15,8 +15,8 @@ TEST(ClipSpace, PutsPointsOnThePixelsOfTheCameraModel) {
   const glm::mat4 clip_from_camera = ClipFromCamera(kDisplay, 0.1f, 50.0f);
   Random random(3);
   for (int i = 0; i < 200; ++i) {
-    const Eigen::Vector3d point(random.Uniform(-3, 3), random.Uniform(-2, 2),
-                                random.Uniform(0.2, 40));
+    const Eigen::Vector3d point{random.Uniform(-3, 3), random.Uniform(-2, 2),
+                                random.Uniform(0.2, 40)};
     const Eigen::Vector2d pixel = *kDisplay.Project(point);
     const glm::vec4 clip = clip_from_camera * glm::vec4(geometry::ToGlm(point), 1.0f);
     // OpenGL's window coordinates: sample centres at halves, y up.

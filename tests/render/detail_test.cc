@@ -98,11 +98,11 @@ TEST(MaySee, IsTrueOfEveryBallThatReachesIntoThePicture) {
   int seen = 0;
   int hidden = 0;
   for (int i = 0; i < 2000; ++i) {
-    const glm::vec3 centre(random.Uniform(-6, 6), random.Uniform(-4, 4), random.Uniform(-6, 6));
+    const glm::vec3 centre{random.Uniform(-6, 6), random.Uniform(-4, 4), random.Uniform(-6, 6)};
     bool touches = false;
     for (int k = 0; k < 30; ++k) {
       const Eigen::Vector3d offset =
-          Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
+          Eigen::Vector3d{random.Normal(), random.Normal(), random.Normal()}.normalized();
       const auto pixel = kDetailDisplay.Project(
           camera_from_stage * (Eigen::Vector3d(centre.x, centre.y, centre.z) + offset));
       touches |= pixel && kDetailDisplay.Contains(*pixel);

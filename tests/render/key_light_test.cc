@@ -26,9 +26,9 @@ TEST(KeyLight, FindsALampInEvenLight) {
   Random random(1);
   for (int i = 0; i < 50; ++i) {
     const glm::vec3 direction =
-        glm::normalize(glm::vec3(random.Normal(), random.Normal(), random.Normal()));
-    const glm::vec3 irradiance(random.Uniform(0.5, 3), random.Uniform(0.5, 3),
-                               random.Uniform(0.5, 3));
+        glm::normalize(glm::vec3{random.Normal(), random.Normal(), random.Normal()});
+    const glm::vec3 irradiance{random.Uniform(0.5, 3), random.Uniform(0.5, 3),
+                               random.Uniform(0.5, 3)};
     const KeyLight key = EstimateKeyLight(Lit(direction, irradiance, 0.3f));
     EXPECT_LT(glm::distance(key.direction, direction), 1e-4f) << "seed 1, lamp " << i;
     EXPECT_LT(glm::distance(key.irradiance, irradiance), 1e-4f) << "seed 1, lamp " << i;
@@ -45,7 +45,7 @@ TEST(KeyLight, IsNeverMoreThanAllThereIs) {
   for (int i = 0; i < 200; ++i) {
     light::ShRgb light;
     for (glm::vec3& c : light) {
-      c = glm::vec3(random.Normal(), random.Normal(), random.Normal());
+      c = glm::vec3{random.Normal(), random.Normal(), random.Normal()};
     }
     light[0] = glm::abs(light[0]);
     const KeyLight key = EstimateKeyLight(light);

@@ -192,8 +192,8 @@ TEST_F(RendererTest, PointsLandOnThePixelThatTheCameraModelSays) {
   const glm::mat4 skin(1.0f);
   Random random(5);
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d point(random.Uniform(-0.8, 0.8), random.Uniform(0.5, 1.8),
-                                random.Uniform(-2.0, 0.5));
+    const Eigen::Vector3d point{random.Uniform(-0.8, 0.8), random.Uniform(0.5, 1.8),
+                                random.Uniform(-2.0, 0.5)};
     const Eigen::Vector3d in_camera = camera_from_stage * point;
     const Eigen::Vector2d pixel = *display.Project(in_camera);
     if (!display.Contains(pixel + Eigen::Vector2d::Constant(4)) ||
@@ -306,7 +306,7 @@ TEST_F(RendererTest, SphereIsLitByTheAnalyticIrradiance) {
   scene.light = UniformLight(1.5f);
   for (int i = 1; i < light::kPlainShCount; ++i) {
     scene.light[i] =
-        glm::vec3(random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3));
+        glm::vec3{random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3)};
   }
   scene.exposure = 2.0f;
   scene.gain = glm::vec3(1.5f, 0.9f, 1.0f);

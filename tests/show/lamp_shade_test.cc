@@ -52,8 +52,8 @@ TEST(LampShade, AgreesWithRaysButNearEdges) {
   int wrong = 0, hidden = 0;
   constexpr int kPoints = 2000;
   for (int i = 0; i < kPoints; ++i) {
-    const glm::vec3 point(random.Uniform(-3.0, 3.0), random.Uniform(0.0, 2.0),
-                          random.Uniform(-3.0, 3.0));
+    const glm::vec3 point{random.Uniform(-3.0, 3.0), random.Uniform(0.0, 2.0),
+                          random.Uniform(-3.0, 3.0)};
     const bool expected = tree.Hides({lamp.position.x, lamp.position.y, lamp.position.z},
                                      {point.x, point.y, point.z}, light::LampWalls::kOnWall);
     const float past = light::PastWalls(*lamp.walls, lamp.position, point);

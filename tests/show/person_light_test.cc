@@ -24,9 +24,9 @@ std::shared_ptr<const human::Human> LitHuman() {
   light.count = 9;
   light.key_poses = {human.skeleton.rest};
   const auto place = [&](float x) {
-    return glm::vec3(x + static_cast<float>(random.Uniform(-0.2, 0.2)),
+    return glm::vec3{x + static_cast<float>(random.Uniform(-0.2, 0.2)),
                      static_cast<float>(random.Uniform(0.2, 1.7)),
-                     static_cast<float>(random.Uniform(-0.2, 0.2)));
+                     static_cast<float>(random.Uniform(-0.2, 0.2))};
   };
   for (uint32_t i = 0; i < 100; ++i) {
     light.receivers.push_back({i / 50, place(0.6f * static_cast<float>(i / 50))});

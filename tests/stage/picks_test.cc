@@ -189,7 +189,7 @@ TEST(StagePicks, TheSpreadPredictsWhatWrongPicksDo) {
     StagePicks noisy = exact;
     for (Anchor* anchor : {&noisy.origin, &noisy.forward}) {
       for (Pick& pick : anchor->picks) {
-        pick.pixel += Eigen::Vector2d(random.Normal(), random.Normal());
+        pick.pixel += Eigen::Vector2d{random.Normal(), random.Normal()};
       }
     }
     const auto other = SolveStage(noisy, map);
@@ -212,7 +212,7 @@ TEST(StagePicks, TheSpreadOfAPointPredictsWhatWrongPicksDoToIt) {
   for (int i = 0; i < kRounds; ++i) {
     Anchor noisy = exact;
     for (Pick& pick : noisy.picks) {
-      pick.pixel += Eigen::Vector2d(random.Normal(), random.Normal());
+      pick.pixel += Eigen::Vector2d{random.Normal(), random.Normal()};
     }
     const auto moved = SolveAnchor(noisy, map);
     ASSERT_TRUE(moved.ok());

@@ -84,12 +84,14 @@ std::vector<BoardPicture> VariedBoardPictures(const SyntheticBoard& board,
   // At this distance the board fills the width.
   const double fills = width * camera.fx / camera.width;
   while (static_cast<int>(pictures.size()) < count) {
-    const Eigen::Vector2d pixel(random.Uniform(0.1, 0.9) * camera.width,
-                                random.Uniform(0.1, 0.9) * camera.height);
+    const Eigen::Vector2d pixel{random.Uniform(0.1, 0.9) * camera.width,
+                                random.Uniform(0.1, 0.9) * camera.height};
     BoardPicture picture;
-    picture.camera_from_board = AimedBoardPose(
-        board, camera, pixel, fills * random.Uniform(1.1, 2.6), random.Uniform(0.0, 0.7),
-        random.Uniform(0.0, 2.0 * std::numbers::pi), random.Uniform(-0.4, 0.4));
+    const double distance = fills * random.Uniform(1.1, 2.6);
+    const double tilt = random.Uniform(0.0, 0.7);
+    const double tilt_axis = random.Uniform(0.0, 2.0 * std::numbers::pi);
+    picture.camera_from_board =
+        AimedBoardPose(board, camera, pixel, distance, tilt, tilt_axis, random.Uniform(-0.4, 0.4));
     if (BoardInside(board, camera, picture.camera_from_board)) {
       pictures.push_back(picture);
     }

@@ -86,10 +86,10 @@ SyntheticWorld MakeSyntheticWorld(const SyntheticWorldOptions& options) {
                   .p1 = 0.001,
                   .p2 = -0.0005};
   for (int i = 0; i < options.points; ++i) {
-    world.points.emplace_back(random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0),
-                              random.Uniform(-1.0, 1.0));
+    world.points.push_back(
+        {random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0), random.Uniform(-1.0, 1.0)});
     world.normals.emplace_back(
-        Eigen::Vector3d(random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), 1.0).normalized());
+        Eigen::Vector3d{random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3), 1.0}.normalized());
     world.sizes.push_back(0.01 * std::exp2(random.Uniform(0.0, 3.0)));
     world.descriptors.push_back(RandomDescriptor(random));
   }
@@ -110,11 +110,11 @@ SyntheticView RenderView(const SyntheticWorld& world,
   for (size_t i = 0; i < world.points.size(); ++i) {
     const Eigen::Vector3d p = camera_from_world * world.points[i];
     const auto pixel = world.camera.Project(p);
-    const Eigen::Vector2d noise(options.noise_px * random.Normal(),
-                                options.noise_px * random.Normal());
+    const Eigen::Vector2d noise{options.noise_px * random.Normal(),
+                                options.noise_px * random.Normal()};
     const bool outlier = random.Uniform() < options.outlier_share;
-    const Eigen::Vector2d anywhere(random.Uniform(0.0, world.camera.width - 1.0),
-                                   random.Uniform(0.0, world.camera.height - 1.0));
+    const Eigen::Vector2d anywhere{random.Uniform(0.0, world.camera.width - 1.0),
+                                   random.Uniform(0.0, world.camera.height - 1.0)};
     const Descriptor descriptor = Disturbed(world.descriptors[i], options.descriptor_noise, random);
     if (!pixel || !world.camera.Contains(*pixel)) {
       continue;

@@ -125,7 +125,7 @@ Reconstruction Disturbed(const World& world, Random& random) {
     pose.rotation = geometry::RotationFromVector(
                         {0.01 * random.Normal(), 0.01 * random.Normal(), 0.01 * random.Normal()}) *
                     pose.rotation;
-    pose.translation += 0.02 * Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal());
+    pose.translation += 0.02 * Eigen::Vector3d{random.Normal(), random.Normal(), random.Normal()};
     reconstruction.Locate(image, pose);
   }
   return reconstruction;

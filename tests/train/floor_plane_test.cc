@@ -67,7 +67,7 @@ class Room {
  private:
   void Add(const Vector3d& point) {
     points_.push_back(point +
-                      noise_ * Vector3d(random_.Normal(), random_.Normal(), random_.Normal()));
+                      noise_ * Vector3d{random_.Normal(), random_.Normal(), random_.Normal()});
   }
 
   // Adds a camera that looks along +y, turned by -heading and then down by pitch.

@@ -43,7 +43,7 @@ TwoViews MakeViews(int count) {
   views.b_from_a.rotation = Eigen::AngleAxisd(0.1, Eigen::Vector3d(0.3, 0.9, 0.1).normalized());
   views.b_from_a.translation = Eigen::Vector3d(0.9, 0.1, 0.2).normalized();
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d point(random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(3, 6));
+    const Eigen::Vector3d point{random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(3, 6)};
     views.plane_a.push_back(point.hnormalized());
     views.plane_b.push_back((views.b_from_a * point).hnormalized());
     vision::Keypoint keypoint;

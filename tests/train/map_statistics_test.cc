@@ -137,7 +137,7 @@ Eigen::Vector3d Triangulated(const SceneDatabase& db, uint32_t point, Random& ra
           (*db.camera.Project(pose * (at + h)) - *db.camera.Project(pose * (at - h))) / 2e-5;
     }
     information += jacobian.transpose() * jacobian;
-    gradient += jacobian.transpose() * Eigen::Vector2d(px * random.Normal(), px * random.Normal());
+    gradient += jacobian.transpose() * Eigen::Vector2d{px * random.Normal(), px * random.Normal()};
   }
   return at + information.ldlt().solve(gradient);
 }

@@ -65,7 +65,7 @@ TEST(AlignByPairs, RefusesTooFewAndThoseOnALine) {
 TEST(PlaneDistance, HasTheDerivativeThatDifferencesGive) {
   Random random(3);
   const auto vector = [&] {
-    return Vector3d(random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-2, 2));
+    return Vector3d{random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-2, 2)};
   };
   for (int i = 0; i < 20; ++i) {
     const SurfacePair pair{vector(), vector(), vector().normalized()};
@@ -126,7 +126,7 @@ Found Scatter(size_t on_it, double noise_m, double foreign_share, uint64_t seed)
     const bool inside = at.z() == 600.0 && at.x() < 500.0;  // Between the two boxes.
     const bool below = at.y() == 0.0;
     if (!inside && !below) {
-      const Vector3d noise(random.Normal(), random.Normal(), random.Normal());
+      const Vector3d noise{random.Normal(), random.Normal(), random.Normal()};
       found.points.push_back(found.stage_from_mesh * at + noise_m * noise);
     }
   }
@@ -134,9 +134,9 @@ Found Scatter(size_t on_it, double noise_m, double foreign_share, uint64_t seed)
       static_cast<size_t>(static_cast<double>(on_it) * foreign_share / (1.0 - foreign_share));
   for (size_t i = 0; i < foreign; ++i) {
     const bool floor = i % 3 == 0;
-    found.points.push_back(found.stage_from_mesh * Vector3d(random.Uniform(-800, 2800),
+    found.points.push_back(found.stage_from_mesh * Vector3d{random.Uniform(-800, 2800),
                                                             floor ? 0.0 : random.Uniform(0, 1600),
-                                                            random.Uniform(-800, 2600)));
+                                                            random.Uniform(-800, 2600)});
   }
   return found;
 }
@@ -197,9 +197,9 @@ TEST(RefineAlignment, WhatStandsOnItDoesNotLiftIt) {
   Found found = Scatter(1500, 0.004, 0.2, 19);
   Random random(20);
   for (int i = 0; i < 1500; ++i) {
-    found.points.push_back(found.stage_from_mesh * Vector3d(random.Uniform(0, 2000),
+    found.points.push_back(found.stage_from_mesh * Vector3d{random.Uniform(0, 2000),
                                                             random.Uniform(910, 1200),
-                                                            random.Uniform(0, 600)));
+                                                            random.Uniform(0, 600)});
   }
   const Similarity3 start = Offset(found.stage_from_mesh, 0.4, {0.008, -0.006, 0.005}, 0.995);
   const auto report = Refine(found, start, {.search_m = 0.3});
@@ -223,8 +223,8 @@ TEST(RefineAlignment, DoesNotSlideWhereNothingSaysHowFar) {
   Random random(14);
   std::vector<Vector3d> points;
   for (int i = 0; i < 500; ++i) {
-    points.emplace_back(random.Uniform(-1, 5), random.Uniform(-1, 4),
-                        0.05 + 0.005 * random.Normal());
+    points.push_back(
+        {random.Uniform(-1, 5), random.Uniform(-1, 4), 0.05 + 0.005 * random.Normal()});
   }
   NoProgress silent;
   const auto report = RefineAlignment(wall, {}, points, {.search_m = 0.2}, silent);

@@ -45,8 +45,8 @@ World MakeWorld(const WorldOptions& options) {
   world.camera.cx = 319.5;
   world.camera.cy = 239.5;
   for (int i = 0; i < options.points; ++i) {
-    world.points.emplace_back(random.Uniform(-1, 1), random.Uniform(-1, 1),
-                              options.planar ? 0.0 : random.Uniform(-1, 1));
+    world.points.push_back({random.Uniform(-1, 1), random.Uniform(-1, 1),
+                            options.planar ? 0.0 : random.Uniform(-1, 1)});
   }
   for (int i = 0; i < options.images; ++i) {
     world.camera_from_world.push_back(CameraAt(options, i));
@@ -57,7 +57,7 @@ World MakeWorld(const WorldOptions& options) {
       if (!pixel || !world.camera.Contains(*pixel)) {
         continue;
       }
-      *pixel += options.noise_px * Eigen::Vector2d(random.Normal(), random.Normal());
+      *pixel += options.noise_px * Eigen::Vector2d{random.Normal(), random.Normal()};
       if (random.Uniform() < options.false_share) {
         *pixel = {random.Uniform(0, 640), random.Uniform(0, 480)};
       }

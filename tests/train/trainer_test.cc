@@ -97,10 +97,10 @@ cv::Mat Texture(uint64_t seed) {
   Random random(seed);
   cv::Mat image(480, 640, CV_8UC1, cv::Scalar(128));
   for (int i = 0; i < 1500; ++i) {
-    const cv::Point center(static_cast<int>(random.Below(640)),
-                           static_cast<int>(random.Below(480)));
-    cv::circle(image, center, 2 + static_cast<int>(random.Below(10)), cv::Scalar(random.Below(256)),
-               cv::FILLED, cv::LINE_AA);
+    const cv::Point center{static_cast<int>(random.Below(640)),
+                           static_cast<int>(random.Below(480))};
+    const int radius = 2 + static_cast<int>(random.Below(10));
+    cv::circle(image, center, radius, cv::Scalar(random.Below(256)), cv::FILLED, cv::LINE_AA);
   }
   return image;
 }

@@ -189,7 +189,7 @@ TEST(EstimateTurning, LeavesNothingForATurnAndNotForASidestep) {
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.2, 1.0, -0.3).normalized()).toRotationMatrix();
   for (int i = 0; i < 50; ++i) {
-    const Eigen::Vector3d point(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(3, 5));
+    const Eigen::Vector3d point{random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(3, 5)};
     turned.a.push_back(point.hnormalized());
     turned.b.push_back((rotation * point).hnormalized());
     moved.a.push_back(point.hnormalized());

@@ -50,7 +50,7 @@ TEST(PixelResidual, JacobianIsThatOfDifferences) {
   camera.turning = {0.01, 0.005, -0.02};
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d point = PointInView(random);
-    const Eigen::Vector2d observed(random.Uniform(0, 1280), random.Uniform(0, 720));
+    const Eigen::Vector2d observed{random.Uniform(0, 1280), random.Uniform(0, 720)};
     Eigen::Vector2d residual;
     Eigen::Matrix<double, 2, kMostJoint> jacobian;
     ASSERT_TRUE(PixelResidual<kMostJoint>(camera, point, &motion, observed, residual, &jacobian));
@@ -107,9 +107,9 @@ TEST(CameraRefiner, FindsTheIntrinsicsThatItIsNotTold) {
       PoseMatch match;
       match.point = kPose.Inverse() * in_camera;
       match.pixel =
-          *kPhone.Project(in_camera) + 0.5 * Eigen::Vector2d(random.Normal(), random.Normal());
+          *kPhone.Project(in_camera) + 0.5 * Eigen::Vector2d{random.Normal(), random.Normal()};
       if (i % 5 == 0) {
-        match.pixel += Eigen::Vector2d(random.Uniform(20, 80), random.Uniform(-80, 80));
+        match.pixel += Eigen::Vector2d{random.Uniform(20, 80), random.Uniform(-80, 80)};
       }
       matches.push_back(match);
     }
@@ -144,7 +144,7 @@ std::vector<PatchMatch> RollingMatches(const CameraEstimate& truth,
     PatchMatch& match = matches.emplace_back();
     match.point = kPose.Inverse() * in_camera;
     match.pixel = RollingPixel(truth, in_camera, motion) +
-                  noise_px * Eigen::Vector2d(random.Normal(), random.Normal());
+                  noise_px * Eigen::Vector2d{random.Normal(), random.Normal()};
   }
   return matches;
 }

@@ -26,10 +26,10 @@ cv::Mat TexturedScene(uint64_t seed, double blur) {
     }
   }
   for (int i = 0; i < 14; ++i) {
-    const cv::Point centre(static_cast<int>(random.Uniform(0, fine.cols)),
-                           static_cast<int>(random.Uniform(0, fine.rows)));
-    cv::circle(fine, centre, static_cast<int>(random.Uniform(80, 180)),
-               cv::Scalar(random.Uniform(0.1, 0.9)), cv::FILLED);
+    const cv::Point centre{static_cast<int>(random.Uniform(0, fine.cols)),
+                           static_cast<int>(random.Uniform(0, fine.rows))};
+    const int radius = static_cast<int>(random.Uniform(80, 180));
+    cv::circle(fine, centre, radius, cv::Scalar(random.Uniform(0.1, 0.9)), cv::FILLED);
   }
   if (blur > 0.0) {
     cv::GaussianBlur(fine, fine, cv::Size(), kFine * blur);

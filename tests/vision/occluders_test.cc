@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 Vector3f RandomPoint(Random& random, double reach) {
-  return Vector3f(static_cast<float>(random.Uniform(-reach, reach)),
+  return Vector3f{static_cast<float>(random.Uniform(-reach, reach)),
                   static_cast<float>(random.Uniform(-reach, reach)),
-                  static_cast<float>(random.Uniform(-reach, reach)));
+                  static_cast<float>(random.Uniform(-reach, reach))};
 }
 
 OccluderMesh RandomTriangles(uint64_t seed, int count) {

@@ -26,10 +26,10 @@ std::vector<PatchMatch> MakeMatches(int count, double noise_px, double outliers,
     const double vague = i % 2 == 0 ? 1.0 : 30.0;
     match.whitening << 1.0, 0.0, 0.0, 1.0 / vague;
     match.pixel = *kPatchCamera.Project(kTruth * match.point);
-    match.pixel += noise_px * Eigen::Vector2d(random.Normal(), vague * random.Normal());
+    match.pixel += noise_px * Eigen::Vector2d{random.Normal(), vague * random.Normal()};
     if (random.Uniform() < outliers) {
       match.pixel +=
-          kFocal * Eigen::Vector2d(random.Uniform(-0.05, 0.05), random.Uniform(0.01, 0.05));
+          kFocal * Eigen::Vector2d{random.Uniform(-0.05, 0.05), random.Uniform(0.01, 0.05)};
     }
   }
   return matches;

@@ -73,8 +73,8 @@ Errors Measure(const cv::Mat& source,
     PatchTemplate patch;
     PatchFit fit;
     const Eigen::Vector2f start = warp.centre + shift +
-                                  Eigen::Vector2f(static_cast<float>(random.Uniform(-0.8, 0.8)),
-                                                  static_cast<float>(random.Uniform(-0.8, 0.8)));
+                                  Eigen::Vector2f{static_cast<float>(random.Uniform(-0.8, 0.8)),
+                                                  static_cast<float>(random.Uniform(-0.8, 0.8))};
     if (!patch.Sample(source, warp) || !AlignPatch(image, patch, start, {}, fit)) {
       continue;
     }
@@ -148,8 +148,8 @@ TEST(AlignPatch, ForetellsItsScatter) {
         Render([&](double x, double y) { return texture(x, y) + kNoise * random.Normal(); });
     for (int i = 0; i < 60; ++i) {
       // Centres are on whole pixels, because interpolation would smooth the noise.
-      const Eigen::Vector2f centre(30.5f + static_cast<float>(random.Below(100)),
-                                   30.5f + static_cast<float>(random.Below(100)));
+      const Eigen::Vector2f centre{30.5f + static_cast<float>(random.Below(100)),
+                                   30.5f + static_cast<float>(random.Below(100))};
       PatchTemplate patch;
       PatchFit fit;
       ASSERT_TRUE(patch.Sample(source, {.centre = centre}));

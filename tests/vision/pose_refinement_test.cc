@@ -15,7 +15,7 @@ using geometry::Rigid3;
 constexpr double kRefinedFocal = 560.0;
 
 Rigid3 SomePose(Random& random) {
-  return {Eigen::Quaterniond(random.Normal(), random.Normal(), random.Normal(), random.Normal())
+  return {Eigen::Quaterniond{random.Normal(), random.Normal(), random.Normal(), random.Normal()}
               .normalized(),
           {random.Normal(), random.Normal(), random.Normal()}};
 }
@@ -25,11 +25,11 @@ std::vector<PoseMatch> Matches(const Rigid3& pose, int count, double noise_px, R
   std::vector<PoseMatch> matches;
   for (int i = 0; i < count; ++i) {
     const double z = random.Uniform(2.0, 6.0);
-    const Eigen::Vector3d p(z * random.Uniform(-0.5, 0.5), z * random.Uniform(-0.4, 0.4), z);
+    const Eigen::Vector3d p{z * random.Uniform(-0.5, 0.5), z * random.Uniform(-0.4, 0.4), z};
     PoseMatch match;
     match.point = pose.Inverse() * p;
     match.plane = p.head<2>() / p.z() +
-                  noise_px / kRefinedFocal * Eigen::Vector2d(random.Normal(), random.Normal());
+                  noise_px / kRefinedFocal * Eigen::Vector2d{random.Normal(), random.Normal()};
     matches.push_back(match);
   }
   return matches;

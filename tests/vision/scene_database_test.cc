@@ -22,7 +22,8 @@ SceneDatabase SmallDatabase() {
   SceneDatabase database = test::MakeSceneDatabase(world);
   Random random(7);
   for (size_t i = 0; i < database.points.size(); ++i) {
-    database.colours.emplace_back(random.Uniform(0, 1), random.Uniform(0, 1), -1.0f);
+    database.colours.push_back(
+        Eigen::Vector3d{random.Uniform(0, 1), random.Uniform(0, 1), -1.0}.cast<float>());
   }
   database.keyframes[1].gain = {0.5f, 1.25f, 2.0f};
   database.readout = {0.01, 0.7};
