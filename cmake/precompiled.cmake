@@ -1,14 +1,12 @@
 # Headers of libraries that most sources include are parsed once for the rooms and once for the tests, in the
 # unity build only: where each source is compiled by itself, it has to include what it uses. With ccache they
-# are parsed as usual, because it would not know a source again after they have been precompiled anew. GCC 14
-# takes the buffer within a std::string for too small where they are precompiled, so only GCC 12 uses them.
+# are parsed as usual, because it would not know a source again after they have been precompiled anew.
 set(lararium_common_headers
   <algorithm> <array> <chrono> <cmath> <filesystem> <functional> <map> <memory> <mutex> <optional> <ranges>
   <span> <sstream> <string> <string_view> <unordered_map> <variant> <vector>
   <Eigen/Core> <Eigen/Geometry> <glm/glm.hpp> <glm/gtc/quaternion.hpp> <nlohmann/json.hpp>
   <opencv2/core/mat.hpp>)
-if(CMAKE_UNITY_BUILD AND NOT LARARIUM_CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU"
-    AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+if(CMAKE_UNITY_BUILD AND NOT LARARIUM_CCACHE AND NOT EMSCRIPTEN AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   foreach(kind rooms tests)
     add_library(lararium_precompiled_${kind} OBJECT ${CMAKE_SOURCE_DIR}/cmake/precompiled.cc)
     target_link_libraries(lararium_precompiled_${kind} PRIVATE
