@@ -2,17 +2,25 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "shared/vision/descriptor_forest.h"
+#include "shared/vision/lanes.h"
 
 namespace lararium::train {
 namespace {
 
-constexpr double kPerCell = 3.0;    // Mean number of features per cell.
-constexpr float kMaxTurn = 0.8f;    // Largest difference from GuidedOptions::turn, radians.
+using vision::IntegerLanes;
+using vision::kLanes;
+using vision::Lanes;
+using vision::LoadLanes;
+using vision::StoreLanes;
+
+constexpr double kPerCell = 3.0;  // Mean number of features per cell.
+// Cosine of the largest difference from GuidedOptions::turn, 0.8 radians.
+constexpr float kMaxTurnCosine = 0.696707f;
 constexpr float kMaxGrowth = 1.0f;  // Largest difference from GuidedOptions::growth, octaves.
 // Largest squared distance of a match; descriptors have length 512. With so few candidates, the
 // ratio test alone would accept random matches.
@@ -37,12 +45,6 @@ struct NearestCandidate {
            static_cast<float>(best) < squared_ratio * static_cast<float>(second);
   }
 };
-
-// Wraps an angle into [-pi, pi).
-float Wrap(float angle) {
-  constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
-  return angle - kTurn * std::floor(angle / kTurn + 0.5f);
-}
 
 }  // namespace
 
@@ -80,25 +82,47 @@ FeatureGrid::FeatureGrid(const vision::Features& features, std::span<const Eigen
   for (uint32_t i = 0; i < points.size(); ++i) {
     index_[next[cell_of[i]]++] = i;
   }
-  for (const uint32_t i : index_) {
-    x_.push_back(points[i].x());
-    y_.push_back(points[i].y());
-    angle_.push_back(features.keypoints[i].angle);
-    log_scale_.push_back(std::log2(features.keypoints[i].scale));
+  for (std::vector<float>* values : {&x_, &y_, &angle_, &cosine_, &sine_, &log_scale_}) {
+    values->resize(index_.size() + kLanes);
+  }
+  for (size_t position = 0; position < index_.size(); ++position) {
+    const uint32_t i = index_[position];
+    const vision::Keypoint& keypoint = features.keypoints[i];
+    x_[position] = static_cast<float>(points[i].x());
+    y_[position] = static_cast<float>(points[i].y());
+    angle_[position] = keypoint.angle;
+    cosine_[position] = std::cos(keypoint.angle);
+    sine_[position] = std::sin(keypoint.angle);
+    log_scale_[position] = std::log2(keypoint.scale);
   }
 }
 
 template <typename Visit>
-void FeatureGrid::VisitNearLine(const Eigen::Vector3d& line, double band, Visit visit) const {
+void FeatureGrid::VisitSimilar(
+    const Eigen::Vector3d& line, double band, float angle, float log_scale, Visit visit) const {
   const double nx = line.x();
   const double ny = line.y();
   const double d = line.z();
   // Goes row by row if the line is steep, otherwise column by column, so that each step visits few
   // cells.
+  const Eigen::Vector3f normal = line.cast<float>();
+  const float squared_band = static_cast<float>(band * band);
+  const float cosine = std::cos(angle);
+  const float sine = std::sin(angle);
   const auto visit_cells = [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      if (std::abs(nx * x_[i] + ny * y_[i] + d) < band) {
-        visit(i);
+    for (size_t i = begin; i < end; i += kLanes) {
+      const Lanes off =
+          normal.x() * LoadLanes(&x_[i]) + normal.y() * LoadLanes(&y_[i]) + normal.z();
+      const Lanes turn = cosine * LoadLanes(&cosine_[i]) + sine * LoadLanes(&sine_[i]);
+      const Lanes growth = LoadLanes(&log_scale_[i]) - log_scale;
+      const IntegerLanes similar = (off * off < squared_band) & (turn >= kMaxTurnCosine) &
+                                   (growth * growth <= kMaxGrowth * kMaxGrowth);
+      std::array<int32_t, kLanes> is_similar;
+      StoreLanes(similar, is_similar.data());
+      for (size_t lane = 0; lane < std::min<size_t>(kLanes, end - i); ++lane) {
+        if (is_similar[lane] != 0) {
+          visit(i + lane);
+        }
       }
     }
   };
@@ -150,17 +174,13 @@ std::vector<FeatureMatch> MatchGuided(const FeatureGrid& a,
       continue;  // The point is the epipole, which has no line.
     }
     line /= length;
-    const float angle = a.angle(i) + options.turn;
-    const float log_scale = a.log_scale(i) + options.growth;
-    b.VisitNearLine(line, options.band, [&](size_t j) {
-      if (std::abs(b.log_scale(j) - log_scale) > kMaxGrowth ||
-          std::abs(Wrap(b.angle(j) - angle)) > kMaxTurn) {
-        return;
-      }
+    const auto compare = [&](size_t j) {
       const uint32_t squared_distance = vision::SquaredDistance(a.descriptor(i), b.descriptor(j));
       of_a[i].Add(squared_distance, j);
       of_b[j].Add(squared_distance, i);
-    });
+    };
+    b.VisitSimilar(line, options.band, a.angle(i) + options.turn, a.log_scale(i) + options.growth,
+                   compare);
   }
   const float squared_ratio = options.ratio * options.ratio;
   std::vector<FeatureMatch> matches;

@@ -23,9 +23,11 @@ class FeatureGrid {
   size_t size() const { return index_.size(); }
 
   // Calls visit(position) for all features nearer than band to the line (n_x, n_y, d), where n has
-  // length 1. `position` is an index into the grid's arrays.
+  // length 1, whose rotation and scale are similar to these. `position` is an index into the grid's
+  // arrays.
   template <typename Visit>
-  void VisitNearLine(const Eigen::Vector3d& line, double band, Visit visit) const;
+  void VisitSimilar(
+      const Eigen::Vector3d& line, double band, float angle, float log_scale, Visit visit) const;
 
   Eigen::Vector2d point(size_t position) const { return {x_[position], y_[position]}; }
   float angle(size_t position) const { return angle_[position]; }
@@ -41,11 +43,14 @@ class FeatureGrid {
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
   double cell_ = 1.0;
   std::vector<uint32_t> begin_;  // [rows_ * columns_ + 1]: Ranges of positions per cell.
-  std::vector<double> x_;
-  std::vector<double> y_;
+  std::vector<uint32_t> index_;  // Index of the feature.
+  // These arrays are padded by one vector of numbers.
+  std::vector<float> x_;
+  std::vector<float> y_;
   std::vector<float> angle_;
+  std::vector<float> cosine_;  // Cosine and sine of angle_.
+  std::vector<float> sine_;
   std::vector<float> log_scale_;  // Logarithm to base 2.
-  std::vector<uint32_t> index_;   // Index of the feature.
   std::span<const vision::Descriptor> descriptors_;
 };
 

@@ -4,6 +4,10 @@
 #include <limits>
 #include <numeric>
 
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
 namespace lararium::train {
 namespace {
 
@@ -15,8 +19,8 @@ constexpr size_t kColumns = 4;  // Descriptors of b in this block.
 constexpr size_t kTile = 64;    // Descriptors of b that fit into the first-level cache.
 constexpr uint32_t kFar = std::numeric_limits<uint32_t>::max();
 
-// Descriptors widened to 16 bits, so that the compiler can multiply and add pairs of values in one
-// instruction. Padded with zero descriptors to a multiple of the block size.
+// Descriptors widened to 16 bits, so that one instruction multiplies and adds pairs of values.
+// Padded with zero descriptors to a multiple of the block size.
 struct WideDescriptors {
   std::vector<int16_t> values;
   std::vector<uint32_t> squared_norms;
@@ -38,22 +42,41 @@ WideDescriptors Widen(std::span<const Descriptor> descriptors, size_t multiple) 
 
 using Dots = int32_t[kRows][kColumns];
 
+#ifdef __AVX2__
+// Compilers do not all find the instruction that multiplies and adds pairs.
 void ComputeDots(const int16_t* a, const int16_t* b, Dots& dots) {
-  constexpr int n = kDescriptorSize;
-  int32_t d00 = 0, d01 = 0, d02 = 0, d03 = 0, d10 = 0, d11 = 0, d12 = 0, d13 = 0;
-  for (int k = 0; k < n; ++k) {
-    d00 += a[k] * b[k];
-    d01 += a[k] * b[n + k];
-    d02 += a[k] * b[2 * n + k];
-    d03 += a[k] * b[3 * n + k];
-    d10 += a[n + k] * b[k];
-    d11 += a[n + k] * b[n + k];
-    d12 += a[n + k] * b[2 * n + k];
-    d13 += a[n + k] * b[3 * n + k];
+  constexpr size_t kLanes = sizeof(__m256i) / sizeof(int16_t);
+  const auto load = [](const int16_t* from) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  };
+  __m256i sums[kRows][kColumns] = {};
+  for (size_t k = 0; k < kDescriptorSize; k += kLanes) {
+    for (size_t r = 0; r < kRows; ++r) {
+      const __m256i row = load(a + r * kDescriptorSize + k);
+      for (size_t c = 0; c < kColumns; ++c) {
+        const __m256i products = _mm256_madd_epi16(row, load(b + c * kDescriptorSize + k));
+        sums[r][c] = _mm256_add_epi32(sums[r][c], products);
+      }
+    }
   }
-  dots[0][0] = d00, dots[0][1] = d01, dots[0][2] = d02, dots[0][3] = d03;
-  dots[1][0] = d10, dots[1][1] = d11, dots[1][2] = d12, dots[1][3] = d13;
+  for (size_t r = 0; r < kRows; ++r) {
+    const __m256i quarters = _mm256_hadd_epi32(_mm256_hadd_epi32(sums[r][0], sums[r][1]),
+                                               _mm256_hadd_epi32(sums[r][2], sums[r][3]));
+    const __m128i sum =
+        _mm_add_epi32(_mm256_castsi256_si128(quarters), _mm256_extracti128_si256(quarters, 1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(dots[r]), sum);
+  }
 }
+#else
+void ComputeDots(const int16_t* a, const int16_t* b, Dots& dots) {
+  for (size_t r = 0; r < kRows; ++r) {
+    for (size_t c = 0; c < kColumns; ++c) {
+      dots[r][c] = std::inner_product(a + r * kDescriptorSize, a + (r + 1) * kDescriptorSize,
+                                      b + c * kDescriptorSize, 0);
+    }
+  }
+}
+#endif
 
 // Calls visit(i, j, squared distance) for all pairs, in a fixed order.
 template <typename Visit>
