@@ -424,7 +424,7 @@ CoverageShares CoverageGuide::Shares() const {
 // The sign of the steps to advise along an axis of at_: one way until half of the range is covered
 // there, then the other way. If the camera does not get on, as before a wall, the advice is the
 // other way for good.
-double CoverageGuide::WayAlong(int axis, double range, double time) {
+double CoverageGuide::AdviseAlong(int axis, double range, double time) {
   constexpr double kPatience = 4.0;  // seconds
   constexpr double kGotOn = 0.04;    // Share of the median distance.
   Course& course = courses_[static_cast<size_t>(axis)];
@@ -450,8 +450,8 @@ double CoverageGuide::WayAlong(int axis, double range, double time) {
 }
 
 CoverageAdvice CoverageGuide::StepAside(double time) {
-  return WayAlong(0, kSideways, time) > 0.0 ? CoverageAdvice::kStepRight
-                                            : CoverageAdvice::kStepLeft;
+  return AdviseAlong(0, kSideways, time) > 0.0 ? CoverageAdvice::kStepRight
+                                               : CoverageAdvice::kStepLeft;
 }
 
 CoverageAdvice CoverageGuide::Advise(const CoverageShares& shares, double time) {
@@ -480,7 +480,8 @@ CoverageAdvice CoverageGuide::Advise(const CoverageShares& shares, double time) 
     return CoverageAdvice::kLookDown;
   }
   if (shares.depth < 1.0) {
-    return WayAlong(1, kDepth, time) > 0.0 ? CoverageAdvice::kGoNearer : CoverageAdvice::kStepBack;
+    return AdviseAlong(1, kDepth, time) > 0.0 ? CoverageAdvice::kGoNearer
+                                              : CoverageAdvice::kStepBack;
   }
   return CoverageAdvice::kEnough;
 }

@@ -174,7 +174,7 @@ class CoverageGuide {
   void JudgeCells();
   CoverageShares Shares() const;
   CoverageAdvice Advise(const CoverageShares& shares, double time);
-  double WayAlong(int axis, double range, double time);
+  double AdviseAlong(int axis, double range, double time);
   CoverageAdvice StepAside(double time);
   double Heading() const;
   double Pitch() const;
