@@ -1,6 +1,6 @@
 # Headers of libraries that most sources include are parsed once for the rooms and once for the tests, in the
 # unity build only: where each source is compiled by itself, it has to include what it uses. With ccache they
-# are parsed as usual, because it would not know a source again after they have been precompiled anew.
+# are parsed as usual, because it would not know a source again after they have been precompiled again.
 set(lararium_common_headers
   <algorithm> <array> <chrono> <cmath> <filesystem> <functional> <map> <memory> <mutex> <optional> <ranges>
   <span> <sstream> <string> <string_view> <unordered_map> <variant> <vector>
