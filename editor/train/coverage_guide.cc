@@ -429,21 +429,19 @@ double CoverageGuide::AdviseAlong(int axis, double range, double time) {
   constexpr double kGotOn = 0.04;    // Share of the median distance.
   Course& course = courses_[static_cast<size_t>(axis)];
   const bool gets_on = stretch_.axis != axis || std::abs(at_[axis] - stretch_.at) > kGotOn;
-  if (!gets_on && time - stretch_.time > kPatience) {
-    course.blocked = true;
-    course.blocked_behind = false;
+  const bool stuck = !gets_on && time - stretch_.time > kPatience;
+  if (stuck) {
     // Without parallax there is no new view, so this is the end of the range.
     lowest_[axis] = std::min(lowest_[axis], at_[axis]);
     highest_[axis] = std::max(highest_[axis], at_[axis]);
   }
   const double there = course.sign > 0.0 ? highest_[axis] : -lowest_[axis];
   const double back = course.sign > 0.0 ? -lowest_[axis] : highest_[axis];
-  if (course.blocked || (!course.blocked_behind && there > 0.5 * range && there > back)) {
-    course.sign = -course.sign;
-    std::swap(course.blocked, course.blocked_behind);
-    stretch_.axis = -1;
+  const bool turns = stuck || (!course.blocked_behind && there > 0.5 * range && there > back);
+  if (turns) {
+    course = {-course.sign, stuck};
   }
-  if (gets_on || stretch_.axis == -1) {
+  if (gets_on || turns) {
     stretch_ = {axis, at_[axis], time};
   }
   return course.sign;

@@ -138,7 +138,6 @@ class CoverageGuide {
   // The steps along an axis of at_ that are advised.
   struct Course {
     double sign = 1.0;
-    bool blocked = false;         // The camera did not get on that way.
     bool blocked_behind = false;  // The camera did not get on the other way.
   };
 
