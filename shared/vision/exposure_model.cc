@@ -26,10 +26,16 @@ void ExposureModel::SetPose(const geometry::Rigid3& camera_from_map) {
   const geometry::Rigid3 since = camera_from_map * before_.Inverse();
   motion_.head<3>() = geometry::VectorFromRotation(since.rotation) / frames_;
   motion_.tail<3>() = since.translation / frames_;
-  // motion_ is the velocity half a frame ago; extrapolates it to the time of this image.
   const Vector6d acceleration =
       motion_before_ ? Vector6d(motion_ - *motion_before_) : Vector6d::Zero();
-  exposure_.during_frame = motion_ + 0.5 * acceleration;
+  // motion_ is the velocity half a frame ago. The rotation is extrapolated to the time of this
+  // image. The translation is the mean of the last two, because poses err by more than it changes:
+  // a focal length that is too long goes with a camera that is too far away, and so with a wrong
+  // speed along the axis, which the rows of a rolling shutter would turn into a focal length that
+  // is too short.
+  exposure_.during_frame = motion_;
+  exposure_.during_frame.head<3>() += 0.5 * acceleration.head<3>();
+  exposure_.during_frame.tail<3>() -= 0.5 * acceleration.tail<3>();
   exposure_.velocity = ExpMotion(exposure_.during_frame);
   exposure_.acceleration = ExpMotion(acceleration);
 }

@@ -203,13 +203,14 @@ class Tracker final : public PoseSource {
     return true;
   }
 
-  // Whether a pose is far from all predictions. Before a plane, a lens of another focal length
-  // looks like a leap of the camera.
+  // Whether a pose is too far from all predictions. The fewer patches agree with it, the nearer it
+  // has to be. Before a plane, a lens of another focal length looks like a leap of the camera.
   static bool Leaps(std::span<const Rigid3> predictions, const FollowedPose& followed) {
+    const double limit = kLeapPx * followed.share();
     return std::none_of(predictions.begin(), predictions.end(), [&](const Rigid3& prediction) {
       return DistancePx({followed.camera.model, prediction},
                         {followed.camera.model, followed.camera_from_map},
-                        followed.evidence.depths[1]) < kLeapPx;
+                        followed.evidence.depths[1]) < limit;
     });
   }
 

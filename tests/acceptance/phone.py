@@ -24,6 +24,8 @@ PHONE = "881.4,881.4,636.1,362.8,0.05,-0.07,0,0"  # The mean lens of the visitor
 CURATOR = "958,958,638,361,0.06,-0.08,0,0"  # The lens that filmed the hall.
 FALSE_PX = 10.0  # A pose whose median error is larger is wrong.
 CALIBRATED = 0.02  # The largest calibration error of the confidence.
+# The largest relative error of the focal length in the first image, and in 95 % of those after two seconds.
+FOCAL_FIRST, FOCAL_LATER = 0.01, 0.003
 
 
 @dataclass
@@ -203,7 +205,8 @@ def main() -> int:
         confidences += found["confidences"]
         good += found["good"]
         missed += (found["wrong"] > 0 or found["tracked"] < 0.99 * found["frames"] or found["median"] > sequence.median
-                   or found["p95"] > sequence.p95)
+                   or found["p95"] > sequence.p95 or found["focal_first"] > FOCAL_FIRST
+                   or found["focal_later"] > FOCAL_LATER)
     calibrated = calibration_error(confidences, good)
     print(f"calibration error of the confidence, all of them: {calibrated:.4f} (bar {CALIBRATED})")
     missed += not calibrated <= CALIBRATED

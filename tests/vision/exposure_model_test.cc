@@ -40,12 +40,23 @@ TEST(ExposureModel, SteadyMotionHasNoAcceleration) {
   EXPECT_LT(model.UnpredictedCovariance().trace(), 0.8 * doubt);
 }
 
-TEST(ExposureModel, TheVelocityIsThatOfTheImageItself) {
+TEST(ExposureModel, TurnsAsInTheImageItself) {
+  ExposureModel model;
+  const auto turn = [](double angle) {
+    return Rigid3{geometry::RotationFromVector({0.0, angle, 0.0})};
+  };
+  Move(model, Move(model, Rigid3(), turn(0.1)), turn(0.3));
+  EXPECT_NEAR(model.motion()->during_frame[1], 0.4, 1e-12);
+  EXPECT_NEAR(geometry::VectorFromRotation(model.motion()->velocity.rotation).y(), 0.4, 1e-12);
+  EXPECT_NEAR(geometry::VectorFromRotation(model.motion()->acceleration.rotation).y(), 0.2, 1e-12);
+}
+
+TEST(ExposureModel, ShiftsByTheMeanOfTheLastTwo) {
   ExposureModel model;
   const Rigid3 slow{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}};
   const Rigid3 fast{Eigen::Quaterniond::Identity(), {0.3, 0.0, 0.0}};
   Move(model, Move(model, Rigid3(), slow), fast);
-  EXPECT_NEAR(model.motion()->velocity.translation.x(), 0.4, 1e-12);
+  EXPECT_NEAR(model.motion()->velocity.translation.x(), 0.2, 1e-12);
   EXPECT_NEAR(model.motion()->acceleration.translation.x(), 0.2, 1e-12);
 }
 
