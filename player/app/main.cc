@@ -153,6 +153,7 @@ int main(int argc, char** argv) {
                                    .sequences = play->benchmark.folder,
                                    .foreign = play->benchmark.foreign,
                                    .first_pose = play->benchmark.first_pose,
+                                   .unknown_lens = play->benchmark.unknown_lens,
                                    .frames = play->frames,
                                    .threads = play->threads,
                                    .seed = play->seed,

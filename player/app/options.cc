@@ -237,6 +237,9 @@ void AddPlayOptions(CLI::App& app, PlayOptions& play) {
       ->needs(benchmark);
   app.add_flag("--first-pose", play.benchmark.first_pose, "Relocalise in every frame")
       ->needs(benchmark);
+  app.add_flag("--unknown-lens", play.benchmark.unknown_lens,
+               "Do not tell the tracker the intrinsics of the sequences")
+      ->needs(benchmark);
 
   CLI::Option* visitor = app.add_option("--visitor", play.visitor,
                                         "Play again what a visitor did: a file of --visitor-log")

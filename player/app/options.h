@@ -97,6 +97,7 @@ struct SequenceOptions {
   std::filesystem::path folder;  // The folder of sequences; empty: the show is played.
   std::vector<std::filesystem::path> foreign;  // Images of other places.
   bool first_pose = false;                     // Relocalises in every frame.
+  bool unknown_lens = false;                   // The tracker is not told the intrinsics.
 };
 
 // Files that are written; those with an empty path are not.

@@ -85,8 +85,16 @@ class BenchmarkRun {
                                 const BenchmarkSequence& home) const;
 
  private:
-  Result<std::unique_ptr<vision::PoseSource>> MakeTracker(const CameraModel& camera) const {
+  // Makes a tracker of images of this size.
+  Result<std::unique_ptr<vision::PoseSource>> MakeTracker(const CameraModel& intrinsics,
+                                                          int width,
+                                                          int height) const {
+    CameraModel camera = maps_.front()->camera.GuessForImages(width, height);
     vision::TrackerOptions tracking;
+    tracking.known_camera = !options_.unknown_lens;
+    if (tracking.known_camera) {
+      LARARIUM_ASSIGN_OR_RETURN(camera, intrinsics.ForImages(width, height));
+    }
     tracking.seed = options_.seed;
     tracking.threads = options_.threads;
     tracking.follow = !options_.first_pose;
@@ -137,9 +145,8 @@ Status BenchmarkRun::SavePoses(const BenchmarkSequence& sequence,
 
 Result<SequenceReport> BenchmarkRun::Sequence(const BenchmarkSequence& sequence) const {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSequence(sequence));
-  LARARIUM_ASSIGN_OR_RETURN(const CameraModel camera, sequence.images.front().camera.ForImages(
-                                                          source->width(), source->height()));
-  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(camera));
+  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(sequence.images.front().camera,
+                                                            source->width(), source->height()));
   std::vector<FrameAnswer> answers;
   std::vector<vision::PoseRecord> poses;
   while (true) {
@@ -178,8 +185,9 @@ Result<SequenceReport> BenchmarkRun::Sequence(const BenchmarkSequence& sequence)
 
 Status BenchmarkRun::ShowForeign(const std::filesystem::path& path, ForeignReport& report) const {
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenForeign(path));
-  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(maps_.front()->camera.GuessForImages(
-                                                    source->width(), source->height())));
+  const CameraModel guess = maps_.front()->camera.GuessForImages(source->width(), source->height());
+  LARARIUM_ASSIGN_OR_RETURN(const auto tracker,
+                            MakeTracker(guess, source->width(), source->height()));
   while (!Enough(report.frames)) {
     LARARIUM_ASSIGN_OR_RETURN(const std::optional<Frame> frame, source->Next());
     if (!frame) {
@@ -200,9 +208,8 @@ Status BenchmarkRun::CutToForeign(const std::filesystem::path& path,
                                   ForeignReport& report) const {
   LARARIUM_ASSIGN_OR_RETURN(const auto foreign, OpenForeign(path));
   LARARIUM_ASSIGN_OR_RETURN(const auto source, OpenSequence(home));
-  LARARIUM_ASSIGN_OR_RETURN(const CameraModel camera, home.images.front().camera.ForImages(
-                                                          source->width(), source->height()));
-  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(camera));
+  LARARIUM_ASSIGN_OR_RETURN(const auto tracker, MakeTracker(home.images.front().camera,
+                                                            source->width(), source->height()));
   LARARIUM_ASSIGN_OR_RETURN(std::optional<Frame> place, source->Next());
   bool waits = false;  // the next image of the place is the first after a cut
   while (place && !Enough(report.cuts)) {
@@ -254,6 +261,7 @@ Status Benchmark(const BenchmarkOptions& options, Log& log) {
   BenchmarkReport report;
   report.show = options.show.filename().string();
   report.mode = options.first_pose ? "every frame relocalised" : "following";
+  report.mode += options.unknown_lens ? ", lens not told" : "";
   report.smoothing = SmoothingName(options.smoothing);
   report.threads = options.threads;
   for (const BenchmarkSequence& sequence : sequences) {

@@ -17,6 +17,7 @@ struct BenchmarkOptions {
   std::filesystem::path sequences;             // Folder of sequences with ground truth.
   std::vector<std::filesystem::path> foreign;  // Images of other places.
   bool first_pose = false;                     // Relocalise in every frame.
+  bool unknown_lens = false;                   // Do not tell the tracker the intrinsics.
   int64_t frames = 0;                          // Number of frames of each sequence; 0: all.
   int threads = 0;                             // 0: one for each core.
   uint64_t seed = 1;

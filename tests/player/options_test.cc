@@ -154,16 +154,18 @@ TEST_F(OptionsTest, ReadsWhatTheDesignNames) {
 TEST_F(OptionsTest, ABenchmarkTakesItsImagesFromItsOwnFolder) {
   const std::string folder = folder_.path().string();
   const Command command = Parse({show_, "--benchmark", folder, "--foreign", folder, "--foreign",
-                                 show_, "--first-pose", "--smoothing", "strong"});
+                                 show_, "--first-pose", "--unknown-lens", "--smoothing", "strong"});
   const auto* play = std::get_if<PlayOptions>(&command);
   ASSERT_NE(play, nullptr);
   EXPECT_EQ(play->benchmark.folder, folder);
   EXPECT_EQ(play->benchmark.foreign.size(), 2u);
   EXPECT_TRUE(play->benchmark.first_pose);
+  EXPECT_TRUE(play->benchmark.unknown_lens);
   EXPECT_EQ(play->smoothing, vision::Smoothing::kStrong);
   EXPECT_EQ(ExitCode({show_, "--benchmark", folder, "--camera", "0"}), 2);
   EXPECT_EQ(ExitCode({show_, "--foreign", folder}), 2);
   EXPECT_EQ(ExitCode({show_, "--first-pose"}), 2);
+  EXPECT_EQ(ExitCode({show_, "--unknown-lens"}), 2);
   EXPECT_EQ(ExitCode({show_, "--smoothing", "much"}), 2);
 }
 
