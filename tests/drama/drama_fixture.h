@@ -4,10 +4,12 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "shared/core/log.h"
 #include "shared/drama/drama.h"
 #include "tests/stage/test_human.h"
+#include "tests/stage/test_props.h"
 
 namespace lararium::drama {
 
@@ -44,6 +46,24 @@ class DramaTest : public ::testing::Test {
 
   stage::Stage stage_;
   std::shared_ptr<Log> log_ = MakeSilentLog();
+};
+
+// A stage with a table, a chest, a cup and the speech "greeting" as well.
+class FurnishedDramaTest : public DramaTest {
+ protected:
+  FurnishedDramaTest() {
+    Add("table", test::MakeTable(), {{-1.5f, 0.0f, 0.0f}});
+    Add("chest", test::MakeChest(), {{1.5f, 0.0f, 0.0f}});
+    Add("cup", test::MakeCup(), {{0.0f, 0.0f, -2.0f}});
+    human::VisemeTrack track;
+    track.keys = {{0.0f, human::Viseme::kAa, 1.0f}, {0.5f, human::Viseme::kOu, 1.0f}};
+    track.duration = 1.0f;
+    EXPECT_TRUE(stage_.AddSpeech("greeting", track).ok());
+  }
+
+  void Add(const char* name, stage::Prop prop, const stage::Pose& pose) {
+    EXPECT_TRUE(stage_.AddObject(name, test::Model(std::move(prop)), pose).ok());
+  }
 };
 
 // The first error of a drama, or "".

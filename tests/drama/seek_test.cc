@@ -12,22 +12,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class SeekingTest : public DramaTest {
+class SeekingTest : public FurnishedDramaTest {
  protected:
-  SeekingTest() {
-    Add("table", test::MakeTable(), {{-1.5f, 0.0f, 0.0f}});
-    Add("chest", test::MakeChest(), {{1.5f, 0.0f, 0.0f}});
-    Add("cup", test::MakeCup(), {{0.0f, 0.0f, -2.0f}});
-    human::VisemeTrack track;
-    track.keys = {{0.0f, human::Viseme::kAa, 1.0f}, {0.5f, human::Viseme::kOu, 1.0f}};
-    track.duration = 1.0f;
-    EXPECT_TRUE(stage_.AddSpeech("greeting", track).ok());
-  }
-
-  void Add(const char* name, stage::Prop prop, const stage::Pose& pose) {
-    EXPECT_TRUE(stage_.AddObject(name, test::Model(std::move(prop)), pose).ok());
-  }
-
   // Plays a number of seconds and records each tick.
   std::vector<stage::StageSnapshot> Play(Drama& drama, int seconds) {
     std::vector<stage::StageSnapshot> played = {Snapshot()};

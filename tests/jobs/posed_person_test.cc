@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "shared/human/human.h"
+#include "tests/human/cloth_of_mesh.h"
 #include "tests/import/plain_figure.h"
 
 namespace lararium::editor {
@@ -36,28 +36,6 @@ human::SkinnedMesh Strip(const human::Skeleton& skeleton, const char* joint) {
   return mesh;
 }
 
-human::Cloth ClothOf(const human::SkinnedMesh& mesh, uint32_t index) {
-  human::Cloth cloth;
-  cloth.name = "cloth";
-  cloth.mesh = index;
-  cloth.positions = mesh.positions;
-  cloth.joints = mesh.joints;
-  cloth.weights = mesh.weights;
-  cloth.triangles = mesh.indices;
-  cloth.reach.assign(mesh.positions.size(), 1.0f);
-  std::fill_n(cloth.reach.begin(), 3, 0.0f);
-  cloth.vertex_triangle.assign(mesh.positions.size(), human::Cloth::kUnbound);
-  cloth.vertex_weights.assign(mesh.positions.size(), glm::vec3(0.0f));
-  for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
-    for (uint32_t corner = 0; corner < 3; ++corner) {
-      const uint32_t vertex = mesh.indices[3 * t + corner];
-      cloth.vertex_triangle[vertex] = t;
-      cloth.vertex_weights[vertex] = {corner == 0 ? 1.0f : 0.0f, corner == 1 ? 1.0f : 0.0f, 0.0f};
-    }
-  }
-  return cloth;
-}
-
 // A skeleton with a cape and a face that can smile.
 std::shared_ptr<const human::Human> Somebody() {
   human::Human human;
@@ -66,7 +44,7 @@ std::shared_ptr<const human::Human> Somebody() {
   human.meshes = {Strip(human.skeleton, "skullbase"), Strip(human.skeleton, "vt4")};
   human.morphs = {{"up", {{0, {kTip}, {glm::vec3(0.0f, 0.1f, 0.0f)}, {glm::vec3(0.0f)}}}}};
   human.face = {{"joy", {{0, 1.0f}}, {}}};
-  human.cloths = {ClothOf(human.meshes[1], 1)};
+  human.cloths = {ClothOf(human.meshes[1], 1, 1.0f)};
   EXPECT_TRUE(human.Validate("somebody").ok()) << human.Validate("somebody").message();
   return std::make_shared<const human::Human>(std::move(human));
 }

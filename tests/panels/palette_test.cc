@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "editor/panels/widgets/theme.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::panels {
 namespace {
@@ -49,10 +50,9 @@ Triple Times(const std::array<Triple, 3>& matrix, const Triple& v) {
 
 // CIE L*a*b* under D65.
 Triple LabOf(const ImVec4& colour, const Eyes& eyes) {
-  const auto linear = [](double v) {
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
-  Triple rgb = Times(eyes.seen_from_linear, {linear(colour.x), linear(colour.y), linear(colour.z)});
+  Triple rgb = Times(eyes.seen_from_linear,
+                     {LinearFromSrgb<double>(colour.x), LinearFromSrgb<double>(colour.y),
+                      LinearFromSrgb<double>(colour.z)});
   for (double& v : rgb) {
     v = std::clamp(v, 0.0, 1.0);
   }

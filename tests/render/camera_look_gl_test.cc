@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "shared/core/srgb.h"
 #include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/clip_space.h"
@@ -48,10 +49,7 @@ class CameraLookTest : public GlTest {
     EXPECT_TRUE(drawn.ok()) << drawn.message();
     return Read(target);
   }
-  static double Linear(uchar value) {
-    const double c = value / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  }
+  static double Linear(uchar value) { return LinearFromSrgb(value / 255.0); }
   // The variance of the edge's slope along a row or column through the middle. It equals the
   // variance of the blur.
   static double EdgeVariance(const cv::Mat& picture, bool along_row) {

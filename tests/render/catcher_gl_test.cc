@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/core/srgb.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/light/lamp.h"
 #include "shared/render/clip_space.h"
@@ -23,16 +24,6 @@ namespace {
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
-
-double CatcherLinearFromSrgb(double c) {
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-geometry::TriangleMesh Quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
-  return {.positions = {corner, corner + u, corner + u + v, corner + v},
-          .normals = {},
-          .indices = {0, 1, 2, 0, 2, 3}};
-}
 
 geometry::TriangleMesh Floor() {
   return Quad({-6.0f, 0.0f, 6.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f});
@@ -82,8 +73,8 @@ class CatcherTest : public GlTest {
   }
   // The share of its light that a pixel kept.
   static double Kept(const cv::Mat& picture, const cv::Point& pixel, int channel = 1) {
-    return CatcherLinearFromSrgb(picture.at<cv::Vec3b>(pixel)[channel] / 255.0) /
-           CatcherLinearFromSrgb(kGrey / 255.0);
+    return LinearFromSrgb(picture.at<cv::Vec3b>(pixel)[channel] / 255.0) /
+           LinearFromSrgb(kGrey / 255.0);
   }
   cv::Point PixelOf(const Eigen::Vector3d& point) const {
     const Eigen::Vector2d pixel = *scene_.display.Project(*scene_.camera_from_stage * point);
@@ -376,9 +367,9 @@ TEST_F(CatcherTest, SeenThroughOverWhatIsRealItIsThePictureThatHasBoth) {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const cv::Vec4b seen = alone.at<cv::Vec4b>(y, x);
-        const double over = CatcherLinearFromSrgb(seen[1] / 255.0) +
-                            (1.0 - seen[3] / 255.0) * CatcherLinearFromSrgb(kGrey / 255.0);
-        ASSERT_NEAR(over, CatcherLinearFromSrgb(both.at<cv::Vec3b>(y, x)[1] / 255.0), 0.008)
+        const double over = LinearFromSrgb(seen[1] / 255.0) +
+                            (1.0 - seen[3] / 255.0) * LinearFromSrgb(kGrey / 255.0);
+        ASSERT_NEAR(over, LinearFromSrgb(both.at<cv::Vec3b>(y, x)[1] / 255.0), 0.008)
             << x << " " << y;
         hidden += seen[3] > 250 * opacity && seen[1] > 0 ? 1 : 0;
         darkened += seen[3] > 3 && seen[1] == 0 ? 1 : 0;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "shared/geometry/triangle_mesh.h"
 #include "shared/render/gl/graphics_context.h"
 #include "shared/render/gl/render_target.h"
 
@@ -19,6 +20,15 @@ inline GraphicsApi TestedGraphics() {
   const char* name = std::getenv("LARARIUM_GRAPHICS");
   return name != nullptr && std::string_view(name) == "gles" ? GraphicsApi::kOpenGlEs30
                                                              : GraphicsApi::kOpenGl33;
+}
+
+// The parallelogram with a corner and the sides u and v from there.
+inline geometry::TriangleMesh Quad(const glm::vec3& corner,
+                                   const glm::vec3& u,
+                                   const glm::vec3& v) {
+  return {.positions = {corner, corner + u, corner + u + v, corner + v},
+          .normals = {},
+          .indices = {0, 1, 2, 0, 2, 3}};
 }
 
 // A test that draws off screen, and fails if the driver reports any OpenGL error.

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "shared/core/srgb.h"
 #include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/human/skinning.h"
@@ -129,7 +130,7 @@ TEST_F(ModelTest, CoverageMixesInLinearLightWithWhatIsBehind) {
     const human::Human human =
         Textured(white, {.name = "", .colour_texture = 0, .alpha_cutoff = 0.1f, .two_sided = true});
     const double linear = alpha / 255.0;
-    const double expected = 255.0 * (1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+    const double expected = 255.0 * SrgbFromLinear(linear);
     EXPECT_NEAR(DrawHuman(human, scene).at<cv::Vec3b>(40, 40)[0], expected, 2.0) << alpha;
   }
 }
@@ -250,7 +251,7 @@ TEST_F(ModelTest, ANormalMapTurnsTheSurface) {
     light[3] = glm::vec3(0.4f);
     light[1] = glm::vec3(0.2f);
     const float linear = 0.4f * light::EvaluateIrradiance(light, normal).x / kPiF;
-    return 255.0 * (1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+    return 255.0 * SrgbFromLinear(linear);
   };
   const float s = std::sqrt(0.5f);
   EXPECT_NEAR(brightness(0, 0), expected({0, 0, 1}), 2.0);
@@ -597,8 +598,7 @@ glm::dvec3 LinearAt(const cv::Mat& picture, int x, int y) {
   const cv::Vec3b pixel = picture.at<cv::Vec3b>(y, x);
   glm::dvec3 linear;
   for (int channel = 0; channel < 3; ++channel) {
-    const double c = pixel[2 - channel] / 255.0;
-    linear[channel] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    linear[channel] = LinearFromSrgb(pixel[2 - channel] / 255.0);
   }
   return linear;
 }

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "shared/core/srgb.h"
 #include "shared/core/units.h"
 #include "shared/geometry/glm_convert.h"
 #include "shared/render/clip_space.h"
@@ -20,16 +21,6 @@ constexpr int kSunWidth = 640;
 constexpr int kSunHeight = 480;
 constexpr int kGrey = 190;
 constexpr double kPixelsPerMetre = 200.0;
-
-double SunLinearFromSrgb(double c) {
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-geometry::TriangleMesh SunQuad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
-  return {.positions = {corner, corner + u, corner + u + v, corner + v},
-          .normals = {},
-          .indices = {0, 1, 2, 0, 2, 3}};
-}
 
 light::ShRgb EvenSky(float irradiance) {
   light::ShRgb light = {};
@@ -55,7 +46,7 @@ class SunTest : public GlTest {
     scene_.camera_from_stage =
         LookAt(Eigen::Vector3d(0.0, 8.0, 0.0), Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ());
     occluders_ = {{.mesh = renderer_->AddMesh(
-                       SunQuad({-6.0f, 0.0f, 6.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f}))}};
+                       Quad({-6.0f, 0.0f, 6.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -12.0f}))}};
     scene_.occluders = occluders_;
     scene_.light = EvenSky(1.0f);
     human_ = {.human = renderer_->AddHuman(Shared(MakeHuman(Sphere(glm::vec3(0.5f)), 1))).value(),
@@ -77,8 +68,8 @@ class SunTest : public GlTest {
   static double Kept(const cv::Mat& picture, double x, double z) {
     const int column = static_cast<int>(std::lround(0.5 * (kSunWidth - 1) + kPixelsPerMetre * x));
     const int row = static_cast<int>(std::lround(0.5 * (kSunHeight - 1) + kPixelsPerMetre * z));
-    return SunLinearFromSrgb(picture.at<cv::Vec3b>(row, column)[1] / 255.0) /
-           SunLinearFromSrgb(kGrey / 255.0);
+    return LinearFromSrgb(picture.at<cv::Vec3b>(row, column)[1] / 255.0) /
+           LinearFromSrgb(kGrey / 255.0);
   }
   // The first position from x on at which the floor keeps more than a share.
   static double EdgeAt(const cv::Mat& picture, double x, double end, double share) {
@@ -149,7 +140,7 @@ TEST_F(SunTest, TheShadowIsThereAtEveryQuality) {
 TEST_F(SunTest, RealThingsShadeWhereverPeopleGoAndWhereverTheyAreMoved) {
   scene_.sun = light::Sun{glm::normalize(glm::vec3(-1.0f, 1.0f, 0.0f)), glm::vec3(4.0f), 0.0005f};
   occluders_.push_back({.mesh = renderer_->AddMesh(
-                            SunQuad({0.3f, 0.0f, -2.0f}, {0.0f, 1.5f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
+                            Quad({0.3f, 0.0f, -2.0f}, {0.0f, 1.5f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
   scene_.occluders = occluders_;
   for (const float x : {-1.2f, -1.19f, -1.18f}) {
     PlaceBall({x, 0.3f, 0.0f}, 0.15f);
@@ -224,7 +215,7 @@ TEST_F(SunTest, PenumbraGrowsWithDistanceByTheAngularRadius) {
             *scene_.display.Project(*scene_.camera_from_stage * Eigen::Vector3d(x, 0.0, 0.0));
         const cv::Vec3b colour = picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y())),
                                                        static_cast<int>(std::lround(pixel.x())));
-        const double kept = SunLinearFromSrgb(colour[1] / 255.0) / SunLinearFromSrgb(kGrey / 255.0);
+        const double kept = LinearFromSrgb(colour[1] / 255.0) / LinearFromSrgb(kGrey / 255.0);
         if (colour[0] == colour[2] && kept > 0.25 + 0.75 * share && kept <= 1.0) {
           return x;
         }
@@ -245,8 +236,8 @@ TEST_F(SunTest, WhereRealThingsShadeAlreadyPeopleDoNotAgain) {
                           glm::vec3(3.0f * std::sqrt(2.0f)), 0.0005f};
   PlaceBall({-0.1f, 1.0f, 0.0f}, 0.2f);
   // A roof outside the picture, towards the sun, over half of the floor.
-  occluders_.push_back({.mesh = renderer_->AddMesh(SunQuad({-6.0f, 4.0f, -2.0f}, {4.0f, 0.0f, 0.0f},
-                                                           {0.0f, 0.0f, 4.0f}))});
+  occluders_.push_back({.mesh = renderer_->AddMesh(
+                            Quad({-6.0f, 4.0f, -2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
   scene_.occluders = occluders_;
   const cv::Mat picture = Draw();
   // The roof's shadow ends at x = 2 and covers the whole picture.
@@ -262,8 +253,8 @@ TEST_F(SunTest, PeopleAreLitByTheSunAndNotInTheShadowOfThings) {
   ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
   // The top of the ball: white 0.5 under sky and sun.
   EXPECT_NEAR(rgba.at<cv::Vec4f>(kSunHeight / 2, kSunWidth / 2)[0], 0.5f / kPiF * 1.5f, 0.003f);
-  occluders_.push_back({.mesh = renderer_->AddMesh(SunQuad({-2.0f, 9.0f, -2.0f}, {4.0f, 0.0f, 0.0f},
-                                                           {0.0f, 0.0f, 4.0f}))});
+  occluders_.push_back({.mesh = renderer_->AddMesh(
+                            Quad({-2.0f, 9.0f, -2.0f}, {4.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 4.0f}))});
   scene_.occluders = occluders_;
   ASSERT_TRUE(renderer_->DrawLinear(scene_, rgba).ok());
   EXPECT_NEAR(rgba.at<cv::Vec4f>(kSunHeight / 2, kSunWidth / 2)[0], 0.5f / kPiF * 0.5f, 0.003f);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "shared/show/show.h"
+#include "tests/human/cloth_of_mesh.h"
 #include "tests/show/small_show.h"
 #include "tests/stage/test_props.h"
 
@@ -37,28 +38,6 @@ human::SkinnedMesh Strip() {
   return mesh;
 }
 
-human::Cloth ClothOf(const human::SkinnedMesh& mesh, uint32_t index) {
-  human::Cloth cloth;
-  cloth.name = "cloth";
-  cloth.mesh = index;
-  cloth.positions = mesh.positions;
-  cloth.joints = mesh.joints;
-  cloth.weights = mesh.weights;
-  cloth.triangles = mesh.indices;
-  cloth.reach.assign(mesh.positions.size(), 0.3f);
-  std::fill_n(cloth.reach.begin(), 3, 0.0f);
-  cloth.vertex_triangle.assign(mesh.positions.size(), human::Cloth::kUnbound);
-  cloth.vertex_weights.assign(mesh.positions.size(), glm::vec3(0.0f));
-  for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
-    for (uint32_t corner = 0; corner < 3; ++corner) {
-      const uint32_t vertex = mesh.indices[3 * t + corner];
-      cloth.vertex_triangle[vertex] = t;
-      cloth.vertex_weights[vertex] = {corner == 0 ? 1.0f : 0.0f, corner == 1 ? 1.0f : 0.0f, 0.0f};
-    }
-  }
-  return cloth;
-}
-
 // A face whose mouth opens for "aa", and a strip of cloth.
 std::shared_ptr<const human::Human> Speaker() {
   human::Human human;
@@ -71,7 +50,7 @@ std::shared_ptr<const human::Human> Speaker() {
   human.meshes[0].name = "face";
   human.morphs = {{"open", {{0, {14}, {glm::vec3(0.0f, -0.5f, 0.0f)}, {glm::vec3(0.0f)}}}}};
   human.face = {{"aa", {{0, 1.0f}}, {}}};
-  human.cloths = {ClothOf(human.meshes[1], 1)};
+  human.cloths = {ClothOf(human.meshes[1], 1, 0.3f)};
   EXPECT_TRUE(human.Validate("speaker").ok()) << human.Validate("speaker").message();
   return std::make_shared<const human::Human>(std::move(human));
 }

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "shared/core/srgb.h"
 #include "shared/show/show_renderer.h"
 #include "tests/golden/compare_images.h"
 #include "tests/render/gl_fixture.h"
@@ -18,14 +19,8 @@ namespace {
 constexpr geometry::CameraModel kShowCamera{160, 120, 200.0, 200.0, 79.5, 59.5};
 const float kKnee = render::RenderScene().knee;  // Knee of the camera's response.
 
-double LinearFromSrgb(double c) {
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-uint8_t SrgbFromLinear(double c) {
-  c = std::clamp(c, 0.0, 1.0);
-  return static_cast<uint8_t>(
-      std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055)));
+uint8_t ByteFromLinear(double linear) {
+  return static_cast<uint8_t>(std::lround(255.0 * SrgbFromLinear(std::clamp(linear, 0.0, 1.0))));
 }
 
 // Light that gives a white matte surface this radiance, for any orientation.
@@ -73,8 +68,8 @@ class ShowRendererTest : public render::GlTest {
   cv::Mat Draw(const glm::vec3& background = glm::vec3(0.0f)) {
     staged_.tracked.frame.bgr =
         cv::Mat(kShowCamera.height, kShowCamera.width, CV_8UC3,
-                cv::Scalar(SrgbFromLinear(background.b), SrgbFromLinear(background.g),
-                           SrgbFromLinear(background.r)));
+                cv::Scalar(ByteFromLinear(background.b), ByteFromLinear(background.g),
+                           ByteFromLinear(background.r)));
     const Status drawn = renderer_->Draw(staged_, *target_);
     EXPECT_TRUE(drawn.ok()) << drawn.message();
     return Read(*target_);

@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "shared/core/random.h"
+#include "shared/core/srgb.h"
 
 namespace lararium::vision {
 namespace {
 
-uint8_t SrgbFromLinear(double linear) {
-  const double encoded =
-      linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-  return static_cast<uint8_t>(std::lround(255.0 * std::clamp(encoded, 0.0, 1.0)));
+uint8_t ByteFromLinear(double linear) {
+  return static_cast<uint8_t>(std::lround(255.0 * SrgbFromLinear(std::clamp(linear, 0.0, 1.0))));
 }
 
 struct Scene {
@@ -35,7 +34,7 @@ Scene MakeScene(const std::array<double, 3>& gain, double hidden) {
     for (int c = 0; c < 3; ++c) {
       colour[c] = static_cast<float>(random.Uniform(0.05, 0.4));
       const double light = covered ? 0.5 : gain[static_cast<size_t>(c)] * colour[c];
-      shown[2 - c] = SrgbFromLinear(light);
+      shown[2 - c] = ByteFromLinear(light);
     }
     scene.bgr(cv::Rect(x - 8, y - 8, 17, 17)) = cv::Scalar(shown[0], shown[1], shown[2]);
     scene.database.colours.push_back(colour);
