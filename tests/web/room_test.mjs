@@ -97,6 +97,19 @@ function watch() {
   };
 }
 
+// Runs in the page: enters the room. `written` becomes what the room's panel shows first. Returns where people were seen, and
+// the texts over the last picture.
+async function enter() {
+  const {RoomTexts} = await import('./room_texts.js');
+  const {set} = RoomTexts.prototype;
+  RoomTexts.prototype.set = function(texts, ...more) {
+    window.written ??= [texts.captions.length, texts.hint];
+    return set.call(this, texts, ...more);
+  };
+  document.getElementById('enter_room').click();
+  return {seen, shown: [document.getElementById('captions').childElementCount, document.getElementById('hint').textContent]};
+}
+
 // Runs in the page: writes a caption for two eyes, 400 pixels wide and high, and tells where its letters are.
 async function writeCaption() {
   const {RoomTexts} = await import('./room_texts.js');
@@ -140,7 +153,7 @@ async function visit(browser) {
   await browser.until(`document.getElementById('lararium').dataset.shows === 'show'`, 200);
   const ENTER = `document.getElementById('enter_room')`;
   await browser.until(`window.seen?.share > 0.02 && !${ENTER}.hidden && ${PLAYS}`, 200);
-  const byCamera = await browser.evaluate(`(${ENTER}.click(), seen)`, true);
+  const {seen: byCamera, shown} = await browser.evaluate(`(${enter})()`, true);
 
   const [first] = await after(browser, '0');
   writeFileSync(`${work}/room.png`, await browser.screenshot(844, 390));
@@ -159,6 +172,8 @@ async function visit(browser) {
   const [texts, inLeft, inRight] = await browser.evaluate(`(${writeCaption})()`);
   check(inLeft.letters > 50 && inLeft.lowest && inRight.lowest && inLeft.x > inRight.x + 5,
     `a caption is written below the middle for both eyes, ${(inLeft.x - inRight.x).toFixed(1)} pixels further right for the left one`);
+  assert.deepEqual(await browser.evaluate('written'), shown);
+  console.log('ok   the panel begins with the texts that the page showed last');
   check(texts, 'the session has a panel for captions, because the emulator shows no elements over the room');
 
   await browser.evaluate('room.session.end()');

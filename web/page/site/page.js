@@ -308,6 +308,8 @@ let visitable;
 let visit;
 // What goes on after an interruption: start or startWalk.
 let begin = start;
+let texts = {captions: [], guide: '', hint: ''};  // The texts over the last picture.
+
 // The image that is being tracked: {number, seconds, lateMs}, or {number, viewer} in a room.
 let image = {number: 0};
 // Seconds of the show's frames, which go on where they were when the camera starts again.
@@ -425,6 +427,7 @@ async function enterRoom() {
     const mine = {...loaded, stream: undefined, room, found, begun: undefined};
     visit = mine;
     beginSound();
+    room.texts?.set(texts, loaded.show.language, choices.values);
     loaded.show.enterRoom(room.sees);
     room.onend = pause;
     play(mine, () => awaitRoom(mine));
@@ -539,8 +542,9 @@ function drawPicture({width, height}, draw, next) {
     draw(left);
     onPicture();
     sound.setVolume(choices.values.volume * left);
-    const texts = show.takeTexts();
-    if (texts !== undefined) {
+    const changed = show.takeTexts();
+    if (changed !== undefined) {
+      texts = changed;
       showTexts(texts, show.language);
       visit.room?.texts?.set(texts, show.language, choices.values);
     }

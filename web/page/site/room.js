@@ -14,6 +14,8 @@ export async function canShowRoom() {
   }
 }
 
+let panel;  // The panel of texts in the page's context, which all its rooms share.
+
 export class Room {
   // Called when the device or the visitor has ended the session.
   onend = () => {};
@@ -31,8 +33,10 @@ export class Room {
       const sees = session.enabledFeatures?.includes('camera-access') ?? false;
       const binding = sees ? new XRWebGLBinding(session, gl) : undefined;
       // Glasses seldom show elements of the page over the room.
-      const texts = session.domOverlayState?.type ? undefined : new RoomTexts(gl);
-      Object.assign(room, {session, gl, layer, binding, texts, space: await session.requestReferenceSpace('local')});
+      if (!session.domOverlayState?.type) {
+        room.texts = panel ??= new RoomTexts(gl);
+      }
+      Object.assign(room, {session, gl, layer, binding, space: await session.requestReferenceSpace('local')});
     } catch (error) {
       await session.end();
       throw error;
