@@ -76,7 +76,7 @@ TEST_F(Following, AllocatesNothingInSteadyState) {
 TEST_F(Following, AllocatesLittleWhereItDoesTheBackgroundsWork) {
   const std::vector<Allocations> all = Walk({.threads = 1});
   for (size_t i = kSettled; i < all.size(); ++i) {
-    const bool joins = i == kJoined[0] || i == kJoined[1];
+    const bool joins = i == size_t{kJoined[0]} || i == size_t{kJoined[1]};
     EXPECT_EQ(all[i].by_new > 0, joins) << "frame " << i;
     if (!joins) {
       EXPECT_EQ(all[i].by_malloc, 0) << "frame " << i;
